@@ -65,6 +65,11 @@ impl Rgb {
         self == Self::BLACK
     }
 
+    /// Whether any component is above zero.
+    pub fn gives_light(self) -> bool {
+        self.red > 0.0 || self.green > 0.0 || self.blue > 0.0
+    }
+
     pub fn is_finite(self) -> bool {
         self.red.is_finite() && self.green.is_finite() && self.blue.is_finite()
     }

@@ -7,7 +7,7 @@ mod dark;
 mod echo;
 mod unread;
 
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, Fix, Levels, Severity, allowances};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Fix, Levels, allowances};
 use crate::evaluate::{EvaluateOptions, evaluate};
 use crate::lower::{LowerOptions, lower};
 use crate::scene::{Dialect, Scene};
@@ -174,7 +174,7 @@ impl<'a> Road<'a> {
 
     /// An old form that is an error, too, is told as that.
     fn drop_twice_told(&mut self) {
-        let errors = self.diagnostics.iter().filter(|one| one.code.severity() == Severity::Error);
+        let errors = self.diagnostics.iter().filter(|one| one.is_error());
         let mended: Vec<Vec<Fix>> =
             errors.map(|one| one.fixes.clone()).filter(|fixes| !fixes.is_empty()).collect();
         self.diagnostics

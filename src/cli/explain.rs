@@ -23,9 +23,13 @@ pub fn run(arguments: &ExplainArguments) -> Outcome {
         return Err(failure.help(help));
     };
     messages::print(&plain(code.page()))?;
-    if code.warns() {
+    if code.may_warn() {
+        let is = match code.is_opinion() {
+            true => "In a `.pov` that POV-Ray renders all the same, this is a warning.",
+            false => "This is a warning.",
+        };
         messages::print(&format!(
-            "\nThis is a warning. `--allow {name}` silences it, as does the comment\n\n    \
+            "\n{is} `--allow {name}` silences it, as does the comment\n\n    \
              // lucarne: allow({name})\n\nbehind the code it is about, or on the line before. \
              `--deny {name}` makes it an error.\n"
         ))?;

@@ -33,10 +33,10 @@ pub fn warning(text: &str) -> Result<Warnings, String> {
         return Ok(Warnings::All);
     }
     match Code::from_name(text) {
-        Some(code) if code.warns() => Ok(Warnings::Of(code)),
+        Some(code) if code.may_warn() => Ok(Warnings::Of(code)),
         Some(_) => Err("this is no warning, and stays as it is".to_owned()),
         None => {
-            let names = Code::ALL.iter().filter(|code| code.warns()).map(|code| code.name());
+            let names = Code::ALL.iter().filter(|code| code.may_warn()).map(|code| code.name());
             Err(match closest(text, names) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "expected the code of a warning, or `all`".to_owned(),

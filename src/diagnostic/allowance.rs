@@ -37,13 +37,16 @@ impl Lints {
     fn named(name: &str) -> Option<Self> {
         match name {
             ALL => Some(Self::All),
-            _ => Code::from_name(name).filter(|code| code.warns()).map(Self::One),
+            _ => Code::from_name(name).filter(|code| code.may_warn()).map(Self::One),
         }
     }
 }
 
 impl Allowance {
     pub fn silences(&self, diagnostic: &Diagnostic) -> bool {
+        if diagnostic.is_error() {
+            return false;
+        }
         match diagnostic.primary() {
             Some(label) => self.reaches(diagnostic.code, label.span),
             None => self.lints == Lints::One(diagnostic.code) && self.file == FileId(0),
@@ -54,7 +57,7 @@ impl Allowance {
     pub fn reaches(&self, lint: Code, place: Span) -> bool {
         let is_meant = match self.lints {
             Lints::One(one) => one == lint,
-            Lints::All => lint.warns(),
+            Lints::All => lint.may_warn(),
         };
         is_meant && self.file == place.file && self.reach.contains(&place.range().start)
     }
@@ -181,7 +184,7 @@ fn is_all(name: &str, list: &str) -> bool {
 }
 
 fn unknown(name: &str, span: Span) -> Diagnostic {
-    let lints = || Code::ALL.iter().filter(|code| code.warns()).map(|code| code.name());
+    let lints = || Code::ALL.iter().filter(|code| code.may_warn()).map(|code| code.name());
     if Code::from_name(name).is_some() {
         return Diagnostic::new(Code::UnknownLint, format!("`{name}` is no lint"))
             .at(span, "it cannot be allowed")

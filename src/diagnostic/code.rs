@@ -41,6 +41,17 @@ macro_rules! codes {
                 self.severity() == Severity::Warning
             }
 
+            /// True for an error that is a warning in a `.pov`, where POV-Ray 3.7 renders the scene all the
+            /// same.
+            pub fn is_opinion(self) -> bool {
+                match self { $(Code::$variant => codes!(@opinion $severity)),* }
+            }
+
+            /// True for a message that is, or may be, a warning: it has a level and can be silenced.
+            pub fn may_warn(self) -> bool {
+                self.warns() || self.is_opinion()
+            }
+
             /// One sentence: what it means.
             pub fn sentence(self) -> &'static str {
                 match self { $(Code::$variant => $sentence),* }
@@ -61,6 +72,7 @@ macro_rules! codes {
         }
     };
     (@severity error) => { Severity::Error };
+    (@severity opinion) => { Severity::Error };
     (@severity warning) => { Severity::Warning };
     (@severity lint) => { Severity::Warning };
     (@severity sure) => { Severity::Warning };
@@ -72,6 +84,8 @@ macro_rules! codes {
     (@lint $other:ident) => { false };
     (@sure sure) => { true };
     (@sure $other:ident) => { false };
+    (@opinion opinion) => { true };
+    (@opinion $other:ident) => { false };
     (@quiet quiet) => { true };
     (@quiet $other:ident) => { false };
 }
@@ -100,14 +114,14 @@ codes! {
     ForeignWord "foreign-word" error "a word of another tool stands where ours has another name";
     UnknownDirective "unknown-directive" error "the word after `#` is not a directive";
     // values
-    WrongType "wrong-type" error "a value has another type than the place needs";
+    WrongType "wrong-type" opinion "a value has another type than the place needs";
     WrongArity "wrong-arity" error "a call or a vector has too many or too few parts";
     MissingPart "missing-part" error "a block lacks a part it cannot do without";
     ExtraPart "extra-part" error "a block has more parts than it can use";
     DivisionByZero "division-by-zero" error "a number is divided by zero";
     NotANumber "not-a-number" error "a calculation has no finite result";
-    OutOfRange "out-of-range" error "a number lies outside what the place allows";
-    ZeroScale "zero-scale" error "a transform flattens everything to nothing";
+    OutOfRange "out-of-range" opinion "a number lies outside what the place allows";
+    ZeroScale "zero-scale" opinion "a transform flattens everything to nothing";
     ZeroSize "zero-size" error "a shape has no size";
     ZeroVector "zero-vector" error "a direction or normal is the zero vector";
     MixedFinish "mixed-finish" error "a finish mixes the seed's words with POV-Ray's";

@@ -1,6 +1,6 @@
 //! What becomes of each warning: dropped, told, or as bad as an error.
 //!
-//! **Invariant:** only codes that warn have a level; an error cannot be allowed.
+//! **Invariant:** only codes that may warn have a level; an error cannot be allowed.
 
 use std::collections::BTreeMap;
 
@@ -53,7 +53,7 @@ impl Levels {
         self.named.entry(code).or_insert(level);
     }
 
-    /// Of a code that warns; of an error and of a note, none.
+    /// Of a code that may warn; of an error and of a note, none.
     pub fn of(&self, code: Code) -> Option<Level> {
         let of_whole = matches!(code, Code::NoLight | Code::EmptyScene);
         let is_told = !code.is_lint()
@@ -61,7 +61,7 @@ impl Levels {
             || self.lints && !code.is_quiet()
             || self.whole && of_whole;
         let unnamed = self.all.unwrap_or(if is_told { Level::Warn } else { Level::Allow });
-        code.warns().then(|| self.named.get(&code).copied().unwrap_or(unnamed))
+        code.may_warn().then(|| self.named.get(&code).copied().unwrap_or(unnamed))
     }
 }
 

@@ -123,6 +123,17 @@ impl Diagnostic {
         self
     }
 
+    /// The same as a warning: an opinion on what POV-Ray 3.7 renders all the same.
+    pub fn as_warning(mut self) -> Self {
+        self.severity = Severity::Warning;
+        self
+    }
+
+    /// Whether something is certainly wrong; a denied warning is an error only to who denied it.
+    pub fn is_error(&self) -> bool {
+        self.code.severity() == Severity::Error && self.severity == Severity::Error
+    }
+
     pub fn primary(&self) -> Option<&Label> {
         self.labels.iter().find(|label| label.primary)
     }
@@ -177,7 +188,7 @@ impl Diagnostics {
     }
 
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
-        if let Some(level) = self.levels.of(diagnostic.code) {
+        if let Some(level) = self.level(&diagnostic) {
             let Some(severity) = level.severity() else { return };
             diagnostic.severity = severity;
         }
@@ -199,6 +210,14 @@ impl Diagnostics {
         true
     }
 
+    /// The level of a message that is a warning.
+    fn level(&self, diagnostic: &Diagnostic) -> Option<Level> {
+        match diagnostic.is_error() {
+            true => None,
+            false => self.levels.of(diagnostic.code),
+        }
+    }
+
     /// Whether a lint is told at all.
     pub fn tells(&self, lint: Code) -> bool {
         self.levels.of(lint) != Some(Level::Allow)
@@ -207,7 +226,7 @@ impl Diagnostics {
     /// Whether a message would be kept. Loop turns and repeated calls say the same thing again, and once is
     /// enough: what is said again need not be worked out.
     pub fn takes(&self, diagnostic: &Diagnostic) -> bool {
-        if self.levels.of(diagnostic.code) == Some(Level::Allow) {
+        if self.level(diagnostic) == Some(Level::Allow) {
             return false;
         }
         let Some(kept) = self.kept.get(&diagnostic.place()) else { return true };
@@ -299,7 +318,7 @@ impl Diagnostics {
 
     /// Whether anything is certainly wrong; a denied warning is an error only to who denied it.
     pub fn has_errors(&self) -> bool {
-        self.list.iter().any(|d| d.code.severity() == Severity::Error)
+        self.list.iter().any(Diagnostic::is_error)
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {

@@ -138,6 +138,7 @@ impl Evaluator<'_> {
                 Ok(())
             }),
             DirectiveKind::Version(version) => {
+                self.has_version = true;
                 self.says_version |= self.in_main();
                 self.version = self.number(here, *version)?;
                 self.end_of_version(here, *version);

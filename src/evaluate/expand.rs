@@ -219,7 +219,9 @@ impl Evaluator<'_> {
             list => list,
         };
         let spread = match list.len() < definition.required {
-            true => self.spread(here, list, definition.required..=definition.parameters.len())?,
+            true => {
+                self.spread(here, list, definition.required..=definition.parameters.len(), span)?
+            }
             false => Vec::new(),
         };
         // With too many or too few the body is read all the same, for its own mistakes.

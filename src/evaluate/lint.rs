@@ -19,7 +19,7 @@ mod version;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::suggest::closest;
-use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ObjectId, ObjectKind, Unused};
 use crate::source::{FileId, Site, Span};
 use crate::syntax::ast::{DirectiveKind, ExpressionKind, ItemKind, Items, NameId, Target};
@@ -70,7 +70,7 @@ impl Evaluator<'_> {
 
     fn tell_unused(&mut self, main: &Unit, is_meant: impl Fn(&str) -> bool) {
         let has_errors = self.diagnostics.has_errors();
-        let is_error = |told: &&Diagnostic| told.code.severity() == Severity::Error;
+        let is_error = |told: &&Diagnostic| told.is_error();
         let faults = self.diagnostics.iter().filter(is_error);
         let faulty = faults.flat_map(|told| told.labels.iter().map(|label| label.span));
         let faulty: BTreeSet<(FileId, usize)> = faulty.map(|span| self.line_of(span)).collect();
@@ -391,13 +391,11 @@ impl Evaluator<'_> {
     }
 
     /// A `checker` with one of its two colours.
-    pub(super) fn lint_missing_color(&mut self, token: &Token) {
-        let diagnostic = Diagnostic::new(
-            Code::MissingColor,
-            "this `checker` has one colour; the other is green by default",
-        )
-        .at(token.span, "expected two colours after it")
-        .help("write both: `checker rgb 1, rgb 0`");
+    pub(super) fn lint_missing_color(&mut self, token: &Token, other: &str) {
+        let message = format!("this `checker` has one colour; the other is {other} by default");
+        let diagnostic = Diagnostic::new(Code::MissingColor, message)
+            .at(token.span, "expected two colours after it")
+            .help("write both: `checker rgb 1, rgb 0`");
         self.report(&token.here, diagnostic);
     }
 

@@ -221,7 +221,8 @@ struct Evaluator<'a> {
     including: Vec<String>,
     default_texture: TextureId,
     version: f64,
-    /// Whether the scene said `#version`, and `assumed_gamma`.
+    /// Whether any file said `#version`; whether the scene did, and `assumed_gamma`.
+    has_version: bool,
     says_version: bool,
     says_gamma: bool,
     /// The first colour that was converted before `assumed_gamma` was said.
@@ -362,6 +363,7 @@ impl<'a> Evaluator<'a> {
             including: Vec::new(),
             default_texture: TextureId(0),
             version: 3.7,
+            has_version: false,
             says_version: false,
             says_gamma: false,
             srgb_before_gamma: None,
@@ -407,6 +409,7 @@ impl<'a> Evaluator<'a> {
         let here = Here { unit, expansion: ExpansionId::MAIN };
         self.inside(&here, root, Self::scene_items);
         self.scene.skipped = self.skipped(&here.unit.ast);
+        self.assume_old_gamma();
         if self.halted {
             // Nobody looks at what there is of it.
             self.scene.roots.clear();

@@ -6,7 +6,7 @@ use crate::color::{rounded, srgb_decode};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{ExpansionId, Span};
 use crate::syntax::ast::{DirectiveId, DirectiveKind};
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::block::color_of_string;
 use super::stream::{Token, TokenKind};
@@ -39,6 +39,19 @@ impl Evaluator<'_> {
             self.diagnostics.push(diagnostic);
         }
         Reported
+    }
+
+    /// Reports what POV-Ray 3.7 renders all the same: an error in a `.scene`, and in a `.pov` a warning, with
+    /// which the caller goes on as POV-Ray does.
+    #[cold]
+    pub(super) fn opinion(&mut self, here: &Here, diagnostic: Diagnostic) -> Outcome<()> {
+        match self.options.dialect {
+            Dialect::Scene => Err(self.report(here, diagnostic)),
+            Dialect::Pov => {
+                self.report(here, diagnostic.as_warning());
+                Ok(())
+            }
+        }
     }
 
     /// A limit is reached: nothing further is evaluated.

@@ -47,6 +47,17 @@ impl Evaluator<'_> {
         }
     }
 
+    /// The values that the current items leave, with a comma between two of them or without: POV-Ray reads
+    /// `Dot(0, 1 color rgb <1, 0.5, 0>)` so.
+    fn values_side_by_side(&mut self, here: &Here, span: Span) -> Outcome<Vec<Value>> {
+        let mut values = Vec::new();
+        while self.peek().is_some() {
+            values.push(self.value_or(here, span)?);
+            self.skip_comma();
+        }
+        Ok(values)
+    }
+
     /// The arguments of a call that has too few, where some of them are more than one value each and all
     /// together are as many as is `wanted`; empty where they are not.
     pub(super) fn spread(
@@ -54,15 +65,21 @@ impl Evaluator<'_> {
         here: &Here,
         list: &[Argument],
         wanted: RangeInclusive<usize>,
+        span: Span,
     ) -> Outcome<Spread> {
         let (mut spread, mut count) = (Spread::new(), list.len());
         for (place, argument) in list.iter().enumerate() {
-            let Argument::Expression(id) = *argument else { continue };
-            let values = match self.left_by_macro(here, id) {
-                Some(values) => values?,
-                None => match self.object_and_value(here, id)? {
-                    Some(both) => both.into(),
-                    None => continue,
+            let values = match *argument {
+                Argument::Items(items) if items.is_empty() => continue,
+                Argument::Items(items) => {
+                    self.inside(here, items, |evaluator| evaluator.values_side_by_side(here, span))?
+                }
+                Argument::Expression(id) => match self.left_by_macro(here, id) {
+                    Some(values) => values?,
+                    None => match self.object_and_value(here, id)? {
+                        Some(both) => both.into(),
+                        None => continue,
+                    },
                 },
             };
             count += values.len() - 1;

@@ -151,11 +151,13 @@ impl Binary {
                     b
                 }
             }
+            // What is no number counts as the smaller one where it comes second, as in POV-Ray 3.7 (measured):
+            // `max(0.4, sqrt(-1))` is 0.4.
             Self::Max => {
-                if a > b {
-                    a
-                } else {
+                if a < b {
                     b
+                } else {
+                    a
                 }
             }
             Self::Mod => elementary::fmod(a, b),

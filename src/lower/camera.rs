@@ -1,8 +1,8 @@
 //! The camera: its words become a point and three vectors.
 //!
 //! As in POV-Ray 3.7 (measured) the order of the words does not matter and the last of a kind
-//! counts: `angle` sets the length of `direction` from that of `right`, then `look_at` turns the
-//! three vectors, then the transforms move everything, in order.
+//! counts: `angle` sets the length of `direction` from that of `right` (but for `angle 0`), then
+//! `look_at` turns the three vectors, then the transforms move everything, in order.
 //!
 //! **Invariant:** forward, right and up span space, or there is a message.
 //! **Source:** POV-Ray manual, section 3.4.2 "Camera"; formulas in `docs/world.md`.
@@ -138,7 +138,7 @@ impl Words {
             }
         }
         if let Some((degrees, site)) = self.angle
-            && !(degrees > 0.0 && degrees < 180.0)
+            && !(0.0..180.0).contains(&degrees)
         {
             let message = format!("a camera cannot see an angle of {degrees} degrees");
             return Err((degenerate(&message, "expected more than 0 and less than 180"), site));
@@ -148,7 +148,9 @@ impl Words {
 
     /// `angle`: |direction| = ½ |right| / tan(angle / 2).
     fn widen(&mut self) -> Result<(), (Fault, Site)> {
-        let Some((degrees, site)) = self.angle else { return Ok(()) };
+        let Some((degrees, site)) = self.angle.filter(|(degrees, _)| *degrees != 0.0) else {
+            return Ok(());
+        };
         let (sine, cosine) = sin_cos_degrees(0.5 * degrees);
         let length = self.right.vector.length() * Double::from(0.5) * cosine / sine;
         let unit = self

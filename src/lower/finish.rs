@@ -1,7 +1,8 @@
 //! Finishes: which answers to light a surface gives, and with what weight.
 //!
 //! **In:** the seed's or POV-Ray's words. **Out:** the World's finish.
-//! **Invariant:** everything of weight zero is left out; every number is finite.
+//! **Invariant:** everything of weight zero or less is left out, as in POV-Ray 3.7 (measured); every number
+//! is finite.
 
 use super::Fault;
 use crate::color::Rgb;
@@ -19,7 +20,7 @@ pub const BARE: Finish = Finish {
     seed: false,
 };
 
-/// Everything of weight zero is left out.
+/// Everything of weight zero or less is left out.
 pub fn lower_finish(finish: &scene::Finish, ambient_light: Rgb) -> Result<Finish, Fault> {
     let lowered = match finish {
         &scene::Finish::Seed { kd, ks, phong_exponent } => Finish {
@@ -51,12 +52,12 @@ fn lower_classic(finish: &ClassicFinish, ambient_light: Rgb) -> Finish {
     let mut lobes = lobe(LobeKind::Phong, finish.phong, finish.phong_size, finish.metallic);
     lobes.extend(lobe(LobeKind::Blinn, finish.specular, 1.0 / finish.roughness, finish.metallic));
     let reflection = finish.reflection.as_ref();
-    let reflection = reflection.filter(|r| !(r.minimum.is_black() && r.maximum.is_black()));
+    let reflection = reflection.filter(|r| r.minimum.gives_light() || r.maximum.gives_light());
     Finish {
         glow: finish.ambient * ambient_light + finish.emission,
-        diffuse: finish.diffuse,
+        diffuse: finish.diffuse.max(0.0),
         // Brilliance bends diffuse light only.
-        brilliance: if finish.diffuse == 0.0 { 1.0 } else { finish.brilliance },
+        brilliance: if finish.diffuse <= 0.0 { 1.0 } else { finish.brilliance },
         lobes,
         reflection: reflection.map(|r| Reflection {
             minimum: r.minimum,
@@ -73,5 +74,5 @@ fn lower_classic(finish: &ClassicFinish, ambient_light: Rgb) -> Finish {
 }
 
 fn lobe(kind: LobeKind, weight: f64, exponent: f64, metallic: f64) -> Vec<Lobe> {
-    if weight == 0.0 { Vec::new() } else { vec![Lobe { kind, weight, exponent, metallic }] }
+    if weight <= 0.0 { Vec::new() } else { vec![Lobe { kind, weight, exponent, metallic }] }
 }

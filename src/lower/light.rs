@@ -20,7 +20,8 @@ impl Lowering<'_, '_> {
             return self.drop_part(site, "light_source", "its cylinder has no width");
         }
         let LightSource { color_sites, beam_sites, fade_sites, .. } = light;
-        let Some(light) = self.reporter.made(spend(light, map), site) else { return };
+        let spent = self.aim(light).and_then(|aim| spend(light, map, &aim));
+        let Some(light) = self.reporter.made(spent, site) else { return };
         if let Some(Attenuation { beam, fade }) = light.attenuation {
             let beam = beam_sites.iter().map(|(_, site)| site).filter(|_| beam.is_some());
             let fade = fade_sites.iter().filter(|_| fade.is_some());
@@ -32,9 +33,17 @@ impl Lowering<'_, '_> {
         let pieces = if color_sites.is_empty() { vec![item] } else { color_sites.clone() };
         self.origins.light_pieces.push(pieces);
     }
+
+    /// Takes a light's `point_at` to where it would be, were it moved by all of the light's transforms.
+    fn aim(&mut self, light: &LightSource) -> Result<Affine, Fault> {
+        match light.aimed_after.as_slice() {
+            [] => Ok(Affine::IDENTITY),
+            before => self.transforms.product(before)?.checked(),
+        }
+    }
 }
 
-fn spend(light: &LightSource, map: &Affine) -> Result<Light, Fault> {
+fn spend(light: &LightSource, map: &Affine, aim: &Affine) -> Result<Light, Fault> {
     let kind = match light.kind {
         LightKind::Point { location } | LightKind::Spotlight { location, .. } => {
             world::LightKind::Point { position: map.point(exact(location)).round() }
@@ -45,7 +54,7 @@ fn spend(light: &LightSource, map: &Affine) -> Result<Light, Fault> {
         LightKind::Parallel { location, point_at }
         | LightKind::Cylinder { location, point_at, .. } => world::LightKind::Parallel {
             position: map.point(exact(location)).round(),
-            to_light: unit(map.direction(exact(location) - exact(point_at)))?,
+            to_light: unit(map.direction(exact(location) - aim.point(exact(point_at))))?,
         },
     };
     let finite = match kind {
@@ -57,7 +66,7 @@ fn spend(light: &LightSource, map: &Affine) -> Result<Light, Fault> {
     if !finite || !light.color.is_finite() {
         return Err(Fault::not_finite("this light"));
     }
-    let attenuation = attenuation(light, map)?;
+    let attenuation = attenuation(light, map, aim)?;
     Ok(Light { kind, color: light.color, casts_shadows: !light.shadowless, attenuation })
 }
 
@@ -71,11 +80,15 @@ fn unit(direction: DoubleVector) -> Result<UnitVector, Fault> {
 
 /// A beam and a fade without effect are absent. Only the axis is moved: neither angles nor the width of
 /// a cylinder of light nor `fade_distance` go through transforms, as in POV-Ray 3.7 (measured).
-fn attenuation(light: &LightSource, map: &Affine) -> Result<Option<Attenuation>, Fault> {
+fn attenuation(
+    light: &LightSource,
+    map: &Affine,
+    aim: &Affine,
+) -> Result<Option<Attenuation>, Fault> {
     let beam = match light.kind {
         LightKind::Point { .. } | LightKind::Parallel { .. } | LightKind::Direction { .. } => None,
         LightKind::Spotlight { location, point_at, beam } => {
-            let axis = unit(map.direction(exact(point_at) - exact(location)))?;
+            let axis = unit(map.direction(aim.point(exact(point_at)) - exact(location)))?;
             let cosine = |degrees: f64| cos(degrees.abs().min(180.0).to_radians());
             let edge = cosine(beam.falloff.max(beam.radius));
             Some(Beam::Cone { axis, edge, core: cosine(beam.radius), tightness: beam.tightness })

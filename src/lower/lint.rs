@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 
 use super::{Fault, Lowering};
 use crate::color::Rgb;
-use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{CameraItemKind, Object, ObjectKind, Root};
 use crate::shape::Body;
 use crate::shape::isosurface::Nowhere;
@@ -37,7 +37,7 @@ impl Lowering<'_, '_> {
             }
             return;
         }
-        let is_error = |told: &&Diagnostic| told.code.severity() == Severity::Error;
+        let is_error = |told: &&Diagnostic| told.is_error();
         let errors = self.reporter.diagnostics.iter().filter(is_error).count();
         // A camera that cannot be built is missed by nothing but what it would see.
         let is_whole = errors == usize::from(self.is_blind);

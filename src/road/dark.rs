@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use super::Road;
 use crate::diagnostic::suggest::closest;
-use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::lower::unlit::tell_unlit;
 use crate::scene::{Dialect, ObjectKind, Scene, Unused};
 use crate::source::{FileId, Span};
@@ -161,7 +161,7 @@ impl Road<'_> {
     /// Takes back that a camera is in the dark where a mistake in its block, or in the object's, was read over: it
     /// may stand elsewhere.
     pub(super) fn drop_doubtful(&mut self, before: usize) {
-        let is_error = |one: &&Diagnostic| one.code.severity() == Severity::Error;
+        let is_error = |one: &&Diagnostic| one.is_error();
         let faults = self.diagnostics.iter().filter(is_error);
         let faults: Vec<Span> = faults.filter_map(|one| Some(one.primary()?.span)).collect();
         if faults.is_empty() {
@@ -231,9 +231,8 @@ impl Road<'_> {
     /// That a scene with lights, of which something is not built yet, has no object, nor any call that might
     /// place one.
     pub(super) fn tell_empty(&mut self) {
-        let is_built_later = |one: &Diagnostic| {
-            matches!(one.code, Code::NotSupportedYet) || one.code.severity() != Severity::Error
-        };
+        let is_built_later =
+            |one: &Diagnostic| matches!(one.code, Code::NotSupportedYet) || !one.is_error();
         if !self.diagnostics.has_errors() || !self.diagnostics.iter().all(is_built_later) {
             return;
         }

@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{Ast, Body, DirectiveKind, Item, ItemKind, Items};
 use crate::vocabulary::{Family, Role, Word};
@@ -41,7 +41,7 @@ pub(super) fn drop_echoes(
     let mut faults: Vec<Fault> = diagnostics
         .iter()
         .take(parsed)
-        .filter(|fault| fault.code.severity() == Severity::Error)
+        .filter(|fault| fault.is_error())
         .filter_map(|fault| Some((fault.code, fault.primary()?.span, behind_end(sources, fault))))
         .filter(|(_, span, _)| span.file == ast.file)
         .take(MOST_FAULTS)

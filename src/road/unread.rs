@@ -4,7 +4,7 @@
 //! POV-Ray 3.7 passes over word by word (measured). **Invariant:** what may reach beyond its branch, a
 //! directive or a quote without its end, stays an error.
 
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::Span;
 
 /// Replaces the errors in `branches` of the first `parsed` messages; returns how many of those are left.
@@ -57,5 +57,5 @@ fn stays_inside(told: &Diagnostic) -> bool {
         }
         _ => false,
     };
-    is_of_form && told.code.severity() == Severity::Error
+    is_of_form && told.is_error()
 }

@@ -1,5 +1,6 @@
 //! Lights as they were written.
 
+use super::TransformId;
 use crate::color::Rgb;
 use crate::math::Vector;
 use crate::source::Site;
@@ -12,6 +13,9 @@ pub struct LightSource {
     /// All of that, where it is written.
     pub color_site: Option<Site>,
     pub kind: LightKind,
+    /// The transforms that stand before its `point_at`: they move the light, and not what it points at
+    /// (measured on POV-Ray 3.7).
+    pub aimed_after: Vec<TransformId>,
     pub shadowless: bool,
     /// `None`: as bright at any distance.
     pub fade: Option<Fade>,
@@ -28,8 +32,18 @@ impl LightSource {
     /// Without further words.
     pub fn new(kind: LightKind, color: Rgb) -> Self {
         let (color_sites, beam_sites, fade_sites) = (Vec::new(), Vec::new(), Vec::new());
-        let (shadowless, fade, color_site) = (false, None, None);
-        Self { color, color_site, kind, shadowless, fade, color_sites, beam_sites, fade_sites }
+        let (shadowless, fade, color_site, aimed_after) = (false, None, None, Vec::new());
+        Self {
+            color,
+            color_site,
+            kind,
+            aimed_after,
+            shadowless,
+            fade,
+            color_sites,
+            beam_sites,
+            fade_sites,
+        }
     }
 }
 

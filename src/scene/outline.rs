@@ -78,10 +78,14 @@ impl Spline {
     }
 }
 
+/// Points of one outline that are as near as this, of its size, are one: the rounding of the calculations that
+/// they may come from.
+pub const ROUNDED: f64 = 64.0 * f64::EPSILON;
+
 /// Whether two of these points are one, as far as the rounding tells of the calculations they may come from.
 pub fn sameness(points: &[Point]) -> impl Fn(Point, Point) -> bool {
     let size = |axis: usize| points.iter().map(|p| p[axis].abs()).fold(0.0, f64::max);
-    let off = size(0).max(size(1)) * (64.0 * f64::EPSILON);
+    let off = size(0).max(size(1)) * ROUNDED;
     move |a, b| (a[0] - b[0]).abs() <= off && (a[1] - b[1]).abs() <= off
 }
 

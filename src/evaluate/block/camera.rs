@@ -107,8 +107,12 @@ impl Evaluator<'_> {
 
     fn angle(&mut self, token: &Token, kind: CameraKind) -> Outcome<CameraItemKind> {
         let given = self.number_after(token, "degrees")?;
-        if given.value <= 0.0 {
+        if given.value < 0.0 {
             return Err(self.out_of_range(&given, Word::Angle, "more than 0"));
+        }
+        if given.value == 0.0 {
+            let read = "`direction` alone says how much the camera sees";
+            self.out_of_range_but_read(&given, Word::Angle, "more than 0", read)?;
         }
         // A spherical camera has one across, and one from top to bottom.
         if self.poison.is_some_and(|poison| poison.word == Word::Spherical)

@@ -167,12 +167,12 @@ impl Evaluator<'_> {
             written.classic.get_or_insert((word, token.span));
             self.lint_word_twice(token, word, &mut written.said);
             let weightless = match word {
-                Word::Phong => Some(classic.phong == 0.0),
-                Word::Specular => Some(classic.specular == 0.0),
+                Word::Phong => Some(classic.phong <= 0.0),
+                Word::Specular => Some(classic.specular <= 0.0),
                 Word::Reflection => classic
                     .reflection
                     .as_ref()
-                    .map(|r| r.minimum.is_black() && r.maximum.is_black()),
+                    .map(|r| !r.minimum.gives_light() && !r.maximum.gives_light()),
                 Word::Ior => Some(false),
                 _ => None,
             };
@@ -218,7 +218,7 @@ impl Evaluator<'_> {
                 albedo.specular |= self.skip_albedo();
                 finish.specular = self.strength_after(token, word)?;
             }
-            Word::Roughness => finish.roughness = self.more_than_zero(token, word)?,
+            Word::Roughness => finish.roughness = self.roughness(token)?,
             Word::Metallic => finish.metallic = self.optional_number(token, 1.0)?,
             Word::Reflection => {
                 let before = finish.reflection.take();
@@ -228,7 +228,7 @@ impl Evaluator<'_> {
             }
             Word::ConserveEnergy => finish.conserve_energy = true,
             Word::Ior => {
-                let before = finish.ior.replace(self.more_than_zero(token, word)?);
+                let before = finish.ior.replace(self.index_of_refraction(token)?);
                 // What is as the air hides what was before it.
                 if before == Some(1.0) || finish.ior == Some(1.0) {
                     written.origin.ior.clear();
@@ -243,6 +243,21 @@ impl Evaluator<'_> {
             }
         }
         Ok(true)
+    }
+
+    /// `roughness`: with 0 a highlight has no edge, as in POV-Ray 3.7 (measured), as if it were without bound.
+    fn roughness(&mut self, token: &Token) -> Outcome<f64> {
+        let given = self.number_after(token, "a number")?;
+        if given.value == 0.0 {
+            let read = "the highlight covers all of the lit side";
+            self.out_of_range_but_read(&given, Word::Roughness, "more than 0", read)?;
+            return Ok(f64::MAX);
+        }
+        if given.value < 0.0 {
+            return Err(self.out_of_range(&given, Word::Roughness, "more than 0"));
+        }
+        self.lint_highlight(&given, Word::Roughness);
+        Ok(given.value)
     }
 
     /// A colour of light, or a number for white light.

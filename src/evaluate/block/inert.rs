@@ -6,9 +6,8 @@
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
-use super::super::value::Value;
-use super::super::{Evaluator, Outcome, Reported};
-use super::{Place, opens_object};
+use super::super::{Evaluator, Outcome};
+use super::Place;
 
 impl Evaluator<'_> {
     /// Reads an inert word and what belongs to it; `None` where `token` is none that may stand here.
@@ -69,31 +68,5 @@ impl Evaluator<'_> {
                 Ok(())
             }
         }
-    }
-
-    /// `bounded_by { shape … }` or `bounded_by { clipped_by }`.
-    fn bounds(&mut self, token: &Token) -> Outcome<()> {
-        self.bounds.clear();
-        if let Some(reported) = self.unbraced(token, Word::BoundedBy, opens_object) {
-            return Err(reported);
-        }
-        self.block(token, Word::BoundedBy, |evaluator| {
-            let mut failed = false;
-            while let Some(token) = evaluator.next() {
-                let TokenKind::Word(word) = token.kind else {
-                    evaluator.unexpected(&token, Place::BOUNDED_BY);
-                    continue;
-                };
-                match word {
-                    Word::ClippedBy => {}
-                    _ if opens_object(word) => match evaluator.object(&token, word) {
-                        Ok(Value::Object(object)) => evaluator.bounds.push(object),
-                        other => failed |= other.is_err(),
-                    },
-                    _ => evaluator.unexpected(&token, Place::BOUNDED_BY),
-                }
-            }
-            if failed { Err(Reported) } else { Ok(()) }
-        })
     }
 }

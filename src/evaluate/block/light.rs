@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::{
     Beam, Dialect, Fade, LightKind, LightSource, Modifier, ModifierKind, Object, ObjectId,
-    ObjectKind,
+    ObjectKind, TransformId,
 };
 use crate::source::Site;
 use crate::vocabulary::{Family, Word};
@@ -39,13 +39,12 @@ impl Evaluator<'_> {
                     return Err(reported);
                 }
                 // A light of its own from here on: its words can change it.
-                let (mut light, mut all) = evaluator.light_of(declared);
+                let (mut light, mut modifiers) = evaluator.light_of(declared);
                 let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut(), None);
-                all.append(&mut modifiers);
                 let kind = light.map_or(ObjectKind::Use(declared), |light| {
                     ObjectKind::LightSource(Box::new(light))
                 });
-                return outcome.map(|()| (kind, all));
+                return outcome.map(|()| (kind, modifiers));
             }
             if evaluator.takes_poison() {
                 let _: Outcome<()> = evaluator.light_modifiers(&mut modifiers, None, None);
@@ -187,6 +186,7 @@ impl Evaluator<'_> {
                 TokenKind::Word(Word::PointAt) => {
                     written.last = Some(token.clone());
                     cone.word(&token);
+                    written.aimed_after = transforms_of(modifiers);
                     self.vector_after(&token, "a point").map(|given| written.point_at = given.value)
                 }
                 TokenKind::Word(
@@ -257,6 +257,15 @@ impl Evaluator<'_> {
     }
 }
 
+/// The transforms among the modifiers of a light.
+fn transforms_of(modifiers: &[Modifier]) -> Vec<TransformId> {
+    let transform = |modifier: &Modifier| match modifier.kind {
+        ModifierKind::Transform(id) => Some(id),
+        _ => None,
+    };
+    modifiers.iter().filter_map(transform).collect()
+}
+
 /// A word that says how light leaves a place, or loses strength with the distance from it.
 fn is_of_a_place(token: &Token) -> bool {
     matches!(
@@ -284,6 +293,8 @@ struct Written {
     /// The last word that says where its axis lies.
     last: Option<Token>,
     point_at: Vector,
+    /// The transforms before it.
+    aimed_after: Vec<TransformId>,
     radius: Option<f64>,
     falloff: Option<f64>,
     tightness: f64,
@@ -312,6 +323,7 @@ impl Written {
             second: None,
             last: None,
             point_at,
+            aimed_after: light.map_or_else(Vec::new, |light| light.aimed_after.clone()),
             radius: None,
             falloff: None,
             tightness: 0.0,
@@ -391,6 +403,7 @@ impl Written {
         }
         self.note_fade(light);
         let Self { shapes, last, point_at, radius, falloff, tightness, fade, .. } = self;
+        light.aimed_after = self.aimed_after;
         light.fade = (fade.distance > 0.0 && fade.power > 0.0).then_some(fade);
         let (location, shaped) = match light.kind {
             LightKind::Point { location } => (location, !shapes.is_empty()),
@@ -418,6 +431,6 @@ impl Written {
             Some(_) => LightKind::Spotlight { location, point_at, beam: beam(30.0, 45.0) },
             None => LightKind::Parallel { location, point_at },
         };
-        last.filter(|_| location == point_at)
+        last.filter(|_| location == point_at && light.aimed_after.is_empty())
     }
 }

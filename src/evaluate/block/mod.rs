@@ -7,6 +7,7 @@ mod bare;
 mod blob;
 mod braces;
 mod camera;
+mod clip;
 mod color;
 mod color_map;
 mod colored;

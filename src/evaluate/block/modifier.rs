@@ -7,8 +7,8 @@ use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
+use super::Place;
 use super::place::is_before_modifiers;
-use super::{Place, opens_object};
 
 /// The first part behind the modifiers of its block, and how many others follow.
 struct Late {
@@ -288,34 +288,5 @@ impl Evaluator<'_> {
             _ => return None,
         };
         Some(kind)
-    }
-
-    /// `clipped_by { shape … }`, or `clipped_by { bounded_by }`: what bounds the object clips it.
-    fn clips(&mut self, token: &Token) -> Outcome<Vec<ObjectId>> {
-        if let Some(reported) = self.unbraced(token, Word::ClippedBy, opens_object) {
-            return Err(reported);
-        }
-        self.block(token, Word::ClippedBy, |evaluator| {
-            let begins =
-                |token: &Token| matches!(token.kind, TokenKind::Word(word) if opens_object(word));
-            let begins = evaluator.peek().is_some_and(begins);
-            let clips = match evaluator.take_word(Word::BoundedBy) {
-                Some(_) => evaluator.bounds.clone(),
-                None => evaluator.children(),
-            };
-            if clips.is_empty() && evaluator.poison.is_none() {
-                if begins {
-                    // What is wrong with it was told.
-                    return Err(Reported);
-                }
-                let found = evaluator.next();
-                return Err(evaluator.expected(
-                    "a solid",
-                    found.as_ref(),
-                    (&token.here, token.span),
-                ));
-            }
-            Ok(clips)
-        })
     }
 }

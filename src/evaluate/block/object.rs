@@ -213,7 +213,7 @@ impl Evaluator<'_> {
         if let Some(declared) = symbol.and_then(|symbol| self.scopes.declared(symbol)) {
             diagnostic = diagnostic.also(declared.site.span, "declared here");
         }
-        Some(self.report(&token.here, diagnostic))
+        self.opinion(&token.here, diagnostic).err()
     }
 
     /// Takes a name that stands for something not built, and remembers it.
@@ -356,6 +356,12 @@ impl Evaluator<'_> {
     /// The objects that a block holds before its modifiers.
     pub(super) fn children(&mut self) -> Vec<ObjectId> {
         let mut children = Vec::new();
+        self.more_children(&mut children, false);
+        children
+    }
+
+    /// `names`: the first may be a bare name, too.
+    pub(super) fn more_children(&mut self, children: &mut Vec<ObjectId>, names: bool) {
         loop {
             let sign = |kind: &TokenKind| matches!(kind, TokenKind::Semicolon | TokenKind::Comma);
             if let Some(token) = self.next_if(sign) {
@@ -367,7 +373,7 @@ impl Evaluator<'_> {
                 }
                 continue;
             }
-            if !children.is_empty()
+            if (names || !children.is_empty())
                 && let Some(child) = self.lone_child()
             {
                 children.extend(child);
@@ -389,7 +395,6 @@ impl Evaluator<'_> {
                 Ok(_) | Err(Reported) => self.lost_children += 1,
             }
         }
-        children
     }
 
     /// `union { sphere { … } Ball }`, as POV-Ray takes `Ball` for `object { Ball }` behind the first child.

@@ -5,7 +5,7 @@ use crate::math::Vector;
 use crate::scene::ObjectId;
 use crate::source::{Site, Span};
 use crate::syntax::ast::{ExpressionId, ItemKind};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
@@ -153,7 +153,11 @@ impl Evaluator<'_> {
         Ok(Given { value, span: token.span, here: token.here, expression })
     }
 
-    pub(super) fn number_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<f64>> {
+    pub(in crate::evaluate) fn number_after(
+        &mut self,
+        after: &Token,
+        wanted: &str,
+    ) -> Outcome<Given<f64>> {
         let token = self.value_token(after, wanted)?;
         if let TokenKind::Expression(id) = token.kind
             && !self.is_by_directive()
@@ -339,25 +343,45 @@ impl Evaluator<'_> {
     }
 
     /// Reports a number outside of what its place allows.
-    pub(super) fn out_of_range(
+    pub(in crate::evaluate) fn out_of_range(
         &mut self,
         given: &Given<f64>,
         word: Word,
         wanted: &str,
     ) -> Reported {
+        let diagnostic = self.outside(given, word, wanted);
+        self.report(&given.here, diagnostic)
+    }
+
+    /// Reports a number outside of what its place allows, where POV-Ray goes on: `read` says with what.
+    pub(in crate::evaluate) fn out_of_range_but_read(
+        &mut self,
+        given: &Given<f64>,
+        word: Word,
+        wanted: &str,
+        read: &str,
+    ) -> Outcome<()> {
+        let diagnostic = self.outside(given, word, wanted);
+        let diagnostic = match self.options.dialect {
+            Dialect::Scene => diagnostic,
+            Dialect::Pov => diagnostic.help(format!("as in POV-Ray, {read}")),
+        };
+        self.opinion(&given.here, diagnostic)
+    }
+
+    fn outside(&self, given: &Given<f64>, word: Word, wanted: &str) -> Diagnostic {
         let diagnostic = Diagnostic::new(
             Code::OutOfRange,
             format!("`{}` is {}, and must be {wanted}", word.name(), given.value),
         )
         .at(given.span, format!("expected {wanted}"));
         let typed = self.sources.text(given.span).strip_prefix('-').map(str::trim);
-        let diagnostic = match typed.filter(|typed| typed.parse() == Ok(-given.value)) {
+        match typed.filter(|typed| typed.parse() == Ok(-given.value)) {
             Some(right) if wanted.ends_with("0 or more") || wanted == "more than 0" => {
                 diagnostic.help(format!("is `{right}` meant?"))
             }
             _ => diagnostic,
-        };
-        self.report(&given.here, diagnostic)
+        }
     }
 
     pub(super) fn at_least_zero(&mut self, after: &Token, word: Word) -> Outcome<f64> {

@@ -13,7 +13,7 @@ use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
-use super::super::value::Value;
+use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::finish::list_once;
 use super::pieces::{WrittenColor, WrittenMap};
@@ -302,7 +302,7 @@ impl Evaluator<'_> {
             [Color::opaque(Rgb::new(0.0, 0.0, 1.0)), Color::opaque(Rgb::new(0.0, 1.0, 0.0))];
         let mut clear = Vec::new();
         let mut said: Vec<WrittenColor> = Vec::new();
-        let mut given = 0;
+        let (mut given, mut pigments) = (0, 0);
         // All before the last colour.
         let mut lead = self.whole(token);
         for color in &mut colors {
@@ -329,6 +329,7 @@ impl Evaluator<'_> {
                 given += 1;
                 let mut not_built = word;
                 if word == Word::Pigment {
+                    pigments += 1;
                     let id = self.pigment(&next)?;
                     if let Pigment { kind: PigmentKind::Color(plain), clear: inner, .. } =
                         &self.scene.pigments[id.index()]
@@ -342,7 +343,7 @@ impl Evaluator<'_> {
                     not_built = Word::Checker;
                 }
                 let site = next.here.site(next.span);
-                self.set_poison(super::super::value::Poison::new(not_built, site));
+                self.set_poison(Poison::new(not_built, site));
             }
         }
         // `checker rgb 1; rgb 0`.
@@ -357,8 +358,16 @@ impl Evaluator<'_> {
             self.report(&sign.here, diagnostic);
             self.skip_color(token);
         } else if given == 1 && self.poison.is_none() {
-            // Without any, the author knows the two that it has.
-            self.lint_missing_color(token);
+            // Without any, the author knows the two that it has. Beside a pigment the other is the default one,
+            // as in POV-Ray 3.7 (measured).
+            if pigments > 0 {
+                let default = self.scene.textures[self.default_texture.index()].pigment;
+                match self.scene.pigments[default.index()].kind {
+                    PigmentKind::Color(color) => colors[1] = color,
+                    _ => self.set_poison(Poison::new(Word::Pigment, token.here.site(token.span))),
+                }
+            }
+            self.lint_missing_color(token, if pigments > 0 { "black" } else { "green" });
         }
         let alike = match said.as_slice() {
             [first, second] => {

@@ -3,6 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::Solid;
+use crate::scene::outline::ROUNDED;
 use crate::scene::polygon::Polygon;
 use crate::source::Span;
 use crate::vocabulary::{Dialect, Word};
@@ -43,7 +44,7 @@ impl Evaluator<'_> {
         let mut places: Vec<(Vector, Span)> = Vec::new();
         let announced = count.span;
         let (mut last, mut points) = (count.with(Vector::ZERO), 0u64);
-        let mut first = announced;
+        let (mut first, mut size) = (announced, 0.0_f64);
         for number in 1..=wanted {
             let name = format!("a vector for point {number} of {wanted}");
             self.announced = Some((announced, points as usize));
@@ -54,7 +55,8 @@ impl Evaluator<'_> {
             if line.is_empty() {
                 first = point.span;
             }
-            if line.first() == Some(&point.value) {
+            size = size.max(point.value.abs().max_element());
+            if line.first().is_some_and(|first| is_same(*first, point.value, size)) {
                 polygon.lines.push(std::mem::take(&mut line));
             } else {
                 line.push(point.value);
@@ -187,6 +189,12 @@ fn lone_stray(places: &[(Vector, Span)]) -> Option<(Vector, Span)> {
     };
     let mut strays = points.iter().filter(is_stray);
     strays.next().filter(|_| strays.next().is_none()).copied()
+}
+
+/// Whether two corners of a polygon of this size are one, as far as the rounding tells of the calculations they
+/// may come from: `<10*cos(2*pi), 10*sin(2*pi), 0>` is `<10, 0, 0>`.
+fn is_same(a: Vector, b: Vector, size: f64) -> bool {
+    (a - b).abs().max_element() <= size * ROUNDED
 }
 
 /// Where, in a line of points that does not come back to its first, another begins that ends with the last of them.

@@ -67,6 +67,7 @@ impl Evaluator<'_> {
                 let factors = given.value;
                 if factors.to_array().contains(&0.0) {
                     let uniform = factors == Vector::ZERO;
+                    let [x, y, z] = factors.to_array().map(|f| if f == 0.0 { 1.0 } else { f });
                     let mut diagnostic = Diagnostic::new(
                         Code::ZeroScale,
                         "a scale of zero flattens everything to nothing",
@@ -83,13 +84,13 @@ impl Evaluator<'_> {
                         return Err(reported);
                     }
                     if !uniform {
-                        let [x, y, z] = factors.to_array().map(|f| if f == 0.0 { 1.0 } else { f });
                         diagnostic = diagnostic.help(format!(
                             "a direction that is to stay as it is takes the factor 1: `<{x}, {y}, {z}>`"
                         ));
                     }
                     let diagnostic = self.in_this_turn(diagnostic);
-                    return Err(self.report(&given.here, diagnostic));
+                    self.opinion(&given.here, diagnostic)?;
+                    return Ok(Step::Scale(Vector::new(x, y, z)));
                 }
                 Ok(Step::Scale(factors))
             }
@@ -267,8 +268,30 @@ impl Evaluator<'_> {
         };
         let row = |i: usize| Vector::new(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
         let rows = [row(0), row(1), row(2), row(3)];
-        // Whether it flattens everything is decided in lowering, exactly.
-        Ok(Step::Matrix(rows))
+        match self.options.dialect {
+            // Whether it flattens everything is decided in lowering, exactly.
+            Dialect::Scene => Ok(Step::Matrix(rows)),
+            Dialect::Pov => self.with_columns(&next, rows),
+        }
+    }
+
+    /// Replaces the diagonal element of a column of zeros by 1, with a warning, as POV-Ray 3.7 does (measured).
+    fn with_columns(&mut self, matrix: &Token, rows: [Vector; 4]) -> Outcome<Step> {
+        let [mut x, mut y, mut z, place] = rows.map(|row| row.to_array());
+        let linear = [&mut x, &mut y, &mut z];
+        let empty = [0, 1, 2].map(|column| linear.iter().all(|row| row[column] == 0.0));
+        for (column, row) in linear.into_iter().enumerate() {
+            if empty[column] {
+                row[column] = 1.0;
+            }
+        }
+        if empty.contains(&true) {
+            let message = "a column of zeros in a `matrix` flattens everything to nothing";
+            let diagnostic = Diagnostic::new(Code::ZeroScale, message)
+                .at(matrix.span, "its element on the diagonal is read as 1");
+            self.opinion(&matrix.here, diagnostic)?;
+        }
+        Ok(Step::Matrix([x, y, z, place].map(Vector::from_array)))
     }
 
     /// `transform { … }` or `transform Name`.

@@ -113,7 +113,19 @@ impl Evaluator<'_> {
 
     /// `ior 0.75`: what a light ray enters is rarely thinner than air.
     pub(in crate::evaluate) fn index_of_refraction(&mut self, token: &Token) -> Outcome<f64> {
-        let given = self.number_of(token, Word::Ior)?;
+        let given = self.number_after(token, "a number")?;
+        if given.value == 0.0 {
+            self.out_of_range_but_read(
+                &given,
+                Word::Ior,
+                "more than 0",
+                "the object refracts nothing",
+            )?;
+            return Ok(1.0);
+        }
+        if given.value < 0.0 {
+            return Err(self.out_of_range(&given, Word::Ior, "more than 0"));
+        }
         let value = given.value;
         if value < 1.0 && is_literal(self.sources.text(given.span)) {
             let message = format!("an `ior` of {value} is below that of a vacuum");

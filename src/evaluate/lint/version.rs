@@ -1,5 +1,6 @@
 //! What a `.pov` file says it is written for, and what it lacks.
 
+use crate::color::Gamma;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::{Evaluator, Unit};
 use crate::scene::Dialect;
@@ -8,6 +9,9 @@ use crate::syntax::ast::{Ast, DirectiveKind, ExpressionKind, ItemKind};
 use crate::vocabulary::{Word, is_standard_source};
 
 const VERSION: &str = "#version";
+
+/// The version from which on a scene without `assumed_gamma` has linear colours.
+const LINEAR_SINCE: f64 = 3.7;
 
 impl Evaluator<'_> {
     /// Whether a file is not there that may say more.
@@ -37,7 +41,22 @@ impl Evaluator<'_> {
         Some((says_version, says("gamma") || says("assumed")))
     }
 
-    /// A `.pov` file that does not say what it is written for; POV-Ray would read it as an old one.
+    /// Whether POV-Ray 3.7 takes the scene for one of an older version: the language's version, where the
+    /// text ends, is below 3.7, or no file has a `#version` (measured).
+    fn is_old(&self) -> bool {
+        self.options.dialect == Dialect::Pov && (!self.has_version || self.version < LINEAR_SINCE)
+    }
+
+    /// An old `.pov` scene without `assumed_gamma` is shown without gamma correction, as by POV-Ray 3.7:
+    /// pixel for pixel `assumed_gamma srgb` (measured).
+    pub(in crate::evaluate) fn assume_old_gamma(&mut self) {
+        // A colour in sRGB before `assumed_gamma`, which POV-Ray refuses, has been made linear.
+        if self.is_old() && !self.says_gamma && self.srgb_before_gamma.is_none() {
+            self.scene.settings.assumed_gamma = Gamma::Srgb;
+        }
+    }
+
+    /// A `.pov` file that does not say what it is written for.
     pub(in crate::evaluate) fn warn_of_old_version(&mut self, main: &Unit, says: (bool, bool)) {
         let file = main.ast.file;
         let missing = match says {
@@ -47,27 +66,35 @@ impl Evaluator<'_> {
             (true, false) => "`assumed_gamma`",
             (false, false) => "`#version` and no `assumed_gamma`",
         };
+        let gamma = match self.is_old() {
+            true => {
+                AssumedGamma { value: "srgb", read: "`assumed_gamma srgb`, as POV-Ray reads it" }
+            }
+            false => AssumedGamma { value: "1", read: "`assumed_gamma 1`" },
+        };
         let preamble = Preamble::of(&main.ast);
         let old = preamble.old.filter(|_| says.0);
+        let read = gamma.read;
         let message = match old {
             Some(old) => format!(
-                "`#version {}` is read as 3.7, and with gamma 1: the file has no {missing}",
+                "`#version {}` is read as 3.7, and with {read}: the file has no {missing}",
                 self.sources.text(old)
             ),
-            None if says.0 => format!("the file has no {missing}; it is read with gamma 1"),
-            None => {
-                format!("the file has no {missing}; it is read as version 3.7 with gamma 1")
+            None if says.0 => format!("the file has no {missing}; it is read with {read}"),
+            None if says.1 => format!("the file has no {missing}; it is read as version 3.7"),
+            None => format!("the file has no {missing}; it is read as version 3.7 with {read}"),
+        };
+        let help = match (old.is_none() && says.0, says.1) {
+            (true, _) => format!("write `global_settings {{ {} }}`", gamma.written()),
+            (false, true) => "write `#version 3.7;` first".to_owned(),
+            (false, false) => {
+                let settings = format!("`global_settings {{ {} }}`", gamma.written());
+                format!("write `#version 3.7;` first, and {settings}")
             }
         };
-        let (label, help) = match old.is_none() && says.0 {
-            true => (
-                "POV-Ray warns of this, and may refuse it in versions to come",
-                "write `global_settings { assumed_gamma 1 }`",
-            ),
-            false => (
-                "POV-Ray would read this as an old file",
-                "write `#version 3.7;` first, and `global_settings { assumed_gamma 1 }`",
-            ),
+        let label = match self.is_old() {
+            true => "POV-Ray takes this for an old file",
+            false => "POV-Ray warns of this, and may refuse it in versions to come",
         };
         let text = &self.sources.get(file).text;
         let settings = Word::GlobalSettings.name();
@@ -79,11 +106,23 @@ impl Evaluator<'_> {
         // What is included is not a scene, and says nothing for itself.
         if !self.sources.get(file).name.to_lowercase().ends_with(".inc") {
             diagnostic = old.into_iter().fold(diagnostic, |told, old| told.fix(old, "3.7"));
-            for (at, text) in preamble.completed(says.0, says.1) {
+            for (at, text) in preamble.completed(says, &gamma) {
                 diagnostic = diagnostic.fix(Span::new(file, at, at), text);
             }
         }
         self.diagnostics.push(diagnostic);
+    }
+}
+
+/// What is assumed where the file says nothing: the word of the language, and how a message puts it.
+struct AssumedGamma {
+    value: &'static str,
+    read: &'static str,
+}
+
+impl AssumedGamma {
+    fn written(&self) -> String {
+        format!("{} {}", Word::AssumedGamma.name(), self.value)
     }
 }
 
@@ -100,19 +139,23 @@ struct Preamble {
 
 impl Preamble {
     /// What has to be inserted, and where.
-    fn completed(&self, says_version: bool, says_gamma: bool) -> Vec<(usize, &'static str)> {
+    fn completed(
+        &self,
+        (says_version, says_gamma): (bool, bool),
+        gamma: &AssumedGamma,
+    ) -> Vec<(usize, String)> {
+        let written = gamma.written();
+        let block = format!("global_settings {{ {written} }}");
         let gamma = match (self.settings, self.version) {
             _ if says_gamma => None,
-            (Some(at), _) => Some((at as usize, " assumed_gamma 1")),
-            (None, Some(at)) => Some((at as usize, "\nglobal_settings { assumed_gamma 1 }")),
-            (None, None) => Some((0, "global_settings { assumed_gamma 1 }\n")),
+            (Some(at), _) => Some((at as usize, format!(" {written}"))),
+            (None, Some(at)) => Some((at as usize, format!("\n{block}"))),
+            (None, None) => Some((0, format!("{block}\n"))),
         };
-        let version = (!says_version).then_some((0, "#version 3.7;\n"));
+        let version = (!says_version).then(|| (0, "#version 3.7;\n".to_owned()));
         match gamma {
             // Two insertions at one place are one.
-            Some((0, _)) if !says_version => {
-                vec![(0, "#version 3.7; global_settings { assumed_gamma 1 }\n")]
-            }
+            Some((0, _)) if !says_version => vec![(0, format!("#version 3.7; {block}\n"))],
             gamma => version.into_iter().chain(gamma).collect(),
         }
     }
