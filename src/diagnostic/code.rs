@@ -106,18 +106,18 @@ codes! {
     ControlCharacter "control-character" lint "a character that cannot be seen stands in the text";
     BadEncoding "bad-encoding" lint "the file is not UTF-8 and was read as Latin-1";
     // words and names
-    UnknownWord "unknown-word" error "a word is not known in this place";
+    UnknownWord "unknown-word" opinion "a word is not known in this place";
     UndeclaredName "undeclared-name" error "a name is used and was never declared";
     ReservedName "reserved-name" error "a word of the language cannot be declared";
     RedeclaredFunction "redeclared-function" error "a function or a macro is declared again as something else, without `#undef`";
     NotSupportedYet "not-supported-yet" error "the language has this word, and this version does not build it yet";
     ForeignWord "foreign-word" error "a word of another tool stands where ours has another name";
-    UnknownDirective "unknown-directive" error "the word after `#` is not a directive";
+    UnknownDirective "unknown-directive" opinion "the word after `#` is not a directive";
     // values
     WrongType "wrong-type" opinion "a value has another type than the place needs";
     WrongArity "wrong-arity" error "a call or a vector has too many or too few parts";
     MissingPart "missing-part" error "a block lacks a part it cannot do without";
-    ExtraPart "extra-part" error "a block has more parts than it can use";
+    ExtraPart "extra-part" opinion "a block has more parts than it can use";
     DivisionByZero "division-by-zero" error "a number is divided by zero";
     NotANumber "not-a-number" error "a calculation has no finite result";
     OutOfRange "out-of-range" opinion "a number lies outside what the place allows";

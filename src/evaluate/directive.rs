@@ -178,6 +178,10 @@ impl Evaluator<'_> {
                 self.report(here, diagnostic);
                 self.say(here, Code::AuthorDebug, *text, directive.head)
             }
+            DirectiveKind::Unread => {
+                self.run_unread(here, directive.head);
+                Ok(())
+            }
             DirectiveKind::Malformed => Err(Reported),
         }
     }

@@ -1,15 +1,127 @@
-//! Loops that are known not to end before they turn.
+//! Loops that are known not to end.
 //!
 //! **In:** a loop's body and condition. **Out:** whether anything in them could end it.
-//! **Invariant:** says so only when it is certain: a condition without a name or a call never changes,
-//! and only a `#break`, an `#error` or a macro that holds one leaves a loop early.
+//! **Invariant:** says so only when it is certain: a condition of names that nothing in the body assigns to never
+//! changes, and only a `#break`, an `#error` or a macro that holds one leaves a loop early.
 
 use crate::diagnostic::suggest;
 use crate::source::Span;
 use crate::syntax::ast::{
-    Ast, Callee, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items,
+    Argument, Ast, Callee, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items,
+    NameId,
 };
 use crate::vocabulary::Word;
+
+use super::scope::Symbol;
+use super::value::Value;
+use super::{Evaluator, Here};
+
+impl Evaluator<'_> {
+    /// Whether nothing that a loop's condition asks can change in a turn, and nothing in its body leaves it.
+    pub(super) fn never_changes(&self, here: &Here, condition: ExpressionId, body: Items) -> bool {
+        let ast = &here.unit.ast;
+        let ([first, .., last] | [first @ last]) = ast.items(body) else { return true };
+        if may_leave(ast, body) {
+            return false;
+        }
+        let inside = first.span.to(last.span);
+        let is_inside = |span: Span| inside.start <= span.start && span.end <= inside.end;
+        let is_macro = |name: NameId| {
+            !matches!(
+                self.scopes.look(here.symbol(name)),
+                Some(Value::Function(_) | Value::Spline(_))
+            )
+        };
+        let mut asked = Vec::new();
+        if !self.asks_only(here, condition, &mut asked) {
+            return false;
+        }
+        let calls_macro = ast.expressions.iter().any(|one| match one.kind {
+            ExpressionKind::Call(Callee::Name(name, _), _) => is_inside(one.span) && is_macro(name),
+            _ => false,
+        });
+        // A parameter and what it was given are one.
+        let is_asked = |name: NameId| {
+            let symbol = here.symbol(name);
+            let slot = self.scopes.slot(symbol);
+            asked
+                .iter()
+                .any(|&other| other == symbol || slot.is_some() && slot == self.scopes.slot(other))
+        };
+        let changes = |kind: &DirectiveKind| match kind {
+            DirectiveKind::Declare { target, .. } | DirectiveKind::Undef(target) => {
+                is_asked(target.name)
+            }
+            DirectiveKind::For { name, .. } | DirectiveKind::Macro { name, .. } => is_asked(*name),
+            DirectiveKind::Version(_)
+            | DirectiveKind::Fopen { .. }
+            | DirectiveKind::Fclose { .. }
+            | DirectiveKind::Read { .. } => true,
+            _ => false,
+        };
+        let mut directives = ast.directives.iter().filter(|one| is_inside(one.head));
+        !calls_macro && !directives.any(|one| changes(&one.kind))
+    }
+
+    /// Collects the names that an expression asks; `false` where it asks anything else that may change by
+    /// itself.
+    fn asks_only(&self, here: &Here, id: ExpressionId, asked: &mut Vec<Symbol>) -> bool {
+        let ast = &here.unit.ast;
+        let mut open = vec![id];
+        while let Some(id) = open.pop() {
+            let arguments = match ast.expression(id).kind {
+                ExpressionKind::Number(_) | ExpressionKind::String | ExpressionKind::Word(_) => {
+                    continue;
+                }
+                ExpressionKind::Name(name) => {
+                    asked.push(here.symbol(name));
+                    continue;
+                }
+                ExpressionKind::Unary(_, a)
+                | ExpressionKind::Group(a)
+                | ExpressionKind::Component(a, _) => {
+                    open.push(a);
+                    continue;
+                }
+                ExpressionKind::Binary(_, a, b) | ExpressionKind::Index(a, b) => {
+                    open.extend([a, b]);
+                    continue;
+                }
+                ExpressionKind::Conditional(a, b, c) => {
+                    open.extend([a, b, c]);
+                    continue;
+                }
+                ExpressionKind::Call(Callee::Word(word, _), _)
+                    if matches!(word, Word::Rand | Word::FileExists) =>
+                {
+                    return false;
+                }
+                ExpressionKind::Call(Callee::Name(name, _), arguments) => {
+                    let symbol = here.symbol(name);
+                    let known = self.scopes.look(symbol);
+                    if !matches!(known, Some(Value::Function(_) | Value::Spline(_))) {
+                        return false;
+                    }
+                    asked.push(symbol);
+                    arguments
+                }
+                ExpressionKind::Call(Callee::Word(..), arguments)
+                | ExpressionKind::Vector(arguments) => arguments,
+                ExpressionKind::Call(Callee::Element(_), _)
+                | ExpressionKind::GroupItems(_)
+                | ExpressionKind::Joint
+                | ExpressionKind::Missing => return false,
+            };
+            for argument in ast.arguments(arguments) {
+                match *argument {
+                    Argument::Expression(id) => open.push(id),
+                    Argument::Items(_) => return false,
+                }
+            }
+        }
+        true
+    }
+}
 
 /// Whether an expression has the same value whenever it is asked.
 pub(super) fn is_constant(ast: &Ast, id: ExpressionId) -> bool {
@@ -121,6 +233,7 @@ pub(super) fn may_leave(ast: &Ast, body: Items) -> bool {
                     DirectiveKind::Break
                     | DirectiveKind::Error(_)
                     | DirectiveKind::Include(_)
+                    | DirectiveKind::Unread
                     | DirectiveKind::Malformed => return true,
                     DirectiveKind::If { then, otherwise, .. } => open.extend([*then, *otherwise]),
                     DirectiveKind::While { body, .. } | DirectiveKind::For { body, .. } => {

@@ -227,6 +227,10 @@ impl Evaluator<'_> {
         // With too many or too few the body is read all the same, for its own mistakes.
         let wrong =
             spread.is_empty() && self.check_arguments(here, definition, list, span).is_err();
+        if self.has_run_enough() {
+            self.halted = true;
+            return Err(Reported);
+        }
         if self.macro_depth >= self.options.limits.macro_depth {
             let limit = self.options.limits.macro_depth;
             let message = format!("macros call each other more than {limit} deep");

@@ -67,7 +67,7 @@ use crate::syntax::ast::{
 
 use crate::vocabulary::PREDECLARED;
 
-pub use options::{EvaluateOptions, Limits};
+pub use options::{EvaluateOptions, Interrupt, Limits};
 
 use builtin::RandomStreams;
 use enclosure::Enclosure;
@@ -259,6 +259,8 @@ struct Evaluator<'a> {
     /// Turns of all loops so far, and of those in which a mistake was met.
     turns: u64,
     faulty_turns: u64,
+    /// Turns of loops and calls of macros since the first error.
+    run_since_fault: u64,
     /// A file was not understood whole, so a loop may lack what ends it.
     misread: bool,
     /// Of each condition of such a file, whether it held, and whether it did not.
@@ -384,6 +386,7 @@ impl<'a> Evaluator<'a> {
             stored: 0,
             turns: 0,
             faulty_turns: 0,
+            run_since_fault: 0,
             misread: false,
             asked: HashMap::new(),
             lost_children: 0,
@@ -410,6 +413,7 @@ impl<'a> Evaluator<'a> {
         self.inside(&here, root, Self::scene_items);
         self.scene.skipped = self.skipped(&here.unit.ast);
         self.assume_old_gamma();
+        self.warn_of_unread(&here.unit);
         if self.halted {
             // Nobody looks at what there is of it.
             self.scene.roots.clear();

@@ -1,6 +1,8 @@
 //! What the caller sets: the dialect, the picture's size, declarations, the clock, and what stops a scene that
 //! would never end.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::scene::Dialect;
 
 /// What the caller sets.
@@ -17,6 +19,26 @@ pub struct EvaluateOptions {
     pub now: f64,
     pub frame_number: f64,
     pub limits: Limits,
+    pub interrupt: Interrupt,
+}
+
+/// Set by the caller while a scene is evaluated, it ends the loop that turns then.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Interrupt(pub Option<&'static AtomicBool>);
+
+impl Interrupt {
+    pub fn is_set(self) -> bool {
+        self.0.is_some_and(|set| set.load(Ordering::Relaxed))
+    }
+}
+
+impl PartialEq for Interrupt {
+    fn eq(&self, other: &Self) -> bool {
+        match (self.0, other.0) {
+            (Some(a), Some(b)) => std::ptr::eq(a, b),
+            (a, b) => a.is_none() && b.is_none(),
+        }
+    }
 }
 
 impl Default for EvaluateOptions {
@@ -30,6 +52,7 @@ impl Default for EvaluateOptions {
             now: 0.0,
             frame_number: 0.0,
             limits: Limits::default(),
+            interrupt: Interrupt::default(),
         }
     }
 }
@@ -62,7 +85,7 @@ impl Limits {
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            loop_turns: 1_000_000,
+            loop_turns: 1_000_000_000,
             macro_depth: 1_000,
             include_depth: 64,
             nesting: 200_000,

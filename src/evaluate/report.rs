@@ -315,7 +315,10 @@ impl Evaluator<'_> {
             }
             _ => diagnostic.at(directive.head, label),
         };
-        let diagnostic = diagnostic.help("`--limit loop-turns=N` raises the limit");
+        let diagnostic = match self.options.interrupt.is_set() {
+            true => diagnostic,
+            false => diagnostic.help("`--limit loop-turns=N` raises the limit"),
+        };
         Err(self.halt(here.expansion, diagnostic))
     }
 

@@ -21,6 +21,9 @@ pub(super) const FAULTY_TURNS: u64 = 1_000;
 /// So many turns with mistakes may all loops together have: those that hold each other soon have more.
 pub(super) const ALL_FAULTY_TURNS: u64 = 10 * FAULTY_TURNS;
 
+/// So many turns and calls are run after the first error to find others: they take less than a second.
+pub(super) const MOST_RUN_SINCE_FAULT: u64 = 100_000;
+
 /// Items being walked.
 #[derive(Debug)]
 pub(super) struct Frame {

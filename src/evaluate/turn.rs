@@ -8,9 +8,13 @@ use crate::syntax::ast::{
 use crate::vocabulary::Word;
 
 use super::comparison::Comparison;
-use super::stream::{ALL_FAULTY_TURNS, FAULTY_TURNS, Frame, FrameKind};
+use super::stream::{ALL_FAULTY_TURNS, FAULTY_TURNS, Frame, FrameKind, MOST_RUN_SINCE_FAULT};
 use super::value::Value;
 use super::{Evaluator, Here, Limits, Outcome, endless};
+
+/// After so many turns it is looked whether anything can end a loop: most loops have fewer, and looking takes as
+/// long as some thousand turns.
+const SUSPICIOUS_TURNS: u64 = 10_000;
 
 impl Evaluator<'_> {
     /// One more turn of the innermost loop, or its end.
@@ -19,22 +23,33 @@ impl Evaluator<'_> {
         let worn_out = match self.frames.last().map(|frame| &frame.kind) {
             Some(
                 &FrameKind::While { turns, faults, .. } | &FrameKind::For { turns, faults, .. },
-            ) => self.is_worn_out(turns, faults),
+            ) => self.is_worn_out(turns, faults) || self.has_run_enough(),
             _ => false,
         };
         let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
         let limit = self.options.limits.loop_turns;
+        let interrupt = self.options.interrupt;
         let comparison = Comparison::of(self.options.dialect);
         self.turns += 1;
-        if self.turns > limit.saturating_mul(Limits::TOGETHER) {
-            let directive = match kind {
-                FrameKind::While { directive, .. } | FrameKind::For { directive, .. } => *directive,
+        let exhausted = self.turns > limit.saturating_mul(Limits::TOGETHER);
+        if exhausted || interrupt.is_set() {
+            let (directive, turns) = match kind {
+                FrameKind::While { directive, turns, .. }
+                | FrameKind::For { directive, turns, .. } => (*directive, *turns),
                 _ => return,
             };
             let here = here.clone();
-            let message = format!("the loops of this scene have turned {} times", self.turns - 1);
-            let _: Outcome<()> =
-                self.loop_limit(&here, directive, message, "in this one as the last");
+            let (message, label) = match exhausted {
+                true => (
+                    format!("the loops of this scene have turned {} times", self.turns - 1),
+                    "in this one as the last".to_owned(),
+                ),
+                false => (
+                    "interrupted while a loop turned".to_owned(),
+                    format!("this one, after {turns} turns"),
+                ),
+            };
+            let _: Outcome<()> = self.loop_limit(&here, directive, message, &label);
             return;
         }
         match kind {
@@ -54,8 +69,7 @@ impl Evaluator<'_> {
                 }
                 if goes_on == Ok(true) {
                     if turns > limit {
-                        let message =
-                            format!("this loop does not end: it has turned {limit} times");
+                        let message = format!("this loop has turned {limit} times, the limit");
                         let label = "its condition stays true";
                         let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
                         return;
@@ -65,7 +79,10 @@ impl Evaluator<'_> {
                     }
                     let ast = &here.unit.ast;
                     let constant = turns == 1 && endless::is_constant(ast, condition);
-                    if body.is_empty() || (constant && !endless::may_leave(ast, body)) {
+                    if body.is_empty()
+                        || (constant && !endless::may_leave(ast, body))
+                        || (turns == SUSPICIOUS_TURNS && self.never_changes(&here, condition, body))
+                    {
                         // A misspelt word may have meant another directive; and one without its end lacks what would
                         // end it.
                         let head = ast.directive(directive).head;
@@ -175,6 +192,13 @@ impl Evaluator<'_> {
         let faulty = turns > 0 && self.faults > faults;
         self.faulty_turns += u64::from(faulty);
         faulty && (turns > FAULTY_TURNS || self.faulty_turns > ALL_FAULTY_TURNS)
+    }
+
+    /// Counts a turn or a call, and says whether enough has been run since the first error: there will be no
+    /// picture, and its author waits for the messages.
+    pub(super) fn has_run_enough(&mut self) -> bool {
+        self.run_since_fault += u64::from(self.misread || self.faults > 0);
+        self.run_since_fault > MOST_RUN_SINCE_FAULT
     }
 
     /// The items of the case that `value` chooses, up to the end of the switch: cases fall through.

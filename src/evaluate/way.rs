@@ -1,11 +1,12 @@
-//! The bodies of macros whose brackets pair only on the way that is taken: each way is read as a body of its own.
+//! Bodies that are read when they are run: of macros whose brackets pair only on the way that is taken, each way
+//! as a body of its own; and in a `.pov` those that cannot be read.
 
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{ExpansionId, Source, Span};
-use crate::syntax::ast::{ExpressionId, ItemKind, Items};
+use crate::syntax::ast::{Ast, DirectiveKind, ExpressionId, ItemKind, Items};
 use crate::syntax::{self, ParseOptions, Ways, alone};
 
 use super::expand::{Macro, MacroBody};
@@ -97,8 +98,55 @@ impl Evaluator<'_> {
         Some(Forked { ways, conditions })
     }
 
+    /// Runs a body that could not be read, whose mistakes are told now.
+    pub(super) fn run_unread(&mut self, here: &Here, span: Span) {
+        let key = (span, Vec::new());
+        let (unit, body) = match self.read.bodies.get(&key) {
+            Some(known) => known.clone(),
+            None => {
+                let text = alone(&self.sources.get(span.file).text, span);
+                let unit = self.read_part(text, span, Some(here.expansion));
+                let body = (unit.clone(), unit.ast.root);
+                self.read.bodies.insert(key, body.clone());
+                body
+            }
+        };
+        self.push_branch(&Here { unit, expansion: here.expansion }, body);
+    }
+
+    /// Warns of the bodies of a text that could not be read and were not run.
+    pub(super) fn warn_of_unread(&mut self, unit: &Unit) {
+        for directive in &unit.ast.directives {
+            let span = directive.head;
+            let is_unread = matches!(directive.kind, DirectiveKind::Unread);
+            if !is_unread || self.read.bodies.contains_key(&(span, Vec::new())) {
+                continue;
+            }
+            let text = alone(&self.sources.get(span.file).text, span);
+            let Some(first) = self.mistakes_of(text, span).1.into_iter().find(Diagnostic::is_error)
+            else {
+                continue;
+            };
+            let message = format!("code that is not run cannot be read: {}", first.message);
+            let told = Diagnostic { message, ..first };
+            let mut warning = Diagnostic::new(Code::UnreadBranch, told.message);
+            (warning.labels, warning.help, warning.fixes) = (told.labels, told.help, told.fixes);
+            self.diagnostics.push(warning);
+        }
+    }
+
     /// Reads what is left of a file, and tells its mistakes where it is called.
     fn read_part(&mut self, text: String, span: Span, told_in: Option<ExpansionId>) -> Rc<Unit> {
+        let (ast, told) = self.mistakes_of(text, span);
+        if let Some(expansion) = told_in {
+            for one in told {
+                self.report_in(expansion, one);
+            }
+        }
+        self.unit(ast)
+    }
+
+    fn mistakes_of(&self, text: String, span: Span) -> (Ast, Vec<Diagnostic>) {
         let name = self.sources.get(span.file).name.clone();
         let options = ParseOptions {
             dialect: self.options.dialect,
@@ -107,11 +155,6 @@ impl Evaluator<'_> {
         };
         let mut told = Diagnostics::new(true);
         let ast = syntax::parse(&Source::new(name, text), span.file, &options, &mut told);
-        if let Some(expansion) = told_in {
-            for one in told.iter() {
-                self.report_in(expansion, one.clone());
-            }
-        }
-        self.unit(ast)
+        (ast, told.iter().cloned().collect())
     }
 }

@@ -277,6 +277,9 @@ pub enum DirectiveKind {
     },
     /// `#render`, `#statistics`: said as by `#debug`, since their own streams are gone.
     OldStream(ExpressionId),
+    /// The body of a directive that could not be read, in a `.pov`: it is read, and its mistakes reported, when
+    /// it is run.
+    Unread,
     /// Not understood; reported.
     Malformed,
 }

@@ -46,6 +46,7 @@ pub(super) fn turn(kind: TokenKind) -> Option<Turn> {
         | TokenKind::Numbers
         | TokenKind::Vectors
         | TokenKind::Raw
+        | TokenKind::Unread
         | TokenKind::LooseOpen
         | TokenKind::LooseClose
         | TokenKind::Stray => None,

@@ -286,6 +286,7 @@ impl<'a> Dump<'a> {
                 say(" ", self.list("(", *arguments, ")"));
             }
             DirectiveKind::OldStream(of) => say("#render ", value(*of)),
+            DirectiveKind::Unread => say("#unread", Vec::new()),
             DirectiveKind::Malformed => say("#malformed", Vec::new()),
         }
         let line = |tasks: &mut Vec<Task<'a>>| {

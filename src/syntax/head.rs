@@ -109,6 +109,7 @@ impl<'a> Nest<'a> {
                 },
                 TokenKind::Directive(_)
                 | TokenKind::Raw
+                | TokenKind::Unread
                 | TokenKind::LooseOpen
                 | TokenKind::LooseClose => true,
                 TokenKind::Stray => false,

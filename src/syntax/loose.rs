@@ -107,7 +107,7 @@ fn macros(tokens: &[Token]) -> Vec<Range<usize>> {
 }
 
 /// The first token after the head `#macro Name(a, b)` that starts at `start`.
-fn body_start(tokens: &[Token], start: usize) -> Option<usize> {
+pub(super) fn body_start(tokens: &[Token], start: usize) -> Option<usize> {
     let parameters = start + 2;
     if tokens[start].kind != TokenKind::Directive(Head::Macro)
         || tokens.get(parameters)?.kind != TokenKind::Mark(Mark::Open(Bracket::Round))

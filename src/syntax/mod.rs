@@ -30,6 +30,7 @@ mod mark;
 mod nest;
 mod numbers;
 mod numeric;
+mod old_words;
 mod operand;
 mod print;
 mod prose;
@@ -40,6 +41,7 @@ mod stray;
 mod tally;
 mod target;
 mod token;
+mod unread;
 mod way;
 
 pub use self::dump::dump;
@@ -47,6 +49,8 @@ pub use self::format::{Unformatted, format};
 pub use self::legacy::legacy;
 pub use self::print::print;
 pub use self::way::{Ways, alone};
+
+use std::ops::Range;
 
 use self::ast::Ast;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
@@ -64,18 +68,26 @@ pub struct ParseOptions {
     pub alone: bool,
     /// Branches that are never run are no part of the text where they cannot be read.
     pub skips: bool,
+    /// In a `.pov`, bodies that cannot be read stay text until they are run.
+    pub defers: bool,
 }
 
 impl Default for ParseOptions {
     fn default() -> Self {
-        Self { dialect: Dialect::Scene, nesting_limit: 1000, alone: false, skips: true }
+        Self {
+            dialect: Dialect::Scene,
+            nesting_limit: 1000,
+            alone: false,
+            skips: true,
+            defers: true,
+        }
     }
 }
 
 impl ParseOptions {
     /// How a piece is read, for its mistakes alone.
     fn inside(&self) -> Self {
-        Self { skips: false, ..*self }
+        Self { skips: false, defers: false, ..*self }
     }
 }
 
@@ -94,19 +106,41 @@ pub fn parse(
         let quiet = comment::quiet("", file, &mut nothing);
         return nest::nest(&quiet, 0, file, &[], true, options, &mut nothing);
     }
+    let (mut ast, mut found) = read(source, file, options, &[]);
+    if found.has_errors() && unread::is_asked_for(options) {
+        let quiet = comment::quiet(&source.text, file, &mut Diagnostics::new(true));
+        let rest = |unread: &[Range<usize>]| read(source, file, options, unread).1;
+        if let Some(unread) = unread::bodies_around_mistakes(&quiet.text, &found, rest) {
+            (ast, found) = read(source, file, options, &unread);
+        }
+    }
+    found.iter().for_each(|told| diagnostics.push(told.clone()));
+    ast
+}
+
+/// Reads a text without the bodies that stay text.
+fn read(
+    source: &Source,
+    file: FileId,
+    options: &ParseOptions,
+    unread: &[Range<usize>],
+) -> (Ast, Diagnostics) {
     let mut found = Diagnostics::new(true);
     let mut quiet = comment::quiet(&source.text, file, &mut found);
     if options.skips {
         skipped::blank(&mut quiet, file, options);
     }
+    unread::leave_out(&mut quiet, unread);
     quiet.text = control::blank(quiet.text, file, &mut found);
     quiet.text = entity::translate(quiet.text, file, &mut found);
     quiet.text = leftover::blank(quiet.text, file, &mut found);
     quiet.text = listing::blank(quiet.text, file, &mut found);
     quiet.text = prose::blank(quiet.text, file, &mut found);
     let mut tokens = token::tokens(&quiet.text);
-    spelling::correct_heads(&mut tokens, &quiet.text, file, &mut found);
-    let tokens = habits::translate(tokens, &quiet.text, file, &mut found);
+    unread::stand_in(&mut tokens, unread);
+    old_words::replace(&mut tokens, file, options.dialect, &mut found);
+    spelling::correct_heads(&mut tokens, &quiet.text, file, options.dialect, &mut found);
+    let tokens = habits::translate(tokens, &quiet.text, file, options.dialect, &mut found);
     let (tokens, cut) = balance::balance(tokens, &source.text, file, options, &mut found);
     let ast = nest::nest(&quiet, source.text.len(), file, &tokens, cut, options, &mut found);
     // Each pass found its own; the author reads from the top.
@@ -116,13 +150,14 @@ pub fn parse(
     let found = tally::tally(found, &source.text);
     // A quote that was added behind the end is no place in the author's text.
     let end = source.text.len() as u32;
+    let mut diagnostics = Diagnostics::new(true);
     let within = |span: Span| Span { start: span.start.min(end), end: span.end.min(end), ..span };
     for mut diagnostic in found {
         diagnostic.labels.iter_mut().for_each(|label| label.span = within(label.span));
         diagnostic.fixes.iter_mut().for_each(|fix| fix.span = within(fix.span));
         diagnostics.push(diagnostic);
     }
-    ast
+    (ast, diagnostics)
 }
 
 /// `what` is nested: "brackets", "directives", "signs".

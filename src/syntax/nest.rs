@@ -8,8 +8,8 @@ use std::collections::HashMap;
 
 use super::ParseOptions;
 use super::ast::{
-    Argument, Arguments, Ast, Callee, Expression, ExpressionId, ExpressionKind, Item, ItemKind,
-    Items, NameId,
+    Argument, Arguments, Ast, Callee, DirectiveKind, Expression, ExpressionId, ExpressionKind,
+    Item, ItemKind, Items, NameId,
 };
 use super::comment::Quiet;
 use super::directive::Body;
@@ -269,6 +269,7 @@ impl<'a> Nest<'a> {
             }
             TokenKind::LooseOpen | TokenKind::LooseClose => self.loose(token.kind, span),
             TokenKind::Raw => self.raw(span),
+            TokenKind::Unread => self.add_directive(DirectiveKind::Unread, span, span),
             TokenKind::Stray => self.stray(token),
         }
     }

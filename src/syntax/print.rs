@@ -323,6 +323,7 @@ impl Print<'_> {
                 tasks.extend(self.list(", ", *arguments, ")"));
             }
             DirectiveKind::OldStream(of) => tasks.extend(value("#render ", *of)),
+            DirectiveKind::Unread => tasks.push(Task::Source(self.ast.directive(id).head)),
             DirectiveKind::Malformed => {}
         }
         self.push(tasks);

@@ -6,7 +6,7 @@ use super::habits::{color_at, is_no_number};
 use super::token::{Bracket, Head, Mark, Token, TokenKind, directive_word};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, suggest};
 use crate::source::{FileId, Span};
-use crate::vocabulary::{Role, Word};
+use crate::vocabulary::{Dialect, Role, Word};
 
 /// What other languages write.
 const FOREIGN: &[(&str, &str)] = &[
@@ -45,6 +45,7 @@ pub(super) fn correct_heads(
     tokens: &mut Vec<Token>,
     text: &str,
     file: FileId,
+    dialect: Dialect,
     diagnostics: &mut Diagnostics,
 ) {
     let (mut before, mut pairs) = (None, HashSet::new());
@@ -77,13 +78,14 @@ pub(super) fn correct_heads(
         let mut diagnostic =
             Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
                 .at(span, "unknown word after `#`");
-        // `#camera { … }`
-        if let Some(ours) = Word::from_name(word).filter(|_| is_brace(next))
-            && ours.role() == Role::Statement
-        {
+        // `#camera { … }`; POV-Ray 3.7 passes over the sign before any word of the language (measured).
+        let ours = Word::from_name(word);
+        let is_block = is_brace(next) && ours.is_some_and(|ours| ours.role() == Role::Statement);
+        if let Some(ours) = ours.filter(|_| is_block || dialect == Dialect::Pov) {
             let start = span.end - word.len() as u32;
             let sign = Span { end: start, ..span };
-            diagnostics.push(diagnostic.help(format!("write `{word}` without `#`")).fix(sign, ""));
+            let told = diagnostic.help(format!("write `{word}` without `#`")).fix(sign, "");
+            diagnostics.push(if dialect == Dialect::Pov { told.as_warning() } else { told });
             *token = Token { kind: TokenKind::Word(ours), start, ..*token };
             continue;
         }

@@ -37,6 +37,8 @@ pub(super) enum TokenKind {
     LooseClose,
     /// Stands in for the body of a macro whose other brackets pair only after expansion.
     Raw,
+    /// Stands in for a body that stays text until it is run.
+    Unread,
     /// A character without meaning, or a `#` without a word.
     Stray,
 }

@@ -3,9 +3,11 @@
 //! **In:** a word that the vocabulary calls inert. **Out:** nothing but what is wrong with it.
 //! **Invariant:** neither what it holds nor poison in it reaches the scene.
 
-use crate::vocabulary::Word;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
 use super::super::{Evaluator, Outcome};
 use super::Place;
 
@@ -68,5 +70,30 @@ impl Evaluator<'_> {
                 Ok(())
             }
         }
+    }
+
+    /// `sphere { 0, 1 color Red }`: a colour beside the pigment of an object, which POV-Ray 3.7 passes over
+    /// (measured).
+    pub(super) fn quick_color(&mut self, token: &Token) -> Option<Outcome<()>> {
+        let is_color = match token.kind {
+            TokenKind::Word(word) => word.family() == Family::Color,
+            TokenKind::Expression(id) => {
+                matches!(self.named(&token.here, id), Some(Value::Color(_)))
+            }
+            _ => false,
+        };
+        if self.options.dialect == Dialect::Scene || !is_color || self.peeked.is_some() {
+            return None;
+        }
+        self.peeked = Some(token.clone());
+        let color = match self.color_after(token, "a colour") {
+            Ok(color) => color,
+            Err(reported) => return Some(Err(reported)),
+        };
+        let message = "a colour stands in an object, outside of its pigment";
+        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+            .at(color.span, "it has no effect")
+            .help("the colour of an object stands in its pigment: `pigment { color … }`");
+        Some(self.opinion(&token.here, diagnostic))
     }
 }

@@ -98,7 +98,7 @@ impl Evaluator<'_> {
                     }
                 }
                 Some(Err(Reported)) => failed = true,
-                None => match self.inert(&token, place()) {
+                None => match self.quick_color(&token).or_else(|| self.inert(&token, place())) {
                     Some(outcome) => failed |= outcome.is_err(),
                     None => {
                         self.unexpected(&token, place());

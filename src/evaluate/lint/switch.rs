@@ -61,7 +61,10 @@ fn may_break(ast: &Ast, items: Items) -> bool {
     ast.items(items).iter().any(|item| match item.kind {
         ItemKind::Block(inside) => may_break(ast, inside),
         ItemKind::Directive(id) => match &ast.directive(id).kind {
-            DirectiveKind::Break | DirectiveKind::Error(_) | DirectiveKind::Malformed => true,
+            DirectiveKind::Break
+            | DirectiveKind::Error(_)
+            | DirectiveKind::Unread
+            | DirectiveKind::Malformed => true,
             DirectiveKind::If { then, otherwise, .. } => {
                 may_break(ast, *then) || may_break(ast, *otherwise)
             }

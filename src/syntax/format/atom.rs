@@ -280,7 +280,7 @@ impl<'a> List<'a> {
             }
             TokenKind::LooseOpen => Kind::LooseOpen,
             TokenKind::LooseClose => Kind::LooseClose,
-            TokenKind::Raw => return self.raw(start, end),
+            TokenKind::Raw | TokenKind::Unread => return self.raw(start, end),
             TokenKind::Stray => Kind::Stray,
             TokenKind::Mark(mark) => self.mark(mark, role),
             // A vector's brackets in a run: see `parts`.

@@ -34,7 +34,9 @@ pub fn format(
     diagnostics: &mut Diagnostics,
 ) -> Result<String, Unformatted> {
     let mut found = Diagnostics::new(false);
-    let ast = parse(source, file, options, &mut found);
+    // What cannot be read has no layout, run or not.
+    let all = ParseOptions { defers: false, ..*options };
+    let ast = parse(source, file, &all, &mut found);
     let broken = found.has_errors();
     found.iter().for_each(|diagnostic| diagnostics.push(diagnostic.clone()));
     if broken {

@@ -66,12 +66,14 @@ impl Reader<'_> {
             return false;
         }
         let span = self.span(0, 0);
-        self.diagnostics.push(
-            Diagnostic::new(Code::UnknownDirective, "`version` needs a `#` before it")
-                .at(span, "a directive without its `#`")
-                .help("write `#version`")
-                .fix(Span { end: span.start, ..span }, "#"),
-        );
+        let told = Diagnostic::new(Code::UnknownDirective, "`version` needs a `#` before it")
+            .at(span, "a directive without its `#`")
+            .help("write `#version`")
+            .fix(Span { end: span.start, ..span }, "#");
+        self.diagnostics.push(match self.needs_no_hash(Word::Version) {
+            true => told.as_warning(),
+            false => told,
+        });
         meant.push(Token { kind: TokenKind::Directive(Head::Version), ..self.tokens[self.at] });
         self.at += 1;
         true

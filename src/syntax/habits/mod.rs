@@ -48,12 +48,13 @@ pub(super) use self::web::color_at;
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 pub(super) fn translate(
     tokens: Vec<Token>,
     text: &str,
     file: FileId,
+    dialect: Dialect,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Token> {
     let mut reader = Reader {
@@ -61,6 +62,7 @@ pub(super) fn translate(
         at: 0,
         text,
         file,
+        dialect,
         inside: Vec::new(),
         dropped: HashMap::new(),
         ends_before: HashSet::new(),
@@ -105,6 +107,7 @@ struct Reader<'a> {
     text: &'a str,
     file: FileId,
     /// The brackets around the place reached.
+    dialect: Dialect,
     inside: Vec<Inside>,
     /// Tokens to be left out, such as the braces of a directive's body; and whether each is meant as `#end`.
     dropped: HashMap<usize, bool>,
@@ -369,6 +372,10 @@ impl Reader<'_> {
                 .at(span, "a directive without its `#`")
                 .help(format!("write `#{name}`"))
                 .fix(Span { end: span.start, ..span }, "#");
+        let diagnostic = match self.needs_no_hash(word) {
+            true => diagnostic.as_warning(),
+            false => diagnostic,
+        };
         if !after_paren
             && matches!(
                 word,
@@ -393,6 +400,13 @@ impl Reader<'_> {
         });
         self.at += 1;
         true
+    }
+
+    /// Whether POV-Ray 3.7 takes this word for its directive also without the `#` (measured).
+    fn needs_no_hash(&self, word: Word) -> bool {
+        self.dialect == Dialect::Pov
+            && self.inside.is_empty()
+            && matches!(word, Word::Declare | Word::Include | Word::Version)
     }
 
     /// Where the bracket that opens at `ahead` closes, if it is this kind of bracket.

@@ -145,6 +145,7 @@ impl<'a> Legacy<'a> {
             | DirectiveKind::Read { .. }
             | DirectiveKind::Write { .. }
             | DirectiveKind::OldStream(_)
+            | DirectiveKind::Unread
             | DirectiveKind::Malformed => {}
         }
     }

@@ -1,0 +1,147 @@
+//! Bodies of directives that cannot be read: in a `.pov` each stays text until it is run.
+//!
+//! **In:** a text that has mistakes, and where they are. **Out:** the bodies around them, of macros, branches,
+//! loops and cases. **Invariant:** with these left out the rest of the text has no mistake; POV-Ray 3.7 passes
+//! over what it does not run word by word (measured), so a mistake in there is one only where it is run.
+
+use std::ops::Range;
+
+use super::ParseOptions;
+use super::balance::{Opener, Turn, turn};
+use super::blank::blanked;
+use super::comment::Quiet;
+use super::loose::body_start;
+use super::token::{Bracket, Head, Mark, Token, TokenKind, tokens};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::vocabulary::Dialect;
+
+/// How often a text is read for the mistakes behind those that were found before.
+const MOST_READINGS: usize = 16;
+
+/// Whether mistakes in what is never run are looked for at all.
+pub(super) fn is_asked_for(options: &ParseOptions) -> bool {
+    options.defers && options.dialect == Dialect::Pov
+}
+
+/// The bodies to leave unread so that `read` finds no mistake in the rest; `None` where some mistake stands in
+/// none. `first` is what it finds in the whole.
+pub(super) fn bodies_around_mistakes(
+    quiet_text: &str,
+    first: &Diagnostics,
+    mut read: impl FnMut(&[Range<usize>]) -> Diagnostics,
+) -> Option<Vec<Range<usize>>> {
+    let bodies = bodies(&tokens(quiet_text), quiet_text);
+    let mut unread: Vec<Range<usize>> = Vec::new();
+    let mut found = first.clone();
+    for _ in 0..MOST_READINGS {
+        let mut more = Vec::new();
+        for mistake in found.iter().filter(|one| one.is_error()) {
+            more.push(innermost_around(mistake, &bodies, &unread)?);
+        }
+        if more.is_empty() {
+            return Some(unread);
+        }
+        for body in more {
+            if unread.iter().any(|known| known.start <= body.start && body.end <= known.end) {
+                continue;
+            }
+            unread.retain(|known| !(body.start <= known.start && known.end <= body.end));
+            unread.push(body);
+        }
+        unread.sort_unstable_by_key(|body| body.start);
+        found = read(&unread);
+    }
+    None
+}
+
+/// The smallest body around a mistake that is not left out already.
+fn innermost_around(
+    mistake: &Diagnostic,
+    bodies: &[Range<usize>],
+    unread: &[Range<usize>],
+) -> Option<Range<usize>> {
+    // What such a mistake swallows is no body.
+    if matches!(mistake.code, Code::UnclosedString | Code::UnclosedComment | Code::NestingLimit) {
+        return None;
+    }
+    let place = mistake.primary()?.span.range();
+    let holds = |body: &&Range<usize>| {
+        body.start <= place.start && place.end <= body.end && !unread.contains(body)
+    };
+    bodies.iter().filter(holds).min_by_key(|body| body.len()).cloned()
+}
+
+/// The quiet text with blanks in the place of what is not read, and the tokens of the rest, with one for each
+/// body left out.
+pub(super) fn leave_out(quiet: &mut Quiet, unread: &[Range<usize>]) {
+    let inside = |at: usize| unread.iter().any(|body| body.contains(&at));
+    quiet.comments.retain(|comment| !inside(comment.start as usize));
+    quiet.text = blanked(std::mem::take(&mut quiet.text), unread.to_vec());
+}
+
+/// Adds a token for each body that was left out.
+pub(super) fn stand_in(tokens: &mut Vec<Token>, unread: &[Range<usize>]) {
+    for body in unread {
+        let at = tokens.partition_point(|token| (token.start as usize) < body.start);
+        let (start, end) = (body.start as u32, body.end as u32);
+        tokens.insert(at, Token { kind: TokenKind::Unread, start, end });
+    }
+}
+
+/// The bodies of all directives, without the blanks around them.
+fn bodies(tokens: &[Token], text: &str) -> Vec<Range<usize>> {
+    let (mut open, mut bodies): (Vec<Option<usize>>, _) = (Vec::new(), Vec::new());
+    let mut close = |begun: Option<usize>, end: usize| {
+        let Some(first) = begun.filter(|first| *first < end) else { return };
+        bodies.push(tokens[first].start as usize..tokens[end - 1].end as usize);
+    };
+    for (at, token) in tokens.iter().enumerate() {
+        match (turn(token.kind), token.kind) {
+            (Some(Turn::Open(Opener::Directive)), TokenKind::Directive(head)) => {
+                open.push(behind_head(tokens, at, head));
+            }
+            (Some(Turn::Divide), TokenKind::Directive(head)) => {
+                if let Some(begun) = open.last_mut() {
+                    close(begun.take(), at);
+                    *begun = behind_head(tokens, at, head);
+                }
+            }
+            (Some(Turn::Close(Opener::Directive)), _) => {
+                if let Some(begun) = open.pop() {
+                    close(begun, at);
+                }
+            }
+            _ => {}
+        }
+    }
+    debug_assert!(bodies.iter().all(|body| body.end <= text.len()));
+    bodies
+}
+
+/// The first token behind the head of a directive, with what it asks in parentheses.
+fn behind_head(tokens: &[Token], at: usize, head: Head) -> Option<usize> {
+    match head {
+        Head::Else => Some(at + 1),
+        Head::Macro => body_start(tokens, at),
+        // Up to its first case nothing is run.
+        Head::Switch => None,
+        _ => {
+            let mut depth = 0_usize;
+            for (place, token) in tokens.iter().enumerate().skip(at + 1) {
+                match token.kind {
+                    TokenKind::Mark(Mark::Open(Bracket::Round)) => depth += 1,
+                    TokenKind::Mark(Mark::Close(Bracket::Round)) => {
+                        depth = depth.checked_sub(1)?;
+                        if depth == 0 {
+                            return Some(place + 1);
+                        }
+                    }
+                    TokenKind::Directive(_) => return None,
+                    _ if depth == 0 => return None,
+                    _ => {}
+                }
+            }
+            None
+        }
+    }
+}
