@@ -290,7 +290,7 @@ pub struct Found {
 pub enum FileError {
     /// Nothing of that name; the folders that were searched, and names there that are near.
     NotFound { searched: Vec<String>, similar: Vec<String> },
-    /// It lies outside the scene's folder and the include folders.
+    /// It lies outside the folders that may be read, where only these may.
     Forbidden,
     /// It is there and cannot be read: the system's reason.
     Unreadable(String),
@@ -326,6 +326,11 @@ pub trait Files {
 
     /// Adds to a file that was started, by the name it is found under.
     fn add(&self, _name: &str, _bytes: &[u8]) {}
+}
+
+/// The last part of a path as scenes write it, on any system: behind `/`, `\` or the `:` of a drive.
+pub fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\', ':']).next().unwrap_or(path)
 }
 
 /// No files at all: for texts that stand alone.

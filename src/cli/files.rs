@@ -1,8 +1,8 @@
-//! Files on disk, within the folders that may be read.
+//! Files on disk, as a scene names them.
 //!
-//! **Invariant:** nothing outside of the scene's folder, the `-I` folders and POV-Ray's well-known include
-//! folders is read, whatever a name says and wherever a link leads; the same file always has the
-//! same name. What the scene writes is read as it will be.
+//! **Invariant:** the same file always has the same name. With `--sandbox`, nothing outside of the scene's
+//! folder, the `-I` folders and POV-Ray's well-known include folders is read, whatever a name says and
+//! wherever a link leads. What the scene writes is read as it will be.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
 use lucarne::diagnostic::suggest::closest;
-use lucarne::source::{FileError, Files, Found, WriteError};
+use lucarne::source::{FileError, Files, Found, WriteError, file_name};
 use lucarne::vocabulary::is_standard_include;
 
 use super::exit::{Failure, reason};
@@ -30,10 +30,12 @@ const WELL_KNOWN: &[&str] = &[
 /// Where Debian keeps POV-Ray's fonts: its include folder only has links that lead there.
 const FONTS: &str = "/usr/share/fonts/truetype/povray";
 
-/// The folders one scene may read.
+/// The files that one scene reads.
 pub struct DiskFiles {
     /// In the order they are searched, after the including file's own: as named, and in truth.
     folders: Vec<(PathBuf, PathBuf)>,
+    /// Nothing outside of these folders is read.
+    sandbox: bool,
     /// The name each file got when it was first found, by its true path.
     names: Mutex<BTreeMap<PathBuf, String>>,
     /// What the scene writes, where it may.
@@ -56,13 +58,14 @@ impl DiskFiles {
             .filter(|(_, truth)| truth.is_dir())
             .collect();
         let names = fs::canonicalize(main).map(|truth| (truth, main.display().to_string()));
-        Self { folders, names: Mutex::new(names.into_iter().collect()), written: None }
+        let names = Mutex::new(names.into_iter().collect());
+        Self { folders, sandbox: false, names, written: None }
     }
 
     /// The folders of a main file, as the command line has them, and the leave to write.
     pub fn of(main: &Path, arguments: &SceneArguments) -> Self {
         let written = arguments.allow_write.then(Written::here);
-        Self { written, ..Self::new(main, &arguments.include) }
+        Self { written, sandbox: arguments.sandbox, ..Self::new(main, &arguments.include) }
     }
 
     /// Writes what the scene has written, if it is `whole`.
@@ -76,8 +79,18 @@ impl DiskFiles {
     }
 
     fn allowed(&self, truth: &Path) -> bool {
-        self.folders.iter().any(|(_, folder)| truth.starts_with(folder))
+        !self.sandbox
+            || self.folders.iter().any(|(_, folder)| truth.starts_with(folder))
             || self.written.as_ref().is_some_and(|written| written.covers(truth))
+    }
+
+    /// Whether it may be known if there is a file at `path`: outside of a sandbox that is nobody's business.
+    fn may_be_seen(&self, path: &Path) -> bool {
+        let mut folders = path.ancestors().skip(1);
+        !self.sandbox
+            || folders
+                .find_map(|folder| fs::canonicalize(or_here(folder)).ok())
+                .is_some_and(|folder| self.allowed(&folder))
     }
 
     /// The name of a file: the one it was first found by.
@@ -98,33 +111,42 @@ impl DiskFiles {
         Some(Found { name: self.name(truth, path), bytes })
     }
 
-    /// Names near a missing one, in the folders where it was looked for.
-    fn similar(&self, tried: &[PathBuf]) -> Vec<String> {
+    /// Names that may be meant instead of a missing one: its last part alone, where that is found in one of
+    /// the `folders`; and names near it, where it was looked for.
+    fn similar(&self, name: &str, folders: &[PathBuf], tried: &[PathBuf]) -> Vec<String> {
         let mut similar = Vec::new();
+        let last = file_name(name);
+        let is_there = |folder: &PathBuf| {
+            fs::canonicalize(folder.join(last))
+                .is_ok_and(|path| path.is_file() && self.allowed(&path))
+        };
+        if last != name && folders.iter().any(is_there) {
+            similar.push(last.to_owned());
+        }
         for path in tried {
-            let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { continue };
+            let (Some(folder), Some(last)) = (path.parent(), path.file_name()) else { continue };
             let folder = or_here(folder);
             let known = fs::canonicalize(folder).is_ok_and(|truth| self.allowed(&truth));
             let Some(entries) = known.then(|| fs::read_dir(folder).ok()).flatten() else {
                 continue;
             };
+            let last = last.to_string_lossy();
+            // A link that leads nowhere has the missing name itself.
             let names: Vec<String> = entries
                 .flatten()
                 .filter_map(|entry| entry.file_name().into_string().ok())
+                .filter(|other| *other != last)
                 .collect();
-            let (name, names) = (name.to_string_lossy(), names.iter().map(String::as_str));
-            let whole = format!("{name}.inc");
+            let whole = format!("{last}.inc");
+            let mut names = names.iter().map(String::as_str);
             let near =
-                names.clone().find(|other| *other == whole).or_else(|| closest(&name, names));
-            similar.extend(near.map(str::to_owned));
-        }
-        let mut seen = Vec::new();
-        similar.retain(|name| {
-            !seen.contains(name) && {
-                seen.push(name.clone());
-                true
+                names.clone().find(|other| *other == whole).or_else(|| closest(&last, &mut names));
+            // Beside what was named.
+            let near = near.map(|near| Path::new(name).with_file_name(near).display().to_string());
+            if let Some(near) = near.filter(|near| !similar.contains(near)) {
+                similar.push(near);
             }
-        });
+        }
         similar
     }
 }
@@ -135,9 +157,9 @@ impl Files for DiskFiles {
         // What is written in the current folder is found there again, before all others.
         let current = self.written.as_ref().map(|_| PathBuf::new());
         let folders = self.folders.iter().map(|(folder, _)| folder.clone());
-        let folders = current.into_iter().chain([here]).chain(folders);
+        let folders: Vec<PathBuf> = current.into_iter().chain([here]).chain(folders).collect();
         let mut tried: Vec<PathBuf> = Vec::new();
-        for folder in folders {
+        for folder in &folders {
             let path = plain(&folder.join(name));
             if !tried.contains(&path) {
                 tried.push(path);
@@ -145,10 +167,7 @@ impl Files for DiskFiles {
         }
         let (mut inside, mut leads_out) = (false, false);
         for path in &tried {
-            // Even whether it exists is nobody's business outside of the folders.
-            let mut folders = path.ancestors().skip(1);
-            let folder = folders.find_map(|folder| fs::canonicalize(or_here(folder)).ok());
-            if !folder.is_some_and(|folder| self.allowed(&folder)) {
+            if !self.may_be_seen(path) {
                 continue;
             }
             inside = true;
@@ -178,7 +197,7 @@ impl Files for DiskFiles {
             let absent = WELL_KNOWN.iter().filter(|folder| !Path::new(folder).is_dir());
             searched.extend(absent.map(|folder| format!("{folder} (not there)")));
         }
-        Err(FileError::NotFound { searched, similar: self.similar(&tried) })
+        Err(FileError::NotFound { searched, similar: self.similar(name, &folders, &tried) })
     }
 
     fn start(&self, name: &str, append: bool) -> Result<String, WriteError> {
@@ -203,14 +222,15 @@ pub fn or_here(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
-/// A path without `.` and, where it can be told from the path alone, without `..`.
+/// A path without `.` and, where none of its folders is a link, without `..`.
 fn plain(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for part in path.components() {
         match part {
             Component::CurDir => {}
             Component::ParentDir
-                if matches!(plain.components().next_back(), Some(Component::Normal(_))) =>
+                if matches!(plain.components().next_back(), Some(Component::Normal(_)))
+                    && !plain.is_symlink() =>
             {
                 plain.pop();
             }
@@ -251,134 +271,4 @@ pub fn exist(folders: &[PathBuf]) -> Result<(), Failure> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    struct Place {
-        root: tempfile::TempDir,
-    }
-
-    impl Place {
-        fn new(files: &[&str]) -> Self {
-            let root = tempfile::tempdir().expect("a folder");
-            for file in files {
-                let path = root.path().join(file);
-                fs::create_dir_all(path.parent().expect("a parent")).expect("folders");
-                fs::write(path, file).expect("written");
-            }
-            Self { root }
-        }
-
-        fn path(&self, name: &str) -> PathBuf {
-            self.root.path().join(name)
-        }
-
-        fn files(&self, include: &[&str]) -> DiskFiles {
-            let include: Vec<PathBuf> = include.iter().map(|name| self.path(name)).collect();
-            DiskFiles::new(&self.path("scene/main.scene"), &include)
-        }
-
-        fn read(&self, files: &DiskFiles, name: &str) -> Result<String, FileError> {
-            let main = self.path("scene/main.scene").display().to_string();
-            files.read(name, &main).map(|found| String::from_utf8_lossy(&found.bytes).into_owned())
-        }
-    }
-
-    #[test]
-    fn folders_are_searched_in_order() {
-        let place =
-            Place::new(&["scene/a.inc", "one/a.inc", "one/b.inc", "two/b.inc", "two/c.inc"]);
-        let files = place.files(&["one", "two"]);
-        assert_eq!(place.read(&files, "a.inc").as_deref(), Ok("scene/a.inc"));
-        assert_eq!(place.read(&files, "b.inc").as_deref(), Ok("one/b.inc"));
-        assert_eq!(place.read(&files, "c.inc").as_deref(), Ok("two/c.inc"));
-    }
-
-    #[test]
-    fn an_include_finds_its_neighbours_first() {
-        let place = Place::new(&["scene/a.inc", "scene/parts/b.inc", "scene/parts/a.inc"]);
-        let files = place.files(&[]);
-        let found = files.read("a.inc", &place.path("scene/parts/b.inc").display().to_string());
-        assert_eq!(found.expect("found").bytes, b"scene/parts/a.inc");
-    }
-
-    #[test]
-    fn a_name_that_leads_out_is_forbidden() {
-        let place = Place::new(&["scene/a.inc", "secret.inc", "scene/parts/b.inc"]);
-        let files = place.files(&[]);
-        assert_eq!(place.read(&files, "../secret.inc"), Err(FileError::Forbidden));
-        assert_eq!(place.read(&files, "../no_such.inc"), Err(FileError::Forbidden));
-        assert_eq!(place.read(&files, "parts/../../secret.inc"), Err(FileError::Forbidden));
-        assert_eq!(place.read(&files, "/etc/hostname"), Err(FileError::Forbidden));
-        assert_eq!(place.read(&files, "parts/../a.inc").as_deref(), Ok("scene/a.inc"));
-        let absolute = place.path("scene/a.inc").display().to_string();
-        assert_eq!(place.read(&files, &absolute).as_deref(), Ok("scene/a.inc"));
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_link_that_leads_out_is_not_followed() {
-        let place = Place::new(&["scene/a.inc", "secret.inc"]);
-        let (secret, link) = (place.path("secret.inc"), place.path("scene/link.inc"));
-        std::os::unix::fs::symlink(secret, link).expect("a link");
-        std::os::unix::fs::symlink(place.path("scene/a.inc"), place.path("scene/near.inc"))
-            .expect("a link");
-        let files = place.files(&[]);
-        assert_eq!(place.read(&files, "link.inc"), Err(FileError::Forbidden));
-        assert_eq!(place.read(&files, "near.inc").as_deref(), Ok("scene/a.inc"));
-    }
-
-    #[test]
-    fn one_file_has_one_name() {
-        let place = Place::new(&["scene/main.scene", "scene/a.inc", "scene/parts/b.inc"]);
-        let files = place.files(&["scene"]);
-        let main = place.path("scene/main.scene").display().to_string();
-        let name = |name: &str| files.read(name, &main).expect("found").name;
-        assert_eq!(name("main.scene"), main);
-        assert_eq!(name("parts/../a.inc"), name("./a.inc"));
-    }
-
-    #[test]
-    fn a_missing_file_has_the_folders_searched_and_a_near_name() {
-        let place = Place::new(&["scene/colours.inc", "one/x.inc"]);
-        let files = place.files(&["one"]);
-        let Err(FileError::NotFound { searched, similar }) = place.read(&files, "colors.inc2")
-        else {
-            panic!("found")
-        };
-        assert!(searched.len() >= 2);
-        assert_eq!(similar[0], "colours.inc");
-    }
-
-    #[test]
-    fn a_standard_include_names_the_folders_that_are_not_there_too() {
-        let place = Place::new(&["scene/main.scene"]);
-        let main = place.path("scene/main.scene");
-        let mut files = place.files(&[]);
-        files.folders.truncate(1);
-        let main = main.display().to_string();
-        let searched = |name: &str| match files.read(name, &main) {
-            Err(FileError::NotFound { searched, .. }) => searched.join(", "),
-            other => panic!("{other:?}"),
-        };
-        let absent = WELL_KNOWN.iter().filter(|folder| !Path::new(folder).is_dir()).count();
-        assert_eq!(searched("colors.inc").matches("(not there)").count(), absent);
-        assert!(!searched("mine.inc").contains("(not there)"));
-    }
-
-    #[test]
-    fn the_page_of_the_language_names_the_well_known_folders() {
-        let page = include_str!("../../docs/language.md");
-        for folder in WELL_KNOWN {
-            assert!(page.contains(&format!("`{folder}`")), "{folder}");
-        }
-    }
-
-    #[test]
-    fn a_folder_is_no_file() {
-        let place = Place::new(&["scene/parts/a.inc"]);
-        let files = place.files(&[]);
-        let wrong = place.read(&files, "parts");
-        assert_eq!(wrong, Err(FileError::Unreadable("it is a folder".to_owned())));
-    }
-}
+mod tests;

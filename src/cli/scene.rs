@@ -29,6 +29,10 @@ pub struct SceneArguments {
     /// and string (in MiB), pixels
     #[arg(long = "limit", value_name = "NAME=N", value_parser = limit)]
     limits: Vec<(Limit, u64)>,
+    /// Let the scene read only files in its own folder, in the `-I` folders and where POV-Ray's includes
+    /// are installed
+    #[arg(long)]
+    pub sandbox: bool,
     /// Let the scene write files, below the current folder, once it has been read without errors.
     /// (`render` writes them; other commands say what it would write)
     #[arg(long)]

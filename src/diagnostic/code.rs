@@ -177,7 +177,7 @@ codes! {
     // files
     MissingInclude "missing-include" error "an included file is not found";
     CircularInclude "circular-include" error "a file includes itself";
-    ForbiddenFile "forbidden-file" error "a file lies outside the folders that may be read, or may not be written";
+    ForbiddenFile "forbidden-file" error "a file lies outside the folders that `--sandbox` allows, or may not be written";
     ForeignFile "foreign-file" error "a file is another program's, and no scene";
     MalformedMesh "malformed-mesh" error "a mesh's file is not what its format says, or of no format that is read";
     IncompleteMesh "incomplete-mesh" sure "a mesh's file asks for what is not there, or not read";

@@ -8,7 +8,7 @@ use std::rc::Rc;
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::mesh_file;
-use crate::source::{ExpansionKind, FileError, Found, Source, Span, decode};
+use crate::source::{ExpansionKind, FileError, Found, Source, Span, decode, file_name};
 use crate::standard;
 use crate::syntax::ast::{Ast, ExpressionId, ExpressionKind};
 use crate::syntax::{self, ParseOptions};
@@ -79,19 +79,7 @@ impl Evaluator<'_> {
                         return Err(Reported);
                     }
                     Err(error) => {
-                        let slashed = name.replace('\\', "/");
-                        let diagnostic = missing_file(&name, span, error, |_| true);
-                        let diagnostic = if slashed == name {
-                            diagnostic
-                        } else if diagnostic.fixes.is_empty()
-                            && self.files.read(&slashed, &from).is_ok()
-                        {
-                            let quoted = format!("\"{slashed}\"");
-                            let help = format!("folders are parted by `/`: write `{quoted}`");
-                            diagnostic.help(help).fix(span, quoted)
-                        } else {
-                            diagnostic.help(format!("folders are parted by `/`: `{slashed}`"))
-                        };
+                        let diagnostic = self.missing_include(&name, &from, span, error);
                         let meant = match &diagnostic.fixes[..] {
                             [fix] => fix.text.trim_matches('"').to_owned(),
                             _ => String::new(),
@@ -133,11 +121,27 @@ impl Evaluator<'_> {
     fn found(&self, name: &str, from: &str) -> Result<Found, FileError> {
         let as_named = self.files.read(name, from).or_else(embedded(name));
         match as_named {
-            Err(FileError::NotFound { .. }) if !name.contains('.') => {
+            Err(FileError::NotFound { .. }) if !file_name(name).contains('.') => {
                 let whole = format!("{name}.inc");
                 self.files.read(&whole, from).or_else(embedded(&whole)).or(as_named)
             }
             found => found,
+        }
+    }
+
+    /// What is said of an include that cannot be had, where its `\` may have to be `/`.
+    fn missing_include(&self, name: &str, from: &str, span: Span, error: FileError) -> Diagnostic {
+        let slashed = name.replace('\\', "/");
+        let is_there = slashed != name && self.files.read(&slashed, from).is_ok();
+        let diagnostic = missing_file(name, span, error, |_| !is_there);
+        if is_there {
+            let quoted = format!("\"{slashed}\"");
+            let help = format!("folders are parted by `/`: write `{quoted}`");
+            diagnostic.help(help).fix(span, quoted)
+        } else if slashed != name && !is_absolute(name) {
+            diagnostic.help(format!("folders are parted by `/`: `{slashed}`"))
+        } else {
+            diagnostic
         }
     }
 
@@ -245,14 +249,21 @@ pub(super) fn embedded(name: &str) -> impl FnOnce(FileError) -> Result<Found, Fi
     }
 }
 
+/// Whether a path begins at the root, or with a drive of Windows: such a one is searched for in no folder.
+fn is_absolute(name: &str) -> bool {
+    name.starts_with(['/', '\\']) || name.get(1..2) == Some(":")
+}
+
 /// Whether a file that is like `name` is meant for certain: `tree1` is not `tree2`, and short names are like
 /// too many.
 fn is_the_same_but_misspelt(name: &str, like: &str) -> bool {
+    let (name, like) = (file_name(name), file_name(like));
     let digits = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<String>();
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     let letters = stem.chars().filter(|c| c.is_alphabetic()).count();
     let ending = like.strip_prefix(name).unwrap_or("");
-    let is_ended = ending == ".inc" || ending.starts_with('.') && mesh_file::is_named(ending);
+    let is_ended =
+        name == like || ending == ".inc" || ending.starts_with('.') && mesh_file::is_named(ending);
     is_ended || (digits(name) == digits(like) && letters >= 4)
 }
 
@@ -269,7 +280,8 @@ pub(super) fn missing_file(
                 Diagnostic::new(Code::MissingInclude, format!("`{name}` is not found"))
                     .at(span, "no file of this name");
             // One that is built in lies in no folder.
-            let stem = name.strip_suffix(".inc").unwrap_or(name);
+            let last = file_name(name);
+            let stem = last.strip_suffix(".inc").unwrap_or(last);
             let same = || standard_includes().find(|include| *include == stem);
             let standard = || same().or_else(|| closest(stem, standard_includes()));
             let standard = || standard().map(|near| format!("{near}.inc"));
@@ -282,20 +294,21 @@ pub(super) fn missing_file(
             if !searched.is_empty() {
                 diagnostic = diagnostic.help(format!("searched in {}", searched.join(", ")));
             }
-            diagnostic.help(match is_standard_include(name) {
-                true => {
+            match is_standard_include(name) {
+                true => diagnostic.help(
                     "it comes with POV-Ray: install its includes (Debian: povray-includes), or give \
-                     their folder with `-I FOLDER`"
-                }
-                false => "`-I FOLDER` adds a folder to search",
-            })
+                     their folder with `-I FOLDER`",
+                ),
+                false if is_absolute(name) => diagnostic,
+                false => diagnostic.help("`-I FOLDER` adds a folder to search"),
+            }
         }
         FileError::Forbidden => Diagnostic::new(
             Code::ForbiddenFile,
-            format!("`{name}` lies outside the folders that may be read"),
+            format!("`{name}` lies outside the folders that `--sandbox` lets a scene read"),
         )
         .at(span, "outside the scene's folder and the `-I` folders")
-        .help("`-I FOLDER` allows reading below a folder"),
+        .help("without `--sandbox` any file is read; `-I FOLDER` adds a folder to those that it lets a scene read"),
         FileError::Unreadable(reason) => {
             Diagnostic::new(Code::UnreadableFile, format!("`{name}` cannot be read: {reason}"))
                 .at(span, "this file")

@@ -104,7 +104,9 @@ impl Evaluator<'_> {
             let file = files.read(other, &found.name);
             file.map(|file| file.bytes).map_err(|error| match error {
                 FileError::NotFound { .. } => "which is not found".to_owned(),
-                FileError::Forbidden => "outside of the folders that may be read".to_owned(),
+                FileError::Forbidden => {
+                    "outside of the folders that `--sandbox` lets a scene read".to_owned()
+                }
                 FileError::Unreadable(reason) => format!("which cannot be read: {reason}"),
             })
         };
