@@ -1,5 +1,7 @@
 //! The program as it is used: real runs, in folders of their own.
 
+#[path = "command_line/language.rs"]
+mod language;
 #[path = "command_line/reading.rs"]
 mod reading;
 

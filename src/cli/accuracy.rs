@@ -44,9 +44,10 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     }
     svg_path.map_or(Ok(()), can_be_made)?;
     let bytes = read_main(&arguments.file)?;
+    let dialect = arguments.scene.dialect(&arguments.file, &bytes);
     let life = progress::life("reading the scene");
     let files = DiskFiles::of(&arguments.file, &arguments.scene);
-    let mut road = Road::new(&files, arguments.scene.options(&arguments.file, Some(frame)));
+    let mut road = Road::new(&files, arguments.scene.options(dialect, Some(frame)));
     let name = name_of(&arguments.file);
     let (world, origins) = road.compile(&name, bytes);
     let mut messages = arguments.scene.messages();

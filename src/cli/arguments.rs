@@ -6,8 +6,10 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use lucarne::diagnostic::{Code, Level};
 use lucarne::plan::{Antialias, Frame, PlanOptions, Precision, Region};
 use lucarne::road::Options;
+use lucarne::scene::Dialect;
 
 use super::exit::Failure;
+use super::language::Language;
 use super::messages;
 use super::scene::SceneArguments;
 use super::values::{
@@ -56,7 +58,7 @@ pub enum Command {
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// The scene: `.scene`, or POV-Ray's `.pov`; `-` reads a `.scene` from standard input
+    /// The scene: `.scene`, or POV-Ray's `.pov`; `-` reads standard input
     pub file: PathBuf,
     /// Where to write; the extension chooses the format: png jpg ppm qoi hdr exr; `-` writes a PNG
     /// to standard output [default: the scene's name with .png, in the current folder]
@@ -156,6 +158,9 @@ pub struct FmtArguments {
     /// Write nothing; print what would change
     #[arg(long)]
     pub diff: bool,
+    /// The language of the files [default: by the end of the name, `.pov` or `.scene`, else by the text]
+    #[arg(long, value_enum, value_name = "pov|scene")]
+    pub language: Option<Language>,
     /// How messages about files that cannot be read are shown
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub message_format: messages::Format,
@@ -291,10 +296,10 @@ pub enum PrecisionArgument {
 }
 
 impl CheckArguments {
-    /// What the road takes, for a main file of this name.
-    pub fn options(&self, file: &Path) -> Options {
+    /// What the road takes, for a main file of this name and language.
+    pub fn options(&self, file: &Path, dialect: Dialect) -> Options {
         let frame = self.size.map(|(width, height)| Frame::whole(width, height));
-        let mut options = self.scene.options(file, frame);
+        let mut options = self.scene.options(dialect, frame);
         // Alone, an include is a part of a scene that is not known.
         if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inc")) {
             OF_WHOLE_SCENES.iter().for_each(|code| options.levels.set_unnamed(*code, Level::Allow));

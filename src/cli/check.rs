@@ -5,6 +5,7 @@ use std::path::Path;
 
 use lucarne::diagnostic::mend::{apply, mend};
 use lucarne::road::Road;
+use lucarne::scene::Dialect;
 use lucarne::source::{FileId, Sources};
 use lucarne::standard;
 use lucarne::vocabulary::is_standard_include;
@@ -12,6 +13,7 @@ use lucarne::vocabulary::is_standard_include;
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure, Outcome};
 use super::files::DiskFiles;
+use super::language;
 use super::messages::{self, Messages};
 use super::output::replace;
 use super::text::{is_stdin, name_of, read_main};
@@ -38,7 +40,8 @@ pub fn run(arguments: &CheckArguments) -> Outcome {
 
 fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Result<(), Failure> {
     let bytes = read_main(file)?;
-    compiled(file, bytes, arguments, |road, files| {
+    let dialect = arguments.scene.dialect(file, &bytes);
+    compiled(file, dialect, bytes, arguments, |road, files| {
         messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
         if arguments.places {
             messages::print(&places(&road.sources))?;
@@ -54,12 +57,13 @@ fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Re
 /// Takes the file as far as the messages come from, and hands it to `then`.
 fn compiled<T>(
     file: &Path,
+    dialect: Dialect,
     bytes: Vec<u8>,
     arguments: &CheckArguments,
     then: impl FnOnce(&Road, &DiskFiles) -> T,
 ) -> T {
     let files = DiskFiles::of(file, &arguments.scene);
-    let mut road = Road::new(&files, arguments.options(file));
+    let mut road = Road::new(&files, arguments.options(file, dialect));
     let id = road.read(&name_of(file), bytes);
     let ast = road.parse(id);
     if !arguments.syntax_only {
@@ -99,9 +103,13 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
         let sentence = format!("cannot fix `{}`: it is not UTF-8", file.display());
         return Err(Failure::file(sentence).help("save it as UTF-8 first"));
     };
+    // It stays the same, whatever is fixed.
+    let (dialect, _) = language::of(arguments.scene.language, file, &bytes);
     let messages = |text: &str| {
         let bytes = text.as_bytes().to_vec();
-        compiled(file, bytes, arguments, |road, _| road.diagnostics.iter().cloned().collect())
+        compiled(file, dialect, bytes, arguments, |road, _| {
+            road.diagnostics.iter().cloned().collect()
+        })
     };
     let mended = mend(text, messages);
     let fixed = mended.as_ref().map_or(0, |(_, fixed)| *fixed);
@@ -110,7 +118,7 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
         replace(file, &[mark, text.as_bytes()].concat())?;
     }
     let rest = messages(text);
-    for (elsewhere, count) in fixes_elsewhere(file, text, arguments) {
+    for (elsewhere, count) in fixes_elsewhere(file, dialect, text, arguments) {
         let (are, es) = if count == 1 { ("is", "") } else { ("are", "es") };
         messages::eprint(&format!(
             "{count} fix{es} {are} in {elsewhere}: `lucarne check --fix {elsewhere}` applies {}\n",
@@ -132,8 +140,13 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
 }
 
 /// The included files that messages offer fixes for, but the standard ones, and how many.
-fn fixes_elsewhere(file: &Path, text: &str, arguments: &CheckArguments) -> Vec<(String, usize)> {
-    compiled(file, text.as_bytes().to_vec(), arguments, |road, _| {
+fn fixes_elsewhere(
+    file: &Path,
+    dialect: Dialect,
+    text: &str,
+    arguments: &CheckArguments,
+) -> Vec<(String, usize)> {
+    compiled(file, dialect, text.as_bytes().to_vec(), arguments, |road, _| {
         let mut counts = BTreeMap::new();
         let fixed = road.diagnostics.iter().filter_map(|one| one.fixes.first());
         for place in fixed.map(|fix| fix.span.file).filter(|place| *place != FileId(0)) {

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use lucarne::diagnostic::Diagnostics;
-use lucarne::road::dialect;
 use lucarne::source::{Source, Sources, decode, to_latin};
 use lucarne::syntax::{ParseOptions, Unformatted, format};
 use similar::TextDiff;
 
 use super::arguments::FmtArguments;
 use super::exit::{Exit, Failure, Outcome};
+use super::language;
 use super::messages::{self, Messages};
 use super::output::replace;
 use super::text::{is_stdin, name_of, read_main};
@@ -40,7 +40,9 @@ fn one(file: &Path, arguments: &FmtArguments, messages: &mut Messages) -> Outcom
     let (text, latin) = decode(bytes.clone());
     let mut sources = Sources::default();
     let id = sources.add(Source::new(&*name, text));
-    let options = ParseOptions { dialect: dialect(&name), ..ParseOptions::default() };
+    // A layout has no frame that could be mirrored: nobody needs to know where the text decided.
+    let (dialect, _) = language::of(arguments.language, file, &bytes);
+    let options = ParseOptions { dialect, ..ParseOptions::default() };
     let mut diagnostics = Diagnostics::new(false);
     let source = sources.get(id);
     let formatted = match format(source, id, &options, &mut diagnostics) {

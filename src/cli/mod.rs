@@ -11,6 +11,7 @@ mod explain;
 mod files;
 mod fmt;
 mod hint;
+mod language;
 mod life;
 mod messages;
 mod output;

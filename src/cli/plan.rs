@@ -16,7 +16,8 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     let frame = arguments.picture.frame(&arguments.scene)?;
     let bytes = read_main(&arguments.file)?;
     let files = DiskFiles::of(&arguments.file, &arguments.scene);
-    let mut options = arguments.scene.options(&arguments.file, Some(frame));
+    let dialect = arguments.scene.dialect(&arguments.file, &bytes);
+    let mut options = arguments.scene.options(dialect, Some(frame));
     options.coinciding = true;
     let mut road = Road::new(&files, options);
     let (world, origins) = road.compile(&name_of(&arguments.file), bytes);

@@ -35,9 +35,10 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     output.check(frame.region, depth, arguments.force)?;
     fits(frame.region)?;
 
+    let dialect = arguments.scene.dialect(&arguments.file, &bytes);
     let life = progress::life("reading the scene");
     let files = DiskFiles::of(&arguments.file, &arguments.scene);
-    let options = arguments.scene.options(&arguments.file, Some(frame));
+    let options = arguments.scene.options(dialect, Some(frame));
     let mut road = Road::new(&files, options);
     watch.lap();
     let file = road.read(&name_of(&arguments.file), bytes);

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use lucarne::diagnostic::{Level, Levels};
 use lucarne::plan::Frame;
-use lucarne::road::{Options, dialect};
+use lucarne::road::Options;
 use lucarne::scene::Dialect;
 
+use super::language::{self, Language};
 use super::messages::{self, Messages};
 use super::values::{Limit, Warnings, declare, limit, now, warning};
 
@@ -19,6 +20,9 @@ const MOST_PIXELS: u64 = 1 << 27;
 /// What a scene is compiled with, and how its messages are shown.
 #[derive(Debug, Args)]
 pub struct SceneArguments {
+    /// The language of the scene [default: by the end of its name, `.pov` or `.scene`, else by its text]
+    #[arg(long, value_enum, value_name = "pov|scene")]
+    pub language: Option<Language>,
     /// Search this folder for includes too; may be given several times
     #[arg(short = 'I', long = "include", value_name = "DIR")]
     pub include: Vec<PathBuf>,
@@ -82,9 +86,15 @@ impl SceneArguments {
         levels
     }
 
-    /// What the road takes, for a main file of this name.
-    pub fn options(&self, file: &Path, frame: Option<Frame>) -> Options {
-        let dialect = dialect(&file.to_string_lossy());
+    /// Returns the language of a main file, and says so where only its text decided it.
+    pub fn dialect(&self, file: &Path, text: &[u8]) -> Dialect {
+        let (dialect, note) = language::of(self.language, file, text);
+        messages::eprint(&note.unwrap_or_default());
+        dialect
+    }
+
+    /// What the road takes, for a main file of this language.
+    pub fn options(&self, dialect: Dialect, frame: Option<Frame>) -> Options {
         let mut options = Options::new(dialect);
         options.levels = self.levels(dialect);
         options.evaluate.now = now();

@@ -25,7 +25,8 @@ pub fn show(
     let frame = picture.frame(arguments)?;
     let bytes = read_main(path)?;
     let files = DiskFiles::of(path, arguments);
-    let mut road = Road::new(&files, arguments.options(path, Some(frame)));
+    let dialect = arguments.dialect(path, &bytes);
+    let mut road = Road::new(&files, arguments.options(dialect, Some(frame)));
     let file = road.read(&name_of(path), bytes);
     let ast = road.parse(file);
     let text = if stage == Stage::Ast {
