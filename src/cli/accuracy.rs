@@ -22,7 +22,7 @@ use super::messages;
 use super::output::{can_be_made, write_whole};
 use super::progress::{self, Progress};
 use super::stats::{Stopwatch, cpu_seconds};
-use super::text::{name_of, read_main};
+use super::text::{name_of, read_scene};
 
 impl Clock for Stopwatch {
     fn wall(&self) -> f64 {
@@ -43,7 +43,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         return Err(Failure::usage(sentence));
     }
     svg_path.map_or(Ok(()), can_be_made)?;
-    let bytes = read_main(&arguments.file)?;
+    let bytes = read_scene(&arguments.file)?;
     let dialect = arguments.scene.dialect(&arguments.file, &bytes);
     let life = progress::life("reading the scene");
     let files = DiskFiles::of(&arguments.file, &arguments.scene);

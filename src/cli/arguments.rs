@@ -12,6 +12,7 @@ use super::exit::Failure;
 use super::language::Language;
 use super::messages;
 use super::scene::SceneArguments;
+use super::text::is_include;
 use super::values::{
     MetricArgument, antialias, depth, error, knob, region, seconds, seed, size, threads, tolerance,
     weight,
@@ -301,7 +302,7 @@ impl CheckArguments {
         let frame = self.size.map(|(width, height)| Frame::whole(width, height));
         let mut options = self.scene.options(dialect, frame);
         // Alone, an include is a part of a scene that is not known.
-        if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inc")) {
+        if is_include(file) {
             OF_WHOLE_SCENES.iter().for_each(|code| options.levels.set_unnamed(*code, Level::Allow));
         }
         options.legacy = self.legacy;

@@ -16,7 +16,7 @@ use super::files::DiskFiles;
 use super::language;
 use super::messages::{self, Messages};
 use super::output::replace;
-use super::text::{is_stdin, name_of, read_main};
+use super::text::{is_include, is_stdin, name_of, read_main, read_scene};
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
@@ -39,7 +39,7 @@ pub fn run(arguments: &CheckArguments) -> Outcome {
 }
 
 fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Result<(), Failure> {
-    let bytes = read_main(file)?;
+    let bytes = read(file)?;
     let dialect = arguments.scene.dialect(file, &bytes);
     compiled(file, dialect, bytes, arguments, |road, files| {
         messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
@@ -52,6 +52,14 @@ fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Re
         }
         Ok(())
     })
+}
+
+/// A scene has something in it; a part of one may be empty.
+fn read(file: &Path) -> Result<Vec<u8>, Failure> {
+    match is_include(file) {
+        true => read_main(file),
+        false => read_scene(file),
+    }
 }
 
 /// Takes the file as far as the messages come from, and hands it to `then`.
@@ -97,7 +105,7 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
     if is_stdin(file) {
         return Err(Failure::usage("standard input cannot be fixed: only a file can"));
     }
-    let bytes = read_main(file)?;
+    let bytes = read(file)?;
     let mark: &[u8] = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK } else { b"" };
     let Ok(text) = std::str::from_utf8(&bytes[mark.len()..]) else {
         let sentence = format!("cannot fix `{}`: it is not UTF-8", file.display());

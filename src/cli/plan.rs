@@ -10,11 +10,11 @@ use super::arguments::PlanArguments;
 use super::exit::{Exit, Failure, Outcome};
 use super::files::DiskFiles;
 use super::messages;
-use super::text::{name_of, read_main};
+use super::text::{name_of, read_scene};
 
 pub fn run(arguments: &PlanArguments) -> Outcome {
     let frame = arguments.picture.frame(&arguments.scene)?;
-    let bytes = read_main(&arguments.file)?;
+    let bytes = read_scene(&arguments.file)?;
     let files = DiskFiles::of(&arguments.file, &arguments.scene);
     let dialect = arguments.scene.dialect(&arguments.file, &bytes);
     let mut options = arguments.scene.options(dialect, Some(frame));

@@ -17,7 +17,7 @@ use super::output::Output;
 use super::progress::{self, Progress};
 use super::promise::{self, Made};
 use super::stats::{Stats, Stopwatch, peak_rss_bytes};
-use super::text::{name_of, read_main};
+use super::text::{name_of, read_scene};
 
 pub fn run(arguments: &RenderArguments) -> Outcome {
     let mut watch = Stopwatch::start();
@@ -31,7 +31,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
             .help("`--bits` may be 8 (png, jpg, ppm, qoi) or 16 (png, ppm)")
     })?;
     let frame = arguments.picture.frame(&arguments.scene)?;
-    let bytes = read_main(&arguments.file)?;
+    let bytes = read_scene(&arguments.file)?;
     output.check(frame.region, depth, arguments.force)?;
     fits(frame.region)?;
 

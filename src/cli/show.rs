@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files::DiskFiles;
 use super::messages;
 use super::scene::SceneArguments;
-use super::text::{name_of, read_main};
+use super::text::{name_of, read_scene};
 
 pub fn run(arguments: &ShowArguments) -> Outcome {
     show(&arguments.file, arguments.stage, &arguments.picture, &arguments.scene)
@@ -23,7 +23,7 @@ pub fn show(
     arguments: &SceneArguments,
 ) -> Outcome {
     let frame = picture.frame(arguments)?;
-    let bytes = read_main(path)?;
+    let bytes = read_scene(path)?;
     let files = DiskFiles::of(path, arguments);
     let dialect = arguments.dialect(path, &bytes);
     let mut road = Road::new(&files, arguments.options(dialect, Some(frame)));

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use lucarne::diagnostic::suggest::closest;
 
-use super::exit::{Failure, reason};
+use super::exit::{Exit, Failure, reason};
 use super::files::or_here;
 
 /// The largest file that is read: positions in a text have 32 bits.
@@ -21,6 +21,28 @@ pub fn is_stdin(path: &Path) -> bool {
 /// How messages call the main file.
 pub fn name_of(path: &Path) -> Cow<'_, str> {
     if is_stdin(path) { "standard input".into() } else { path.to_string_lossy() }
+}
+
+/// Whether this is a part of a scene, by its name.
+pub fn is_include(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inc"))
+}
+
+/// As [`read_main`], but fails for a file that has nothing in it, which no scene is.
+pub fn read_scene(path: &Path) -> Result<Vec<u8>, Failure> {
+    let bytes = read_main(path)?;
+    let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
+    let what = match text {
+        [] => "is empty",
+        text if text.iter().all(u8::is_ascii_whitespace) => "has nothing but blanks",
+        _ => return Ok(bytes),
+    };
+    let sentence = format!("`{}` {what}: there is no scene in it", name_of(path));
+    let failure = Failure { exit: Exit::Scene, ..Failure::file(sentence) };
+    Err(match is_stdin(path) {
+        true => failure.help("pipe a scene into it, or name a file: `lucarne FILE`"),
+        false => failure,
+    })
 }
 
 /// The main file, or the sentence that says why it cannot be had. It may be a pipe.

@@ -1,4 +1,4 @@
-//! Which files a scene may read.
+//! Which files a scene may read, and what a scene without text is.
 
 use super::*;
 
@@ -60,4 +60,27 @@ fn a_path_of_another_computer_is_missing_and_its_file_here_suggested() {
     place.write("w.scene", &format!("#include \"D:\\lib.inc\"\n{SCENE}"));
     place.run("check w.scene -I libs --fix").ends(0, &["w.scene: 1 fix applied"]);
     assert!(place.read("w.scene").starts_with(b"#include \"lib.inc\"\n"));
+}
+
+#[test]
+fn an_empty_file_is_no_scene_and_an_empty_include_is_fine() {
+    let place = Place::new();
+    place.write("e.scene", "");
+    place.write("b.pov", "\u{feff} \r\n\t\n");
+    for command in ["render", "check", "check --fix", "plan", "show", "accuracy"] {
+        place.run(&format!("{command} e.scene")).ends(1, &["`e.scene` is empty"]);
+        place.run(&format!("{command} b.pov")).ends(1, &["`b.pov` has nothing but blanks"]);
+        let stdin = format!("{command} -").replace(" --fix", "");
+        place.run(&stdin).ends(1, &["`standard input` is empty", "pipe a scene into it"]);
+    }
+    place.write("part.inc", "");
+    place.run("check part.inc").ends(0, &["part.inc: no messages"]);
+    place.write("i.scene", &format!("#include \"part.inc\"\n{SCENE}"));
+    place.run("check i.scene").ends(0, &["no messages"]);
+    place.run("fmt e.scene --check").ends(0, &[]);
+    // As in POV-Ray, a comment is a scene, and black.
+    for (name, code) in [("c.pov", "old-version"), ("d.scene", "empty-scene")] {
+        place.write(name, "// nothing yet\n");
+        place.run(&format!("{name} --size 8x6")).ends(0, &[code, ".png: 8×6, 0 objects"]);
+    }
 }
