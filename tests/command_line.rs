@@ -4,6 +4,8 @@
 mod language;
 #[path = "command_line/reading.rs"]
 mod reading;
+#[path = "command_line/writing.rs"]
+mod writing;
 
 use std::fs;
 use std::path::PathBuf;
@@ -300,8 +302,11 @@ fn a_full_disk_is_an_error() {
     let place = Place::new();
     let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("a full device");
     let mut command = place.command("a.scene --size 8x8 -o -");
-    let run = Run(command.stdout(full).output().expect("runs"));
-    run.ends(3, &["cannot write to standard output", "no space left"]);
+    command.stdout(full).env("TMPDIR", place.0.path());
+    let run = Run(command.output().expect("runs"));
+    run.ends(3, &["cannot write to standard output", "no space left", "/picture.partial-"]);
+    let kept = place.names().into_iter().find(|name| name.starts_with("picture.partial-"));
+    assert!(place.read(&kept.expect("kept")).starts_with(b"\x89PNG"));
 }
 
 #[cfg(unix)]

@@ -98,8 +98,8 @@ pub struct RenderArguments {
     /// Print times, memory, rays and what they took, as a table or as JSON
     #[arg(long, value_name = "json", num_args = 0..=1, require_equals = true)]
     pub stats: Option<Option<StatsFormat>>,
-    /// Overwrite OUT even where it is not a picture. (A picture is always overwritten; a file the scene
-    /// was read from never is.)
+    /// Overwrite OUT even where it is not a picture, or is write-protected. (Any other picture is always
+    /// overwritten; a file the scene was read from never is.)
     #[arg(long)]
     pub force: bool,
 }

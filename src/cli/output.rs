@@ -1,11 +1,12 @@
 //! Where a picture goes.
 //!
 //! **Invariant:** what can be known before the render is: the format, and whether the place can be
-//! written. A file is written beside and renamed, so that it is whole or not there; a file the scene was
-//! read from is never overwritten.
+//! written. A file is written beside and renamed, so that it is whole or not there, and keeps its
+//! permissions; a file the scene was read from is never overwritten. A picture that cannot be written to
+//! its place is kept in another.
 
 use std::fs;
-use std::io::{Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 use lucarne::film::Depth;
@@ -82,7 +83,7 @@ impl Output {
     }
 
     /// Fails when it is clear before the render that the picture could not be written, or should
-    /// not: `force` allows what is not a picture to be overwritten.
+    /// not: `force` allows what is not a picture, or is write-protected, to be overwritten.
     pub fn check(&self, part: Region, depth: Depth, force: bool) -> Result<(), Failure> {
         let (width, height) = (part.width, part.height);
         if let Some(sentence) = self.format().too_large(width, height) {
@@ -103,6 +104,10 @@ impl Output {
                     format!("`{}` exists and is not a picture: not overwritten", path.display());
                 return Err(Failure::file(sentence).help("`--force` overwrites it"));
             }
+        }
+        if is_protected(path) && !force {
+            let sentence = format!("`{}` is write-protected: not overwritten", path.display());
+            return Err(Failure::file(sentence).help("`--force` overwrites it"));
         }
         match free_bytes(folder(path)) {
             Some(free) if free < format.least_bytes(depth, width, height) => {
@@ -133,6 +138,50 @@ impl Output {
             Self::File { path, .. } => write_whole(path, bytes),
         }
     }
+
+    /// Keeps a picture that could not be written to `place`: as a partial one is named, else in the temporary
+    /// folder. Returns the `failure` of the first attempt and where the picture is.
+    pub fn rescue(&self, place: &Self, bytes: &[u8], failure: Failure) -> Failure {
+        let beside = self.partial().filter(|partial| partial != place);
+        let kept = match beside.filter(|beside| beside.write(bytes).is_ok()) {
+            Some(beside) => Ok(beside.name()),
+            None => self.keep_in(&std::env::temp_dir(), bytes),
+        };
+        match kept {
+            Ok(name) => failure.help(format!("the picture is not lost: it is in `{name}`")),
+            Err(why) => failure.help(format!("the picture is lost: {}", why.sentence)),
+        }
+    }
+
+    /// Writes the picture to a new file in a folder that others may use, too; returns its name.
+    fn keep_in(&self, folder: &Path, bytes: &[u8]) -> Result<String, Failure> {
+        let (stem, extension) = match self {
+            Self::Stdout => ("picture".as_ref(), "png".as_ref()),
+            Self::File { path, .. } => {
+                (path.file_stem().unwrap_or_default(), path.extension().unwrap_or_default())
+            }
+        };
+        let prefix = format!("{}.partial-", stem.display());
+        let suffix = format!(".{}", extension.display());
+        let failed = |error: std::io::Error| cannot(folder, &reason(&error));
+        let mut file = tempfile::Builder::new()
+            .prefix(&prefix)
+            .suffix(&suffix)
+            .tempfile_in(folder)
+            .map_err(failed)?;
+        file.write_all(bytes).map_err(failed)?;
+        let (_, path) = file.keep().map_err(|error| failed(error.error))?;
+        Ok(path.display().to_string())
+    }
+}
+
+/// Whether the file has no permission to be written, for anybody or for who runs the program.
+fn is_protected(path: &Path) -> bool {
+    let denied = || {
+        let opened = fs::OpenOptions::new().append(true).open(path);
+        opened.is_err_and(|error| error.kind() == ErrorKind::PermissionDenied)
+    };
+    fs::metadata(path).is_ok_and(|about| about.permissions().readonly()) || denied()
 }
 
 /// Fails when it is clear that no file can be made at this place, or what is there is none.
@@ -144,27 +193,17 @@ pub fn can_be_made(path: &Path) -> Result<(), Failure> {
     temporary(path).map(drop)
 }
 
-/// Writes a file that is whole or not there.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    // A link stays a link: what it leads to is replaced.
-    let path = &fs::canonicalize(path).unwrap_or(path.to_owned());
-    let mut file = temporary(path)?;
-    file.write_all(bytes).map_err(|error| cannot(path, &reason(&error)))?;
-    file.persist(path).map_err(|error| cannot(path, &reason(&error.error)))?;
-    Ok(())
-}
-
-/// Writes a text of the author's anew: whole or not at all, with the permissions it had.
-pub fn replace(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+/// Writes a file that is whole or not there, with the permissions that it had.
+pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let failed = |error: std::io::Error| cannot(file, &reason(&error));
     // A link stays a link: what it leads to is replaced.
     let path = &fs::canonicalize(file).unwrap_or(file.to_owned());
     let mut beside = temporary(path)?;
-    beside.write_all(bytes).map_err(|error| cannot(file, &reason(&error)))?;
+    beside.write_all(bytes).map_err(failed)?;
     if let Ok(about) = fs::metadata(path) {
-        let set = beside.as_file().set_permissions(about.permissions());
-        set.map_err(|error| cannot(file, &reason(&error)))?;
+        beside.as_file().set_permissions(about.permissions()).map_err(failed)?;
     }
-    beside.persist(path).map_err(|error| cannot(file, &reason(&error.error)))?;
+    beside.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
 }
 
@@ -256,6 +295,33 @@ mod tests {
         output.write(b"P6\n1 1\n255\ndef").expect("written");
         assert_eq!(fs::read(&path).expect("read"), b"P6\n1 1\n255\ndef");
         assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
+    }
+
+    #[test]
+    fn a_picture_that_cannot_be_written_is_kept_elsewhere() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let rescued = |output: &Output| {
+            let failure = output.write(b"picture").expect_err("no place");
+            let help = output.rescue(output, b"picture", failure).help.expect("a place");
+            let (_, path) = help.split_once("it is in `").expect("kept");
+            PathBuf::from(path.trim_end_matches('`'))
+        };
+        // A folder took its place meanwhile.
+        let path = folder.path().join("a.png");
+        fs::create_dir_all(path.join("inside")).expect("a folder");
+        let kept = rescued(&Output::File { path, format: Format::Png });
+        assert_eq!(kept, folder.path().join("a.partial.png"));
+        assert_eq!(fs::read(kept).expect("read"), b"picture");
+        // The folder is gone.
+        let path = folder.path().join("none/b.exr");
+        let output = Output::File { path, format: Format::Exr };
+        let kept = rescued(&output);
+        let name = kept.file_name().expect("a name").to_string_lossy().into_owned();
+        assert!(name.starts_with("b.partial-") && name.ends_with(".exr"), "{name}");
+        assert_eq!(fs::read(&kept).expect("read"), b"picture");
+        fs::remove_file(kept).expect("removed");
+        // There is no place at all.
+        assert!(output.keep_in(&folder.path().join("none"), b"picture").is_err());
     }
 
     #[test]

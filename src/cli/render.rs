@@ -84,7 +84,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
         false => output.partial().or_else(|| (exit == Exit::Limit).then(|| output.clone())),
     };
     if let Some(place) = &written {
-        place.write(&bytes)?;
+        place.write(&bytes).map_err(|failure| output.rescue(place, &bytes, failure))?;
     }
     stats.encode_cpu_s = watch.lap();
     stats.wall_s = watch.wall_seconds();
