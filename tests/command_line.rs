@@ -4,6 +4,8 @@
 mod language;
 #[path = "command_line/reading.rs"]
 mod reading;
+#[path = "command_line/words.rs"]
+mod words;
 #[path = "command_line/writing.rs"]
 mod writing;
 
@@ -538,8 +540,12 @@ fn an_option_that_is_known_elsewhere_is_told_where() {
     assert!(!run.stderr().contains("as a value"), "{}", run.stderr());
     place.run("accuracy a.scene -o a.png").ends(2, &["`--svg OUT.svg`"]);
     place.run("plan a.scene --time-budget 3s").ends(2, &["an option of `lucarne render`"]);
-    for words in ["a.scene -w 640", "a.scene +W320 +H240", "accuracy a.scene -w 640"] {
-        place.run(words).ends(2, &["is an option of POV-Ray's", "`--size 640x480`"]);
+    for (words, size) in [
+        ("a.scene -w 640", "640x480"),
+        ("a.scene +W320 +H200", "320x200"),
+        ("accuracy a.scene -w", "640x480"),
+    ] {
+        place.run(words).ends(2, &["is an option of POV-Ray's", &format!("`--size {size}`")]);
     }
 }
 

@@ -1,12 +1,16 @@
-//! What is meant by an option that a command does not have: one that another has, or POV-Ray's.
+//! What is meant by words that cannot be read: an option that another command has, or POV-Ray, or that stands
+//! behind `--`; a size in another form.
 //!
-//! **In:** the description of the arguments, the command, the word that it does not know. **Out:** a
-//! [`Failure`] that says where such an option is, or nothing.
+//! **In:** the words, and what clap says of them. **Out:** a [`Failure`] that says more, or nothing.
 
-use clap::Command;
+mod size;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Command, CommandFactory};
 
 use lucarne::accuracy::KNOBS;
 
+use super::arguments::Arguments;
 use super::exit::Failure;
 
 /// POV-Ray's switches, without their sign and value, and what does the same here.
@@ -30,8 +34,68 @@ const POVRAY: &[(&str, &str)] = &[
     ("p", "no window is opened: the picture is a file"),
 ];
 
+/// A better answer than `error`, if there is one.
+pub fn meant(words: &[String], error: &clap::Error) -> Option<Failure> {
+    let program = Arguments::command();
+    let command = words.get(1)?;
+    let word = match error.get(ContextKind::InvalidArg) {
+        Some(ContextValue::String(word)) => word.split(['=', ' ']).next().unwrap_or(word),
+        _ => "",
+    };
+    match error.kind() {
+        ErrorKind::UnknownArgument => behind_dashes(words, word)
+            .or_else(|| of_size(&program, words, word))
+            .or_else(|| of(&program, command, word)),
+        ErrorKind::ValueValidation if word == "--size" => of_size(&program, words, word),
+        // `-h240` begins as the flag for help does.
+        ErrorKind::DisplayHelp => {
+            let height = words.iter().find(|word| word.starts_with("-h") && word.len() > 2)?;
+            of_size(&program, words, height)
+        }
+        _ => None,
+    }
+}
+
+/// What stands behind `--` is a file name, also where it looks like an option.
+fn behind_dashes(words: &[String], word: &str) -> Option<Failure> {
+    let at = words.iter().position(|word| word == "--")?;
+    let (before, behind) = (&words[1..at], &words[at + 1..]);
+    let is_it = |other: &String| other.split('=').next() == Some(word);
+    let command = before.first().filter(|command| *command != "explain")?;
+    if before.iter().any(is_it) || !behind.iter().any(is_it) {
+        return None;
+    }
+    let failure = Failure::usage(format!(
+        "`{word}` stands behind `--`, where every word is a file name: `lucarne {command}` takes one"
+    ));
+    let (file, options) = behind.split_first()?;
+    if !word.starts_with(['-', '+']) || options.is_empty() {
+        return Some(failure);
+    }
+    let line = [before, options, &["--".to_owned(), file.clone()]].concat();
+    Some(failure.help(format!("options go before it: `lucarne {}`", line.join(" "))))
+}
+
+/// A size that is meant by other words than `--size 320x240`.
+fn of_size(program: &Command, words: &[String], word: &str) -> Option<Failure> {
+    let command = program.find_subcommand(words.get(1)?)?;
+    let takes_one = command.get_arguments().any(|argument| argument.get_long() == Some("size"));
+    let is_parted = size::is_parted(words);
+    let is_one = word == "--size" || size::is_size(word) || is_parted;
+    let size::Meant { typed, width, height } =
+        (takes_one && is_one).then(|| size::meant(words)).flatten()?;
+    let sentence = match word {
+        _ if word == "--size" || is_parted => {
+            format!("`{typed}` is no WIDTHxHEIGHT in pixels")
+        }
+        "--width" | "--height" => format!("there is no option `{word}`"),
+        _ => format!("`{word}` is an option of POV-Ray's"),
+    };
+    Some(Failure::usage(sentence).help(format!("did you mean `--size {width}x{height}`?")))
+}
+
 /// A better answer than that `command` does not know `word`.
-pub fn of(program: &Command, command: &str, word: &str) -> Option<Failure> {
+fn of(program: &Command, command: &str, word: &str) -> Option<Failure> {
     let elsewhere = having(program, word);
     if elsewhere.is_empty() {
         return povray(word);
@@ -85,9 +149,6 @@ fn povray(word: &str) -> Option<Failure> {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
-    use super::super::arguments::Arguments;
     use super::*;
 
     fn said(command: &str, word: &str) -> Option<(String, Option<String>)> {

@@ -31,7 +31,6 @@ use std::panic;
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 use lucarne::diagnostic::suggest::closest;
 
@@ -49,19 +48,12 @@ pub fn main() -> ExitCode {
     .into()
 }
 
-/// What the words say. Where an option is unknown that is known elsewhere, that is told; what else cannot be
-/// read ends the program.
+/// What the words say. Where they cannot be read, clap's answer, or a better one, ends the program.
 fn parsed(words: Vec<OsString>) -> Result<Arguments, Failure> {
-    let command = words.get(1).map(|word| word.to_string_lossy().into_owned());
-    Arguments::try_parse_from(words).map_err(|error| {
-        let unknown = match (error.kind(), error.get(ContextKind::InvalidArg)) {
-            (ErrorKind::UnknownArgument, Some(ContextValue::String(word))) => Some(word.as_str()),
-            _ => None,
-        };
-        let hint = unknown.zip(command.as_deref()).and_then(|(word, command)| {
-            hint::of(&Arguments::command(), command, word.split(['=', ' ']).next().unwrap_or(word))
-        });
-        hint.unwrap_or_else(|| error.exit())
+    Arguments::try_parse_from(&words).map_err(|error| {
+        let words: Vec<String> =
+            words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+        hint::meant(&words, &error).unwrap_or_else(|| error.exit())
     })
 }
 
@@ -126,8 +118,8 @@ fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
         let text = word.to_string_lossy();
         !text.is_empty() && text.chars().all(char::is_alphanumeric) && !Path::new(word).exists()
     };
-    if let Some(at) = arguments.windows(2).position(|two| two[0] == "--stats" && is_format(&two[1]))
-    {
+    let options = arguments.split(|word| word == "--").next().unwrap_or_default();
+    if let Some(at) = options.windows(2).position(|two| two[0] == "--stats" && is_format(&two[1])) {
         let mut whole = OsString::from("--stats=");
         whole.push(&arguments[at + 1]);
         arguments.splice(at..at + 2, [whole]);

@@ -54,6 +54,8 @@ pub fn read_main(path: &Path) -> Result<Vec<u8>, Failure> {
     let file = fs::File::open(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => match near(path) {
             Some(near) => wrong("there is no such file").help(format!("did you mean `{near}`?")),
+            None if path.to_string_lossy().starts_with('-') => wrong("there is no such file")
+                .help("behind `--` every word is a file name; options go before it"),
             None => wrong("there is no such file"),
         },
         _ => wrong(&reason(&error)),
