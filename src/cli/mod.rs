@@ -65,7 +65,7 @@ fn run(arguments: Arguments) -> Outcome {
     if let Some(scene) = arguments.command.scene() {
         files::exist(&scene.include)?;
     }
-    match arguments.command {
+    let exit = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Fmt(arguments) => fmt::run(&arguments),
@@ -73,6 +73,11 @@ fn run(arguments: Arguments) -> Outcome {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+    }?;
+    match exit {
+        // The limit was Ctrl-C.
+        Exit::Limit if progress::interrupt().is_set() => Ok(Exit::Interrupted),
+        exit => Ok(exit),
     }
 }
 

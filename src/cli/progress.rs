@@ -7,9 +7,11 @@ use std::io::IsTerminal;
 use std::process;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use lucarne::evaluate::Interrupt;
 use lucarne::trace::Watch;
 
 use super::exit::Exit;
@@ -24,17 +26,28 @@ static TRACING: AtomicBool = AtomicBool::new(false);
 /// Ctrl-C was heard.
 static STOP: AtomicBool = AtomicBool::new(false);
 
+/// So long a loop of the scene may take to notice Ctrl-C, and the message that names it to be printed.
+const GRACE: Duration = Duration::from_secs(1);
+
 /// From here on the first Ctrl-C stops the trace, and the second ends the program; where nothing is
-/// traced yet, the first ends it with this sentence.
+/// traced yet, the first ends the scene's loop that turns, or else the program with this sentence.
 pub fn hear_interrupts(before_tracing: &'static str) {
     // Without a handler Ctrl-C ends the program at once, which is no error.
     let _ = ctrlc::set_handler(move || {
         let again = STOP.swap(true, Ordering::SeqCst);
+        if !again && !TRACING.load(Ordering::SeqCst) {
+            thread::sleep(GRACE);
+        }
         if again || !TRACING.load(Ordering::SeqCst) {
             messages::eprint(if again { "\n" } else { before_tracing });
             process::exit(Exit::Interrupted as i32);
         }
     });
+}
+
+/// Set by Ctrl-C.
+pub fn interrupt() -> Interrupt {
+    Interrupt(Some(&STOP))
 }
 
 /// Tells of work that has no bar, where standard error is no terminal.

@@ -10,6 +10,7 @@ use lucarne::scene::Dialect;
 
 use super::language::{self, Language};
 use super::messages::{self, Messages};
+use super::progress;
 use super::values::{Limit, Warnings, declare, limit, now, warning};
 
 /// The most pixels a picture has unless `--limit pixels=N` says otherwise.
@@ -98,6 +99,7 @@ impl SceneArguments {
         let mut options = Options::new(dialect);
         options.levels = self.levels(dialect);
         options.evaluate.now = now();
+        options.evaluate.interrupt = progress::interrupt();
         options.evaluate.declares = self.declares.clone();
         // `clock` is a word of the language, not a name.
         if let Some((_, clock)) = self.declares.iter().rfind(|(name, _)| name == "clock") {

@@ -116,7 +116,7 @@ codes! {
     // values
     WrongType "wrong-type" opinion "a value has another type than the place needs";
     WrongArity "wrong-arity" error "a call or a vector has too many or too few parts";
-    MissingPart "missing-part" error "a block lacks a part it cannot do without";
+    MissingPart "missing-part" opinion "a block lacks a part it cannot do without";
     ExtraPart "extra-part" opinion "a block has more parts than it can use";
     DivisionByZero "division-by-zero" error "a number is divided by zero";
     NotANumber "not-a-number" error "a calculation has no finite result";
@@ -177,7 +177,7 @@ codes! {
     // files
     MissingInclude "missing-include" error "an included file is not found";
     CircularInclude "circular-include" error "a file includes itself";
-    ForbiddenFile "forbidden-file" error "a file lies outside the folders that `--sandbox` allows, or may not be written";
+    ForbiddenFile "forbidden-file" opinion "a file lies outside the folders that `--sandbox` allows, or may not be written";
     ForeignFile "foreign-file" error "a file is another program's, and no scene";
     MalformedMesh "malformed-mesh" error "a mesh's file is not what its format says, or of no format that is read";
     IncompleteMesh "incomplete-mesh" sure "a mesh's file asks for what is not there, or not read";

@@ -177,7 +177,7 @@ impl Evaluator<'_> {
                 let name = self.string(here, *id)?;
                 let from = self.sources.get(word_span.file).name.clone();
                 return Ok(Value::truth(
-                    self.files.read(&name, &from).or_else(embedded(&name)).is_ok(),
+                    self.read_file(&name, &from).or_else(embedded(&name)).is_ok(),
                 ));
             }
             Word::Dimensions | Word::DimensionSize => {

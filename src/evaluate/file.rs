@@ -9,6 +9,7 @@
 
 mod bytes;
 mod data;
+mod held;
 mod open;
 mod read;
 mod write;

@@ -119,11 +119,11 @@ impl Evaluator<'_> {
 
     /// A file, also where its name lacks the `.inc`.
     fn found(&self, name: &str, from: &str) -> Result<Found, FileError> {
-        let as_named = self.files.read(name, from).or_else(embedded(name));
+        let as_named = self.read_file(name, from).or_else(embedded(name));
         match as_named {
             Err(FileError::NotFound { .. }) if !file_name(name).contains('.') => {
                 let whole = format!("{name}.inc");
-                self.files.read(&whole, from).or_else(embedded(&whole)).or(as_named)
+                self.read_file(&whole, from).or_else(embedded(&whole)).or(as_named)
             }
             found => found,
         }
@@ -132,7 +132,7 @@ impl Evaluator<'_> {
     /// What is said of an include that cannot be had, where its `\` may have to be `/`.
     fn missing_include(&self, name: &str, from: &str, span: Span, error: FileError) -> Diagnostic {
         let slashed = name.replace('\\', "/");
-        let is_there = slashed != name && self.files.read(&slashed, from).is_ok();
+        let is_there = slashed != name && self.read_file(&slashed, from).is_ok();
         let diagnostic = missing_file(name, span, error, |_| !is_there);
         if is_there {
             let quoted = format!("\"{slashed}\"");

@@ -30,6 +30,7 @@ mod memory;
 mod options;
 mod plain;
 mod probe;
+mod quirk;
 mod remembered;
 mod report;
 mod run;
@@ -191,6 +192,8 @@ struct Evaluator<'a> {
     opened: Vec<file::Opened>,
     /// What it may not write: what reads it lacks it, and that says nothing more.
     unwritten: BTreeSet<String>,
+    /// What a `.pov` has written and may not, by the names that it gave.
+    held_files: BTreeMap<String, Vec<u8>>,
     /// What it has written, under the names that it is found by.
     authored: BTreeSet<String>,
     frames: Vec<Frame>,
@@ -200,6 +203,8 @@ struct Evaluator<'a> {
     /// How often a `}` has closed another block than it would where it is written.
     loose_closers: u64,
     peeked: Option<Token>,
+    /// The value in parentheses behind a name that was taken.
+    behind_name: Option<Token>,
     /// The macro call just before the item that comes next that gave no item itself.
     silent: Option<Silent>,
     /// Where the item stood that a consumer took last: the end of what it is reading.
@@ -348,12 +353,14 @@ impl<'a> Evaluator<'a> {
             streams: RandomStreams::default(),
             opened: Vec::new(),
             unwritten: BTreeSet::new(),
+            held_files: BTreeMap::new(),
             authored: BTreeSet::new(),
             frames: Vec::new(),
             enclosures: Vec::new(),
             loose_blocks: 0,
             loose_closers: 0,
             peeked: None,
+            behind_name: None,
             silent: None,
             taken: None,
             hold: None,

@@ -76,6 +76,9 @@ impl Evaluator<'_> {
                 }
                 Argument::Expression(id) => match self.left_by_macro(here, id) {
                     Some(values) => values?,
+                    None if self.value_before_group(here, id).is_some() => {
+                        self.values_of_call(here, id)?
+                    }
                     None => match self.object_and_value(here, id)? {
                         Some(both) => both.into(),
                         None => continue,

@@ -343,6 +343,9 @@ impl Evaluator<'_> {
             if self.peeked.is_some() {
                 return self.peeked.take();
             }
+            if let Some(token) = self.behind_name.take() {
+                return Some(token);
+            }
             if self.waits() {
                 return None;
             }
@@ -388,6 +391,12 @@ impl Evaluator<'_> {
                 ItemKind::Expression(id) => match self.splices_macro(&here, id) {
                     Ok(true) => {}
                     Ok(false) => {
+                        if let Some((name, group)) = self.value_before_group(&here, id) {
+                            let span = here.unit.expression(group).span;
+                            let kind = TokenKind::Expression(group);
+                            self.behind_name = Some(Token { kind, span, here });
+                            return Some(name);
+                        }
                         return Some(Token { kind: TokenKind::Expression(id), span, here });
                     }
                     Err(Reported) => {

@@ -70,6 +70,13 @@ impl Evaluator<'_> {
                         Ok(())
                     }
                     None => match self.left_by_macro(here, id) {
+                        None if self.value_before_group(here, id).is_some() => {
+                            self.values_of_call(here, id).and_then(|values| {
+                                values.into_iter().try_for_each(|value| {
+                                    self.gather(here, id, value, &mut gathered)
+                                })
+                            })
+                        }
                         None => self
                             .any_value(here, id)
                             .and_then(|value| self.gather(here, id, value, &mut gathered)),

@@ -4,15 +4,18 @@ use super::{Measured, NEAR, settled};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
-/// The fractional part of `direction · point`, 0 … 1 (0 included, 1 excluded); `direction` has
-/// length 1.
+/// The fractional part of `direction · point`, 0 … 1, with 0 at each whole number but at 1, where it is 1;
+/// `direction` has length 1. So the top of a box as high as its gradient has the last colour.
 ///
-/// **Source:** POV-Ray manual, section "Gradient".
+/// **Source:** POV-Ray manual, section "Gradient"; the value at 1 as POV-Ray 3.7 has it (measured).
 #[inline]
 pub fn value(direction: Vector, point: Vector, error: Vector) -> Measured {
     // The direction and the sum are rounded, too.
     let error = direction.abs().dot(error + point.abs() * (4.0 * f64::EPSILON));
     let along = settled(direction.dot(point), error);
+    if along == 1.0 {
+        return Measured { value: 1.0, error };
+    }
     let fraction = along - along.floor();
     // A tiny negative number rounds up to 1, which is outside of the half-open range.
     Measured { value: if fraction < 1.0 { fraction } else { 0.0 }, error }
@@ -47,6 +50,8 @@ mod tests {
         assert_eq!(value(y, Vector::new(9.0, 0.25, 7.0)), 0.25);
         assert_eq!(value(y, Vector::new(0.0, -0.25, 0.0)), 0.75);
         assert_eq!(value(y, Vector::new(0.0, 3.0, 0.0)), 0.0);
+        assert_eq!(value(y, Vector::new(0.0, 1.0, 0.0)), 1.0);
+        assert_eq!(value(y, Vector::new(0.0, -1.0, 0.0)), 0.0);
         assert!(value(y, Vector::new(0.0, -1e-30, 0.0)) < 1.0);
     }
 

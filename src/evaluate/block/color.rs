@@ -5,7 +5,7 @@
 use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Dialect, Family, Role, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
@@ -20,6 +20,9 @@ impl Evaluator<'_> {
             return self.written_color_after(token, "a colour").map(|given| given.value);
         };
         let (color, piece) = match word {
+            Word::Color if self.lacks_color() => {
+                return self.black_for_missing(token, "a colour").map(|black| black.value);
+            }
             Word::Color => match self.peek().map(|next| &next.kind) {
                 Some(TokenKind::Word(next)) if is_component(*next) => {
                     let first = self.peek().cloned();
@@ -69,6 +72,9 @@ impl Evaluator<'_> {
         wanted: &str,
     ) -> Outcome<Given<WrittenColor>> {
         self.skip_commas();
+        if self.lacks_color() {
+            return self.black_for_missing(after, wanted);
+        }
         if let Some(reported) = self.paint_for_color(after) {
             return Err(reported);
         }
@@ -96,6 +102,29 @@ impl Evaluator<'_> {
         let mut color = self.color_components(color, given.site())?;
         color.bare = bare;
         Ok(given.with(color))
+    }
+
+    /// Whether no colour follows in a `.pov`, where POV-Ray 3.7 takes black (measured).
+    fn lacks_color(&mut self) -> bool {
+        self.options.dialect == Dialect::Pov
+            && match self.peek().map(|next| &next.kind) {
+                None => true,
+                Some(TokenKind::Word(word)) => {
+                    word.role() == Role::Statement && word.family() != Family::Color
+                }
+                Some(_) => false,
+            }
+    }
+
+    fn black_for_missing(&mut self, after: &Token, wanted: &str) -> Outcome<Given<WrittenColor>> {
+        let span = self.taken.map_or(after.span, |taken| taken.span);
+        let text = self.describe(after);
+        let message = format!("expected {wanted} after {text}; it is black");
+        let diagnostic = Diagnostic::new(Code::MissingPart, message)
+            .at(span.after(), format!("{wanted} is missing here"));
+        self.opinion(&after.here, diagnostic)?;
+        let value = WrittenColor::new(Color::BLACK, None);
+        Ok(Given { value, span, here: after.here.clone(), expression: None })
     }
 
     /// A value that stands for a colour without a word before it.

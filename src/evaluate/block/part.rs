@@ -203,6 +203,11 @@ impl Evaluator<'_> {
     /// The vector that a token is, if it is a plain one, or the token.
     fn given_vector(&mut self, token: Token) -> Result<Given<Vector>, Token> {
         if let TokenKind::Expression(id) = token.kind
+            && let Some(Ok(value)) = self.vector_of_component(&token.here, id)
+        {
+            return Ok(Given { value, span: token.span, here: token.here, expression: Some(id) });
+        }
+        if let TokenKind::Expression(id) = token.kind
             && let Some(value) = self.plain_vector(&token.here, id)
         {
             if value.z == 0.0 {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span, WriteError, decode};
 use crate::syntax::ast::{ExpressionId, ExpressionKind, NameId};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::include::missing_file;
 use super::super::scope::Symbol;
@@ -94,7 +94,7 @@ impl Evaluator<'_> {
             return Err(self.report_again(here, &told));
         }
         let from = self.sources.get(span.file).name.clone();
-        let found = match self.files.read(path, &from) {
+        let found = match self.read_file(path, &from) {
             Ok(found) => found,
             Err(_) if self.unwritten.contains(path) => return Err(Reported),
             Err(error) => {
@@ -124,6 +124,19 @@ impl Evaluator<'_> {
     ) -> Outcome<State> {
         let name = match self.files.start(path, append) {
             Ok(name) => name,
+            Err(WriteError::NotAllowed) if self.options.dialect == Dialect::Pov => {
+                // One message for all of them.
+                if self.held_files.is_empty() {
+                    let message =
+                        format!("`{path}` is not written; the scene reads it from memory");
+                    let diagnostic = Diagnostic::new(Code::ForbiddenFile, message)
+                        .at(span, "writing is allowed by `--allow-write` only");
+                    self.report(here, diagnostic.as_warning());
+                }
+                let from = self.sources.get(span.file).name.clone();
+                self.hold_file(path, &from, append);
+                path.to_owned()
+            }
             Err(error) => {
                 // What allows one allows all.
                 let told = error == WriteError::NotAllowed && !self.unwritten.is_empty();

@@ -66,7 +66,7 @@ impl Evaluator<'_> {
         }
         outcome?;
         self.stored += bytes.len() as u64;
-        self.files.add(&file, &bytes);
+        self.add_to_file(&file, &bytes);
         self.parsed.remove(&file);
         Ok(())
     }

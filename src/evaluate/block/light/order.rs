@@ -113,7 +113,7 @@ impl Evaluator<'_> {
         if late.ends_block() && late.place.expansion == late.opener.here.expansion {
             diagnostic = diagnostic.fix(late.place.span, ", rgb 1");
         }
-        Err(self.report(&late.opener.here, diagnostic))
+        self.opinion(&late.opener.here, diagnostic)
     }
 
     /// The end of the line up to a place, in backticks.

@@ -1,0 +1,110 @@
+//! What POV-Ray 3.7 reads otherwise than it looks, in a `.pov` (both measured).
+//!
+//! * `scale V.x`: where a vector is wanted, a number that begins with a component of `V` is x alone; y and z stay
+//!   those of `V`. In parentheses it is a number like any other.
+//! * `sphere { P (R) }`: a name that holds a number, a vector or a colour, and another value in parentheses.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::syntax::ast::{Argument, BinaryOperator, Callee, ExpressionId, ExpressionKind};
+use crate::vocabulary::Dialect;
+
+use super::stream::{Token, TokenKind};
+use super::value::Value;
+use super::{Evaluator, Here, Outcome};
+
+impl Evaluator<'_> {
+    /// The vector that a number beginning with a component stands for, where a vector is wanted; `None` of
+    /// anything else.
+    pub(super) fn vector_of_component(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+    ) -> Option<Outcome<Vector>> {
+        let (name, whole) = self.picked_from(here, id)?;
+        let [_, y, z] = whole.to_array();
+        let value = match self.expression(here, id) {
+            Ok(value) => value,
+            Err(reported) => return Some(Err(reported)),
+        };
+        let Value::Number(x) = value else { return value.as_vector3().map(Ok) };
+        let vector = Vector::new(x, y, z);
+        if vector != Vector::splat(x) {
+            let span = here.unit.expression(id).span;
+            let text = self.sources.text(span).to_owned();
+            let message = format!("`{text}` is read as <{x}, {y}, {z}> where a vector is wanted");
+            let diagnostic = Diagnostic::new(Code::LooseOperation, message)
+                .at(span, format!("POV-Ray takes y and z from `{name}`"))
+                .help(format!("in parentheses it is a number: `({text})`"));
+            self.report(here, diagnostic);
+        }
+        Some(Ok(vector))
+    }
+
+    /// The name whose component an expression begins with, and its vector.
+    fn picked_from(&self, here: &Here, id: ExpressionId) -> Option<(String, Vector)> {
+        if self.options.dialect == Dialect::Scene {
+            return None;
+        }
+        let mut leftmost = id;
+        let name = loop {
+            match here.unit.expression(leftmost).kind {
+                ExpressionKind::Binary(
+                    BinaryOperator::Add
+                    | BinaryOperator::Subtract
+                    | BinaryOperator::Multiply
+                    | BinaryOperator::Divide,
+                    left,
+                    _,
+                ) => leftmost = left,
+                ExpressionKind::Unary(_, operand) => leftmost = operand,
+                ExpressionKind::Component(of, _) => match here.unit.expression(of).kind {
+                    ExpressionKind::Name(name) => break name,
+                    _ => return None,
+                },
+                _ => return None,
+            }
+        };
+        let symbol = here.symbol(name);
+        let numbers = match self.scopes.look(symbol)? {
+            Value::Color(color) => color.rgb.components().to_vec(),
+            value => value.numbers()?.as_slice().to_vec(),
+        };
+        let part = |place: usize| numbers.get(place).copied().unwrap_or(0.0);
+        Some((self.scopes.name(symbol).to_owned(), Vector::new(part(0), part(1), part(2))))
+    }
+
+    /// Both of them.
+    pub(super) fn values_of_call(&mut self, here: &Here, id: ExpressionId) -> Outcome<Vec<Value>> {
+        match self.value_before_group(here, id) {
+            Some((Token { kind: TokenKind::Literal(value), .. }, group)) => {
+                Ok(vec![*value, self.expression(here, group)?])
+            }
+            _ => Ok(vec![self.expression(here, id)?]),
+        }
+    }
+
+    /// Two values where a call is written: what a name holds that cannot be called, and what stands in
+    /// parentheses behind it.
+    pub(super) fn value_before_group(
+        &self,
+        here: &Here,
+        id: ExpressionId,
+    ) -> Option<(Token, ExpressionId)> {
+        if self.options.dialect == Dialect::Scene {
+            return None;
+        }
+        let ExpressionKind::Call(Callee::Name(name, span), arguments) =
+            here.unit.expression(id).kind
+        else {
+            return None;
+        };
+        let [Argument::Expression(group)] = *here.unit.ast.arguments(arguments) else {
+            return None;
+        };
+        let value = self.scopes.look(here.symbol(name))?;
+        let is_plain = matches!(value, Value::Number(_) | Value::Vector(_) | Value::Color(_));
+        let kind = TokenKind::Literal(Box::new(value.clone()));
+        is_plain.then(|| (Token { kind, span, here: here.clone() }, group))
+    }
+}
