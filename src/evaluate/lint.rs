@@ -14,18 +14,17 @@ mod range;
 mod short;
 mod switch;
 mod unit;
+mod unused;
 mod version;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::diagnostic::suggest::closest;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{ObjectId, ObjectKind, Unused};
-use crate::source::{FileId, Site, Span};
+use crate::source::{Site, Span};
 use crate::syntax::ast::{DirectiveKind, ExpressionKind, ItemKind, Items, NameId, Target};
-use crate::vocabulary::{PREDECLARED, Word, is_standard_source};
+use crate::vocabulary::{PREDECLARED, Word};
 
-use super::scope::Owner;
 pub(in crate::evaluate) use equation::Compared;
 pub(in crate::evaluate) use light::Cone;
 pub(in crate::evaluate) use loose::Side;
@@ -33,144 +32,12 @@ pub(in crate::evaluate) use map::Rise;
 pub(in crate::evaluate) use version::version_end;
 
 use super::stream::Token;
-use super::value::Value;
 use super::{Evaluator, Here, Unit};
 
 /// How many names are looked at that are declared again.
 const MOST_LOOKS: usize = 100;
 
 impl Evaluator<'_> {
-    /// Names that were declared in the main file and never used: the scene knows them, and there is
-    /// a lint for each.
-    pub(super) fn lint_declarations(&mut self, main: &Unit) {
-        self.tell_unused(main, |_| true);
-        self.lint_redeclared(main);
-    }
-
-    /// As [`Self::lint_declarations`], of a scene with mistakes: names that nothing but their declaration has, nor
-    /// any message.
-    pub(super) fn lint_lone_names(&mut self, main: &Unit) {
-        let own = self.sources.iter().filter(|(_, source)| !is_standard_source(&source.name));
-        let mut own: Vec<String> = own.skip(1).map(|(_, source)| source.text.clone()).collect();
-        for one in self.diagnostics.iter() {
-            own.push(one.message.clone());
-            own.extend(one.help.iter().chain(one.labels.iter().map(|label| &label.text)).cloned());
-        }
-        let has = |name: &str| {
-            let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-            own.iter().any(|text| text.split(|c| !is_part(c)).any(|word| word == name))
-        };
-        // It may be meant by what is not declared.
-        let lacking = self.diagnostics.iter().filter(|one| one.code == Code::UndeclaredName);
-        let lacking = lacking.filter_map(|one| Some(self.sources.text(one.primary()?.span)));
-        let lacking: Vec<String> = lacking.map(str::to_owned).collect();
-        let is_near = |name: &str| closest(name, lacking.iter().map(String::as_str)).is_some();
-        self.tell_unused(main, |name| !has(name) && !is_near(name));
-    }
-
-    fn tell_unused(&mut self, main: &Unit, is_meant: impl Fn(&str) -> bool) {
-        let has_errors = self.diagnostics.has_errors();
-        let is_error = |told: &&Diagnostic| told.is_error();
-        let faults = self.diagnostics.iter().filter(is_error);
-        let faulty = faults.flat_map(|told| told.labels.iter().map(|label| label.span));
-        let faulty: BTreeSet<(FileId, usize)> = faulty.map(|span| self.line_of(span)).collect();
-        let mut unused: Vec<(Unused, Diagnostic)> = Vec::new();
-        for (name, declared, value) in self.scopes.declarations() {
-            if declared.used {
-                continue;
-            }
-            let theirs = match declared.of {
-                Owner::Main => true,
-                // A branch that was not run may use it, or a macro that this one calls.
-                Owner::Macro => self.is_only_declared(name, main),
-                Owner::Other => false,
-            };
-            if !theirs || name.starts_with('_') || !is_meant(name) {
-                continue;
-            }
-            let is_light = matches!(value, Some(&Value::Object(object)) if self.is_light(object));
-            if has_errors && !self.is_only_declared(name, main) {
-                continue;
-            }
-            // What is wrong on its line comes first.
-            let is_object = matches!(value, Some(Value::Object(_)));
-            if !is_object && faulty.contains(&self.line_of(declared.site.span)) {
-                continue;
-            }
-            // A word of the language cannot be declared; that has been told.
-            if Word::from_name(name).is_some() {
-                continue;
-            }
-            let site = declared.site;
-            let diagnostic = match value {
-                None if declared.of == Owner::Macro => Diagnostic::new(
-                    Code::UnusedDeclaration,
-                    format!("`{name}` is declared in a macro, and never used"),
-                )
-                .at(site.span, "declared here"),
-                Some(Value::Broken) | None => continue,
-                Some(Value::Object(_)) => {
-                    let (word, label) = match is_light {
-                        true => (Word::LightSource, "this light does not shine"),
-                        false => (Word::Object, "this object is not seen"),
-                    };
-                    let message = format!("`{name}` is declared and never placed in the scene");
-                    Diagnostic::new(Code::NeverPlaced, message)
-                        .at(site.span, label)
-                        .help(format!("place it with `{} {{ {name} }}`", word.name()))
-                }
-                Some(Value::Camera(_)) => Diagnostic::new(
-                    Code::UnusedDeclaration,
-                    format!("`{name}` is a camera that is declared and never used"),
-                )
-                .at(site.span, "the scene is not seen by it")
-                .help(format!("use it with `camera {{ {name} }}`")),
-                Some(_) => Diagnostic::new(
-                    Code::UnusedDeclaration,
-                    format!("`{name}` is declared and never used"),
-                )
-                .at(site.span, "declared here"),
-            };
-            let text = &self.sources.get(site.span.file).text;
-            let before = text[..site.span.start as usize].trim_end();
-            let directive = ["macro", "local"].into_iter().find(|word| before.ends_with(word));
-            let directive = directive.unwrap_or("declare");
-            let name = name.to_owned();
-            let is_camera = matches!(value, Some(Value::Camera(_)));
-            unused.push((Unused { directive, name, site, is_light, is_camera }, diagnostic));
-        }
-        unused.sort_by_key(|(one, _)| one.site.span);
-        for (one, diagnostic) in unused {
-            self.scene.unused.push(one);
-            self.diagnostics.push(diagnostic);
-        }
-    }
-
-    fn line_of(&self, span: Span) -> (FileId, usize) {
-        (span.file, self.sources.get(span.file).position(span.start as usize).line)
-    }
-
-    fn is_light(&self, mut object: ObjectId) -> bool {
-        loop {
-            match self.scene.objects[object.index()].kind {
-                ObjectKind::Use(used) => object = used,
-                ObjectKind::LightSource(_) => return true,
-                ObjectKind::Solid(_) | ObjectKind::Union(_) | ObjectKind::Csg { .. } => {
-                    return false;
-                }
-            }
-        }
-    }
-
-    /// Whether the main file has this name only where it declares it. A comment that has it counts for
-    /// a use: better silent than wrong.
-    fn is_only_declared(&self, name: &str, main: &Unit) -> bool {
-        let declared = main.declarations().filter(|(other, _)| main.ast.name(*other) == name);
-        let text = &self.sources.get(main.ast.file).text;
-        let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
-        words.filter(|word| *word == name).count() == declared.count()
-    }
-
     /// Names given from outside that no file of the scene has.
     pub(super) fn lint_options(&mut self, main: &Unit) {
         let options = self.options;

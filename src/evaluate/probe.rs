@@ -30,6 +30,8 @@ const UNBOUNDED: f64 = 1e10;
 pub(super) struct Probe {
     world: World,
     geometry: Geometry,
+    /// The box that holds it, as POV-Ray tells it.
+    extent: (Vector, Vector),
 }
 
 impl Evaluator<'_> {
@@ -80,8 +82,8 @@ impl Evaluator<'_> {
         }
         let probe = self.probed(here, span, object)?;
         Ok(match word {
-            Word::MinExtent => Value::vector3(probe.extent().0),
-            Word::MaxExtent => Value::vector3(probe.extent().1),
+            Word::MinExtent => Value::vector3(probe.extent.0),
+            Word::MaxExtent => Value::vector3(probe.extent.1),
             Word::Inside => Value::truth(probe.contains(vectors[0])),
             _ => {
                 let Some(direction) = UnitVector::from_direction(vectors[1]) else {
@@ -153,24 +155,13 @@ impl Evaluator<'_> {
             return Err(self.halt(here.expansion, diagnostic));
         }
         let geometry = Geometry::build(&world);
-        let probe = Rc::new(Probe { world, geometry });
+        let probe = Rc::new(Probe { extent: extent(&world), world, geometry });
         self.probes.insert(object, probe.clone());
         Ok(probe)
     }
 }
 
 impl Probe {
-    fn extent(&self) -> (Vector, Vector) {
-        let extent = Extent::of_all(&self.world, Rounding::Nearest);
-        if extent.is_empty() {
-            return (Vector::ZERO, Vector::ZERO);
-        }
-        let far = Vector::splat(UNBOUNDED);
-        let Bounds { low, high } = extent.bounds().unwrap_or(Bounds { low: -far, high: far });
-        // Zero has no sign where people read it.
-        (low + Vector::ZERO, high + Vector::ZERO)
-    }
-
     fn contains(&self, point: Vector) -> bool {
         self.world
             .solids()
@@ -199,6 +190,18 @@ impl Probe {
         let normal = if flips { -surface.normal } else { surface.normal };
         Some((surface.point, normal + Vector::ZERO))
     }
+}
+
+/// The box that holds all of a World.
+fn extent(world: &World) -> (Vector, Vector) {
+    let extent = Extent::of_all(world, Rounding::Nearest);
+    if extent.is_empty() {
+        return (Vector::ZERO, Vector::ZERO);
+    }
+    let far = Vector::splat(UNBOUNDED);
+    let Bounds { low, high } = extent.bounds().unwrap_or(Bounds { low: -far, high: far });
+    // Zero has no sign where people read it.
+    (low + Vector::ZERO, high + Vector::ZERO)
 }
 
 /// The object and what it is made of, and nothing of textures or lights.

@@ -87,7 +87,8 @@ pub struct Scopes {
     held: u64,
     /// Slots whose table has closed.
     free: Vec<Slot>,
-    /// The bindings of each open table, and whether the slot is its own; the first is the main file's.
+    /// The bindings of each open table, and whether the slot is its own; the first is the main file's, which never
+    /// closes and lists none.
     tables: Vec<Vec<(Symbol, bool)>>,
     /// Tables that have closed, to be opened again.
     spare: Vec<Vec<(Symbol, bool)>>,
@@ -248,7 +249,10 @@ impl Scopes {
             _ => {
                 let slot = self.keep(value);
                 self.states[symbol.0 as usize].bindings.insert(at, (depth, slot));
-                self.tables[depth as usize].push((symbol, true));
+                // The main file's never closes.
+                if depth > 0 {
+                    self.tables[depth as usize].push((symbol, true));
+                }
             }
         }
     }

@@ -34,13 +34,13 @@ impl Lowering<'_, '_> {
             return None;
         }
         let interiors = &mut self.world.interiors;
-        let known = interiors.iter().position(|interior| interior.ior == ior);
-        let index = known.unwrap_or_else(|| {
+        // Zero has no sign.
+        let index = *self.known_interiors.entry((ior + 0.0).to_bits()).or_insert_with(|| {
             interiors.push(Interior { ior });
-            interiors.len() - 1
+            interiors.len() as u32 - 1
         });
         self.fillings.push((interior, finish));
-        Some(index as u32)
+        Some(index)
     }
 
     /// What called for an interior: for one other than the air, what has to be taken out for it to be

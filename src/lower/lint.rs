@@ -12,12 +12,14 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{CameraItemKind, Object, ObjectKind, Root};
 use crate::shape::Body;
 use crate::shape::isosurface::Nowhere;
-use crate::source::Site;
+use crate::source::{Site, Span};
 
 /// What a white surface gives off by default: it tells shapes apart from black, and no more.
 pub(super) const DEFAULT_AMBIENT: f64 = 0.1;
 /// What the sum of two decimals may be off by.
 const ROUNDING: f64 = 1e-9;
+/// So many of several places that are alike are named.
+const MOST_NAMED: usize = 8;
 /// How far from square a pixel may be, relative: POV-Ray's own `right 1.33*x` stands for 4:3.
 const NEARLY_SQUARE: f64 = 0.01;
 
@@ -112,9 +114,10 @@ impl Lowering<'_, '_> {
             let told = Diagnostic::new(Code::DuplicateCamera, message)
                 .at(last.site.span, "the picture is seen from this one")
                 .help("keep one; or `#declare` them, and choose with `camera { Name }`");
-            let told = ignored
-                .iter()
-                .fold(told, |told, camera| told.also(camera.site.span, "this one is not used"));
+            let mut places: Vec<Span> = ignored.iter().map(|camera| camera.site.span).collect();
+            places.dedup();
+            let places = places.into_iter().take(MOST_NAMED);
+            let told = places.fold(told, |told, place| told.also(place, "this one is not used"));
             let told = told.traced(last.site, self.reporter.expansions);
             self.reporter.diagnostics.push(told);
         }

@@ -79,6 +79,7 @@ pub fn lower(
         last_surface: None,
         dropped: HashMap::new(),
         fillings: Vec::new(),
+        known_interiors: HashMap::new(),
         unpainted: Vec::new(),
         lamps: Vec::new(),
         black: None,
@@ -124,6 +125,8 @@ struct Lowering<'s, 'd> {
     dropped: HashMap<(&'static str, String, Span), usize>,
     /// Of each object that has an interior, in order.
     fillings: Vec<interior::Filling>,
+    /// Where each index of refraction, by its bits, stands in the World.
+    known_interiors: HashMap<u64, u32>,
     /// Where solids stand that have no pigment and do not mirror.
     unpainted: Vec<Site>,
     /// The word of each light.

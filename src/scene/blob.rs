@@ -28,13 +28,6 @@ pub struct Component {
 const MOST: usize = 1000;
 
 impl Blob {
-    /// How many bytes it holds.
-    pub fn bytes(&self) -> u64 {
-        let transforms = |component: &Component| size_of_val(&component.transforms[..]) as u64;
-        let lists: u64 = self.components.iter().map(transforms).sum();
-        lists + size_of_val(&self.components[..]) as u64
-    }
-
     /// Nowhere could its field be as strong as the threshold: where a component is, there are those that
     /// reach into it.
     pub fn is_weak(&self) -> bool {
@@ -49,6 +42,11 @@ impl Blob {
 }
 
 impl Component {
+    /// How many bytes it holds.
+    pub fn bytes(&self) -> u64 {
+        (size_of::<Self>() + size_of_val(&self.transforms[..])) as u64
+    }
+
     /// Whether the balls around two of them meet; whatever was transformed may.
     fn reaches(&self, other: &Self) -> bool {
         if !(self.transforms.is_empty() && other.transforms.is_empty()) {

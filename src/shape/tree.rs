@@ -19,6 +19,8 @@ const BINS: usize = 16;
 const LEAF: usize = 4;
 /// From here on splits are by halves.
 const DEPTH: usize = 40;
+/// So many nodes are looked at for what touches a box; what is in others counts as a whole.
+const MOST_NODES: usize = 256;
 /// Stands for 1/0.
 const STEEPEST: f64 = 1e300;
 
@@ -109,6 +111,41 @@ impl Tree {
                 (true, count) => leaf(*first as usize..(first + count) as usize),
             }
         }
+    }
+
+    /// Of each node the sum of what its pieces weigh, to be asked by [`Self::weight_touching`].
+    pub fn weights(&self, piece: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut weights = vec![0.0; self.nodes.len()];
+        // Children stand behind their parents.
+        for (index, &Node { first, count, .. }) in self.nodes.iter().enumerate().rev() {
+            let first = first as usize;
+            weights[index] = match count {
+                0 => weights[first] + weights[first + 1],
+                _ => (first..first + count as usize).map(&piece).sum(),
+            };
+        }
+        weights
+    }
+
+    /// What all pieces weigh whose boxes touch the given one, or more; and how many nodes were looked at, which is
+    /// [`MOST_NODES`] and a few at most.
+    pub fn weight_touching(&self, wanted: &Bounds, weights: &[f64]) -> (f64, usize) {
+        let mut queue: SmallVec<[u32; 64]> = SmallVec::new();
+        queue.push(0);
+        let (mut sum, mut seen) = (0.0, 0);
+        while let Some(&index) = queue.get(seen) {
+            seen += 1;
+            let Node { bounds, first, count } = &self.nodes[index as usize];
+            if !(bounds.low.cmple(wanted.high).all() && wanted.low.cmple(bounds.high).all()) {
+                continue;
+            }
+            let is_within = wanted.contains(bounds.low) && wanted.contains(bounds.high);
+            match count {
+                0 if !is_within && queue.len() < MOST_NODES => queue.extend([*first, first + 1]),
+                _ => sum += weights[index as usize],
+            }
+        }
+        (sum, seen)
     }
 
     /// The greatest of what `leaf` says of runs of pieces, which is no more, but for rounding, than

@@ -18,7 +18,7 @@ impl Evaluator<'_> {
     /// `blob { threshold number sphere { … } cylinder { … } … }`, in any order.
     pub(super) fn blob(&mut self, token: &Token) -> Outcome<Solid> {
         let mut blob = Blob { threshold: 1.0, components: Vec::new() };
-        let (mut failed, mut count) = (false, 0);
+        let (mut failed, mut count, mut bytes) = (false, 0, 0);
         loop {
             self.skip_commas();
             if self.passes_no_part(Place::shape(Word::Blob), &[Word::Sphere, Word::Cylinder]) {
@@ -36,15 +36,17 @@ impl Evaluator<'_> {
             };
             let Some(part) = self.next() else { break };
             count += usize::from(word.family() == Family::Shape || word == Word::Component);
+            let before = blob.components.len();
             failed |= read(self, &part, word, &mut blob).is_err();
-            if !self.has_memory(blob.bytes()) {
+            bytes += blob.components[before..].iter().map(Component::bytes).sum::<u64>();
+            if !self.has_memory(bytes) {
                 return Err(self.too_much_memory(&part.here, part.span));
             }
         }
         if failed || self.poison.is_some() {
             return Err(Reported);
         }
-        self.stored += blob.bytes();
+        self.stored += bytes;
         // Another shape is told where it stands.
         let is_shape = |kind: &TokenKind| matches!(kind, TokenKind::Word(word) if word.family() == Family::Shape);
         if count == 0 && self.peek().is_some_and(|next| is_shape(&next.kind)) {

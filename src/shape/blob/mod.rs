@@ -90,31 +90,13 @@ impl Component {
 impl Blob {
     /// Components whose strengths are measured in thresholds, and which together are about as large as 1.
     /// `None` where they add up to 1 nowhere.
-    ///
-    /// Where the surface is, some component has the greatest 1 − d². Its square, times the sum of all
-    /// positive strengths whose components meet this one, is 1 or more; so no surface is farther from the
-    /// middle of that component than the d that follows.
     pub fn new(mut components: Vec<Component>) -> Option<Self> {
         components.retain(|component| component.strength != 0.0);
         if components.is_empty() {
             return None;
         }
-        let bounds: Vec<Bounds> = components.iter().map(Component::bounds).collect();
-        let (tree, order) = Tree::build(&bounds);
-        let components: Vec<_> = order.iter().map(|&i| components[i as usize]).collect();
-        let bounds: Vec<_> = order.iter().map(|&i| bounds[i as usize]).collect();
-        let width = |(component, bounds): (&Component, &Bounds)| {
-            if component.strength < 0.0 {
-                return 0.0;
-            }
-            let mut most = 0.0;
-            tree.touching(bounds, |run| {
-                most += components[run].iter().map(|other| other.strength.max(0.0)).sum::<f64>();
-            });
-            // A NaN is no width either.
-            (1.0 - 1.0 / most.sqrt()).max(0.0).sqrt()
-        };
-        let widths: Vec<f64> = components.iter().zip(&bounds).map(width).collect();
+        let (tree, components, bounds) = sorted(&components);
+        let (widths, _) = widths(&tree, &components, &bounds);
         let parts = || components.iter().zip(&widths).filter(|(_, width)| **width > 0.0);
         let reach = parts().map(|(component, &width)| component.reach(width)).fold(0.0, f64::max);
         parts().next()?;
@@ -138,6 +120,36 @@ impl Blob {
             reach.fold(f64::NEG_INFINITY, f64::max)
         })
     }
+}
+
+/// A tree over some components; these in its order, and their boxes.
+fn sorted(components: &[Component]) -> (Tree, Vec<Component>, Vec<Bounds>) {
+    let bounds: Vec<Bounds> = components.iter().map(Component::bounds).collect();
+    let (tree, order) = Tree::build(&bounds);
+    let components = order.iter().map(|&i| components[i as usize]).collect();
+    let bounds = order.iter().map(|&i| bounds[i as usize]).collect();
+    (tree, components, bounds)
+}
+
+/// Returns [`Blob::widths`], and how many nodes of the tree were looked at.
+///
+/// Where the surface is, some component has the greatest 1 − d². Its square, times the sum of all positive
+/// strengths whose components meet this one, is 1 or more; so no surface is farther from the middle of that
+/// component than the d that follows. More strengths than meet it only make the width greater.
+fn widths(tree: &Tree, components: &[Component], bounds: &[Bounds]) -> (Vec<f64>, usize) {
+    let strengths = tree.weights(|i| components[i].strength.max(0.0));
+    let mut looks = 0;
+    let width = |(component, bounds): (&Component, &Bounds)| {
+        if component.strength < 0.0 {
+            return 0.0;
+        }
+        let (most, seen) = tree.weight_touching(bounds, &strengths);
+        looks += seen;
+        // A NaN is no width either.
+        (1.0 - 1.0 / most.sqrt()).max(0.0).sqrt()
+    };
+    let widths = components.iter().zip(bounds).map(width).collect();
+    (widths, looks)
 }
 
 impl Local for Blob {
@@ -206,6 +218,12 @@ impl Local for Blob {
 
 #[cfg(test)]
 impl Blob {
+    /// How many nodes of a tree are looked at for the widths of some components.
+    pub(super) fn looks(components: &[Component]) -> usize {
+        let (tree, components, bounds) = sorted(components);
+        widths(&tree, &components, &bounds).1
+    }
+
     /// What is missing to 1, in twice the digits.
     pub(super) fn exactly(&self, point: super::exact::Triple) -> super::exact::Double {
         use super::exact::{Double, local, minus, triple};

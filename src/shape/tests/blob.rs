@@ -154,3 +154,57 @@ fn a_blob_lies_within_its_extent_and_its_reach() {
         }
     }
 }
+
+/// Balls in a row, each of which meets a few others.
+fn row(count: usize) -> Vec<Component> {
+    let n = count as f64;
+    (0..count).map(|i| ball(Vector::X * (i as f64 / n), 3.0 / n, 1.7)).collect()
+}
+
+/// Bars end to end.
+fn chain(count: usize) -> Vec<Component> {
+    let half = 0.5 / count as f64;
+    let bar = |at: usize| {
+        let centre = Vector::new(1.0, 2.0, 3.0) * (2.0 * half * at as f64);
+        Component { half: 0.5, ..ball(centre, 2.0 * half, 1.7) }
+    };
+    (0..count).map(bar).collect()
+}
+
+/// Balls that each meet a good part of the others.
+fn heap(count: usize) -> Vec<Component> {
+    let mut random = Random(5);
+    (0..count).map(|_| ball(random.point(0.5), random.number(0.1, 0.6), 1e-4)).collect()
+}
+
+/// Balls that all stand in one place.
+fn pile(count: usize) -> Vec<Component> {
+    vec![ball(Vector::ZERO, 0.5, 1e-4); count]
+}
+
+#[test]
+fn of_ten_times_as_many_components_the_widths_take_little_more_than_ten_times_as_long() {
+    for kind in [row, chain, heap, pile] {
+        let [few, many] = [10_000, 100_000].map(|count| Blob::looks(&kind(count)));
+        assert!(many <= 13 * few, "{few} looks, then {many}");
+    }
+}
+
+#[test]
+fn a_heap_of_weak_components_has_its_surface_within_what_it_is_told_to_reach() {
+    let strong = |mut part: Component| {
+        part.strength = 0.02;
+        part
+    };
+    let heap: Vec<Component> = heap(2000).into_iter().map(strong).collect();
+    let blob = Blob::new(heap.clone()).expect("they add up");
+    let mut random = Random(6);
+    for _ in 0..2000 {
+        let point = random.point(0.9);
+        if blob.contains(point) {
+            let along = random.direction().get();
+            let (low, high) = blob.extent(along);
+            assert!((low..=high).contains(&along.dot(point)), "{point}");
+        }
+    }
+}

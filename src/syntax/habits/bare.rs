@@ -105,13 +105,16 @@ impl Reader<'_> {
             && self.kind(end) == Some(TokenKind::String)
             && self.touches(1)
             && self.touches(end);
+        if !touching {
+            return false;
+        }
         // `#write (F, "x"A"y")`
         let round = TokenKind::Mark(Mark::Open(Bracket::Round));
         let opener = meant.iter().rposition(|token| token.kind == round);
         let is_written = opener
             .and_then(|at| at.checked_sub(1))
             .is_some_and(|at| meant[at].kind == TokenKind::Directive(Head::Write));
-        if !touching || is_written || (1..end).any(|at| self.declares_anywhere(self.slice(at))) {
+        if is_written || (1..end).any(|at| self.declares_anywhere(self.slice(at))) {
             return false;
         }
         let (first, last) = (self.span(0, 0), self.span(end, end));
