@@ -159,6 +159,7 @@ codes! {
     TakesNothing "takes-nothing" lint "what a difference takes away does not reach what it takes it from";
     OpenOutline "open-outline" sure "the outline of a shape does not end where it began, and is closed";
     CoincidingFaces "coinciding-faces" quiet "faces of two parts of one solid coincide, where POV-Ray draws speckles";
+    ClearTwice "clear-twice" sure "clear objects stand in one place, where each counts, and POV-Ray shows one";
     ComparedSurface "compared-surface" sure "the formula of a surface is an equation, which is 0 or 1";
     UnsortedMap "unsorted-map" sure "the entries of a map are not in rising order";
     MapRange "map-range" lint "an entry of a map lies where a pattern has no values";

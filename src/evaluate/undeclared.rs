@@ -25,20 +25,10 @@ use super::value::Value;
 use super::written::number_as_a_name;
 use super::{Evaluator, Here, Reported, Symbol};
 
-/// So many undeclared names are compared with all that are declared.
-const MOST_COMPARED: usize = 200;
+/// Of so many undeclared names it is looked for what each was meant to be; each look goes through all names.
+const MOST_LOOKS: usize = 200;
 
 impl Evaluator<'_> {
-    /// Whether an undeclared name is compared with others: not after [`MOST_COMPARED`] were.
-    fn compares(&self) -> bool {
-        self.remembered.undeclared.len() < MOST_COMPARED
-    }
-
-    /// The declared names that it is compared with.
-    fn comparable(&self) -> impl Iterator<Item = &str> {
-        self.scopes.visible().take(if self.compares() { usize::MAX } else { 0 })
-    }
-
     /// A name that was never declared, where a value should stand: said once for each name.
     pub(super) fn undeclared(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
         self.undeclared_among(here, symbol, span, |word| word.role() != Role::Statement)
@@ -56,7 +46,8 @@ impl Evaluator<'_> {
         // `Arm_001`, where `Arm.001` is declared: that has been told.
         let is_dotted =
             |other: &str| other.contains(['.', '-']) && other.replace(['.', '-'], "_") == name;
-        if name.contains('_') && self.comparable().any(is_dotted) {
+        let is_looked_for = self.remembered.undeclared.len() < MOST_LOOKS;
+        if is_looked_for && name.contains('_') && self.scopes.visible().any(is_dotted) {
             return Reported;
         }
         // `T_Stone 21`: of that it was told as it was read.
@@ -93,7 +84,7 @@ impl Evaluator<'_> {
 
     /// The one name of the author's that one with a capital is somewhat like.
     pub(super) fn one_alike(&self, name: &str) -> Option<&str> {
-        let own = self.comparable().filter(|other| {
+        let own = self.scopes.visible().filter(|other| {
             let is_standard = || standard_include_of(other).is_some();
             other.starts_with(char::is_uppercase) && !is_standard()
         });
@@ -131,10 +122,14 @@ impl Evaluator<'_> {
         {
             return None;
         }
+        if self.remembered.undeclared.len() >= MOST_LOOKS {
+            let is_whole = !self.lacks_include && self.unread.is_empty();
+            return is_whole.then(|| diagnostic.at(span, "not declared up to here"));
+        }
         let of_others = is_called && suggest::foreign(name).next().is_some();
-        let close = suggest::closest(name, self.comparable())
-            .or_else(|| suggest::abridged(name, self.comparable()))
-            .or_else(|| suggest::contracted(name, self.comparable()))
+        let close = suggest::closest(name, self.scopes.visible())
+            .or_else(|| suggest::abridged(name, self.scopes.visible()))
+            .or_else(|| suggest::contracted(name, self.scopes.visible()))
             .or_else(|| self.one_alike(name))
             .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(name))
             // `arctan(b, a)` is rather another language's function than a colour.
@@ -156,7 +151,6 @@ impl Evaluator<'_> {
             // The include that was not read would have declared it.
             return None;
         }
-        let looks_similar = self.compares() && !of_others;
         let later = here.unit.declaration_of(symbol);
         let was = self.scopes.declared(symbol).copied();
         if let Some(was) = was {
@@ -202,7 +196,7 @@ impl Evaluator<'_> {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")
                 .help(format!("`{name}` comes with `#include \"{include}\"`"));
-            if let Some(own) = suggest::closest(name, self.comparable()) {
+            if let Some(own) = suggest::closest(name, self.scopes.visible()) {
                 diagnostic =
                     diagnostic.help(format!("or did you mean `{own}`, which is declared?"));
             }
@@ -218,7 +212,7 @@ impl Evaluator<'_> {
                 .help(format!("did you mean `{word}`?"))
                 .fix(span, word);
         } else if let Some((close, later)) =
-            looks_similar.then(|| here.unit.similar_declaration(name)).flatten()
+            here.unit.similar_declaration(name).filter(|_| !of_others)
         {
             diagnostic = diagnostic
                 .at(span, "not declared up to here")

@@ -5,8 +5,11 @@
 //! around the parts prove it, or corners around the first part that lie in a convex one; an operation that a
 //! loop or a macro makes again and again is told only where nothing is left of any.
 
+mod gap;
+
 use std::f64::consts::PI;
 
+use self::gap::{Gap, THIN, gap_along_axes};
 use super::Lowering;
 use super::csg::{Making, Open};
 use crate::diagnostic::{Code, Diagnostic};
@@ -19,8 +22,8 @@ use crate::shape::{Body, Bounds, Box_, Rounding, Shape};
 use crate::source::{Site, Span};
 use crate::world::Object;
 
-/// What is thinner than this, relative, is not there: it may all be rounding.
-const THIN: f64 = 64.0 * f64::EPSILON;
+/// Of operations with more parts, two are compared along the axes alone.
+const MOST_SLANTED: usize = 64;
 /// Corners of the polygon that is drawn around a circle.
 const CORNERS: usize = 32;
 
@@ -66,12 +69,6 @@ impl Known {
     }
 }
 
-/// Two of some parts that do not meet.
-struct Gap {
-    touching: bool,
-    parts: [usize; 2],
-}
-
 impl Lowering<'_, '_> {
     /// Notes a part of the whole under way: the object placed last.
     pub(super) fn know_leaf(&mut self, inverse: bool, site: Site) {
@@ -109,7 +106,7 @@ impl Lowering<'_, '_> {
         let parts = building.known.drain(first..).map(|part| part.turned(inverse));
         let parts: Vec<Known> = parts.collect();
         if making == Making::Clip && !inverse {
-            let told = clipped_away(&parts, site);
+            let told = self.clipped_away(&parts, site);
             self.note_emptied((site.span, true), told, site);
         }
         if let Making::Operation(operation @ (Operation::Intersection | Operation::Difference)) =
@@ -151,8 +148,9 @@ impl Lowering<'_, '_> {
         if operation == Operation::Difference {
             // Each of the others is here what it leaves.
             let others = &parts[1..];
-            let by_one = others.iter().find(|other| self.takes_all(&parts[0], other));
-            if by_one.is_none() && gap(parts).is_none() {
+            let is_short = parts.len() <= MOST_SLANTED;
+            let by_one = others.iter().find(|other| self.takes_all(&parts[0], other, is_short));
+            if by_one.is_none() && self.gap(parts).is_none() {
                 return None;
             }
             let told = told("what is taken away holds all of the first").help(
@@ -165,7 +163,7 @@ impl Lowering<'_, '_> {
                 _ => told,
             });
         }
-        let Gap { touching, parts: [a, b] } = gap(parts)?;
+        let Gap { touching, parts: [a, b] } = self.gap(parts)?;
         let told = match touching {
             true => told("its parts only touch"),
             false => told("its parts do not meet"),
@@ -181,10 +179,11 @@ impl Lowering<'_, '_> {
     /// Notes what takes nothing away, and what takes something, of the parts of a difference.
     fn note_idle(&mut self, parts: &[Known]) {
         let [first, others @ ..] = parts else { return };
+        let is_short = parts.len() <= MOST_SLANTED;
         for other in others.iter().filter(|_| !first.is_nothing()) {
             let site = other.site;
             let taken = other.turned(true);
-            let apart = gap(&[*first, taken]).is_some_and(|gap| !gap.touching);
+            let apart = self.gap_of_two([*first, taken], is_short).is_some_and(|gap| !gap.touching);
             let hollow = self.sheet(other);
             let is_idle = (apart || hollow.is_some()) && !taken.is_nothing();
             let told = (is_idle && site.span != first.site.span).then(|| {
@@ -219,8 +218,13 @@ impl Lowering<'_, '_> {
     }
 
     /// Whether nothing of a part is left where `rest` is what another leaves.
-    fn takes_all(&self, first: &Known, rest: &Known) -> bool {
-        gap(&[*first, *rest]).is_some() || self.is_within(first, rest)
+    fn takes_all(&self, first: &Known, rest: &Known, is_short: bool) -> bool {
+        self.gap_of_two([*first, *rest], is_short).is_some() || self.is_within(first, rest)
+    }
+
+    /// Between two parts of an operation, of a short one also across slanted faces.
+    fn gap_of_two(&self, parts: [Known; 2], is_short: bool) -> Option<Gap> {
+        if is_short { self.gap(&parts) } else { gap_along_axes(&parts) }
     }
 
     /// Whether a part lies all in a convex object, of which `rest` is what is not in it.
@@ -306,6 +310,26 @@ impl Lowering<'_, '_> {
         corners_of(&part.inside)
     }
 
+    /// Says that nothing is left of an object, the first of the parts, in what clips it, where that is certain.
+    fn clipped_away(&self, parts: &[Known], site: Site) -> Option<Diagnostic> {
+        if parts.len() < 2 || parts.iter().any(Known::is_nothing) {
+            return None;
+        }
+        // What lies in a face of what clips it is kept.
+        let Gap { parts: apart, .. } = self.gap(parts).filter(|gap| !gap.touching)?;
+        let why = match apart.contains(&0) {
+            true => "it does not reach into what clips it",
+            false => "what clips it does not meet",
+        };
+        let told =
+            Diagnostic::new(Code::NothingLeft, format!("this object is clipped away: {why}"))
+                .at(site.span, "nothing is left of it")
+                .help("`clipped_by` keeps what lies inside of its shapes");
+        let clips = apart.into_iter().filter(|part| *part > 0).map(|part| parts[part].site.span);
+        let clips = clips.filter(|clip| *clip != site.span);
+        Some(clips.fold(told, |told, clip| told.also(clip, "it is clipped by this")))
+    }
+
     pub(super) fn lint_emptied(&mut self) {
         let emptied = std::mem::take(&mut self.emptied).into_values();
         let idle = std::mem::take(&mut self.idle).into_values();
@@ -338,45 +362,6 @@ fn whole(making: Making, parts: &[Known], inverse: bool, site: Site) -> Known {
         Making::Clip => (shared(|part| part.inside), Bounds::EVERYWHERE),
     };
     Known { site, inside, outside, object: None }
-}
-
-/// Says that nothing is left of an object, the first of the parts, in what clips it, where that is certain.
-fn clipped_away(parts: &[Known], site: Site) -> Option<Diagnostic> {
-    if parts.len() < 2 || parts.iter().any(Known::is_nothing) {
-        return None;
-    }
-    // What lies in a face of what clips it is kept.
-    let Gap { parts: apart, .. } = gap(parts).filter(|gap| !gap.touching)?;
-    let why = match apart.contains(&0) {
-        true => "it does not reach into what clips it",
-        false => "what clips it does not meet",
-    };
-    let told = Diagnostic::new(Code::NothingLeft, format!("this object is clipped away: {why}"))
-        .at(site.span, "nothing is left of it")
-        .help("`clipped_by` keeps what lies inside of its shapes");
-    let clips = apart.into_iter().filter(|part| *part > 0).map(|part| parts[part].site.span);
-    let clips = clips.filter(|clip| *clip != site.span);
-    Some(clips.fold(told, |told, clip| told.also(clip, "it is clipped by this")))
-}
-
-/// Two of some parts that are apart, or else that only touch; `None` where boxes around all have a box in common.
-fn gap(parts: &[Known]) -> Option<Gap> {
-    let gaps = [0, 1, 2].map(|axis| gap_along(parts, axis));
-    gaps.into_iter().flatten().min_by_key(|gap| gap.touching)
-}
-
-/// Between the part that begins last and the one that ends first, where not even touching boxes overlap. What
-/// is thin itself may lie in a face.
-fn gap_along(parts: &[Known], axis: usize) -> Option<Gap> {
-    let (low, high) =
-        (|part: usize| parts[part].inside.low[axis], |part: usize| parts[part].inside.high[axis]);
-    let last = (0..parts.len()).max_by(|&a, &b| low(a).total_cmp(&low(b)))?;
-    let first = (0..parts.len()).min_by(|&a, &b| high(a).total_cmp(&high(b)))?;
-    let overlap = high(first) - low(last);
-    let thin = THIN * parts[first].size(axis).max(parts[last].size(axis));
-    let is_thick = |part: usize| high(part) - low(part) > thin;
-    let is_gap = overlap < 0.0 || overlap <= thin && (0..parts.len()).all(is_thick);
-    is_gap.then_some(Gap { touching: overlap >= -thin, parts: [first, last] })
 }
 
 fn corners_of(&Bounds { low, high }: &Bounds) -> Vec<Vector> {

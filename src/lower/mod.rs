@@ -10,6 +10,7 @@ mod body;
 mod camera;
 mod coinciding;
 mod csg;
+mod doubled;
 mod empty;
 mod faces;
 mod finish;
@@ -98,6 +99,7 @@ pub fn lower(
     lowering.unused();
     lowering.near_singular();
     lowering.coinciding();
+    lowering.doubled();
     lowering.lint();
     lowering.prune_interiors();
     let Lowering { world, mut origins, .. } = lowering;

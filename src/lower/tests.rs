@@ -5,6 +5,7 @@ mod camera;
 mod drift;
 mod fault;
 mod form;
+mod gap;
 mod interior;
 mod mesh;
 mod seed_rules;
