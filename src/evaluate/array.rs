@@ -337,6 +337,9 @@ impl Evaluator<'_> {
         if found == size {
             return Ok(poison);
         }
+        if self.undecided {
+            return Err(Reported);
+        }
         // What was written is there, so that asking for it is no second mistake.
         if array.dimensions.len() == 1 && found > size {
             array.elements.resize(found, Some(Value::Broken));

@@ -75,6 +75,7 @@ impl Evaluator<'_> {
                     self.scopes.note_declaration(symbol, here.site(*name_span), Owner::Other);
                     self.scopes.assign_local(symbol, Value::Number(from.unwrap_or(0.0)));
                     self.push_switch(here, *body);
+                    self.undecided = true;
                     return Err(Reported);
                 };
                 if step == 0.0 {

@@ -82,12 +82,14 @@ impl Evaluator<'_> {
         let (peeked, taken, silent) = (self.peeked.take(), self.taken, self.silent);
         // What a `#declare` must not look at lies behind the block.
         let hold = self.hold.take();
+        let undecided = std::mem::take(&mut self.undecided);
         self.enclosures.push(enclosure);
         // Blocks in blocks in macros can go deeper than a thread's stack.
         let result = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || consumer(self));
         (self.peeked, self.taken) = (None, taken);
         end(self);
         self.silent = silent;
+        self.undecided |= undecided;
         self.enclosures.pop();
         self.hold = hold;
         self.peeked = peeked;

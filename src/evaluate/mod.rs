@@ -62,9 +62,7 @@ use crate::scene::{
     TextureId,
 };
 use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
-use crate::syntax::ast::{
-    Argument, Ast, DirectiveId, DirectiveKind, Expression, ExpressionId, ExpressionKind, NameId,
-};
+use crate::syntax::ast::{Ast, DirectiveId, DirectiveKind, Expression, ExpressionId, NameId};
 
 use crate::vocabulary::PREDECLARED;
 
@@ -107,17 +105,6 @@ struct Unit {
 impl Unit {
     fn expression(&self, id: ExpressionId) -> &Expression {
         self.ast.expression(id)
-    }
-
-    /// Where a component of a vector is written; `None` where its components are not written one by one.
-    fn component_span(&self, vector: ExpressionId, place: usize) -> Option<Span> {
-        let ExpressionKind::Vector(components) = self.expression(vector).kind else { return None };
-        let components = self.ast.arguments(components);
-        let one_each = components.iter().all(|one| matches!(one, Argument::Expression(_)));
-        match components.get(place) {
-            Some(&Argument::Expression(id)) if one_each => Some(self.expression(id).span),
-            _ => None,
-        }
     }
 
     /// Everything this file declares, and where.
@@ -272,6 +259,8 @@ struct Evaluator<'a> {
     asked: HashMap<DirectiveId, [bool; 2]>,
     /// How many children of unions and the like could not be made.
     lost_children: u64,
+    /// In what is being read, a condition had no known value: what is missing may be in the branch not taken.
+    undecided: bool,
     /// How often something was reported, repetitions included; and how often an error.
     reports: u64,
     faults: u64,
@@ -397,6 +386,7 @@ impl<'a> Evaluator<'a> {
             misread: false,
             asked: HashMap::new(),
             lost_children: 0,
+            undecided: false,
             reports: 0,
             faults: 0,
             remembered: Remembered::default(),

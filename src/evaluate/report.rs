@@ -27,7 +27,7 @@ impl Evaluator<'_> {
         mut diagnostic: Diagnostic,
     ) -> Reported {
         // After a limit, what is missing is missing because nothing more is read.
-        if self.repeats(&diagnostic) {
+        if self.repeats(&diagnostic) || self.may_be_undecided(diagnostic.code) {
             return Reported;
         }
         if let Some(span) = diagnostic.primary().map(|label| label.span) {

@@ -26,6 +26,7 @@ impl Evaluator<'_> {
             ) => self.is_worn_out(turns, faults) || self.has_run_enough(),
             _ => false,
         };
+        self.undecided |= worn_out;
         let Some(Frame { here, kind, at, end, .. }) = self.frames.last_mut() else { return };
         let limit = self.options.limits.loop_turns;
         let interrupt = self.options.interrupt;
@@ -65,6 +66,7 @@ impl Evaluator<'_> {
                 if unknown && turns == 1 {
                     // What the condition would be is not known: the body is read once, for its own mistakes.
                     self.pop_frame();
+                    self.undecided = true;
                     return self.push_switch(&here, body);
                 }
                 if goes_on == Ok(true) {

@@ -2,6 +2,7 @@
 //!
 //! **Invariant:** each of them is there, and stands for nothing known: no later mistake is told for want of it.
 
+use crate::diagnostic::Code;
 use crate::source::Span;
 use crate::syntax::ast::{
     Argument, Callee, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items,
@@ -28,13 +29,23 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Whether a message may only be right since the other branch of a condition was not run: a list may lack
+    /// entries, or have too many.
+    pub(super) fn may_be_undecided(&self, code: Code) -> bool {
+        let is_about_parts = matches!(
+            code,
+            Code::MissingPart | Code::ExtraPart | Code::OpenOutline | Code::ZeroSize
+        );
+        self.undecided && is_about_parts && !self.blocks.is_empty()
+    }
+
+    /// What these items declare, or change, is there and not known.
     pub(super) fn declare_broken(&mut self, here: &Here, items: Items) {
+        self.undecided = true;
         for item in here.unit.ast.items(items) {
             let ItemKind::Directive(id) = item.kind else { continue };
             let (name, local) = match &here.unit.ast.directive(id).kind {
-                DirectiveKind::Declare { local, target } if target.indices.is_empty() => {
-                    (target.name, *local)
-                }
+                DirectiveKind::Declare { local, target } => (target.name, *local),
                 DirectiveKind::Macro { name, .. } => (*name, false),
                 DirectiveKind::If { then, otherwise, .. } => {
                     self.declare_broken(here, *then);
@@ -82,7 +93,7 @@ impl Evaluator<'_> {
     }
 
     fn break_name(&mut self, symbol: Symbol, local: bool) {
-        if self.scopes.slot(symbol).is_none() {
+        if !matches!(self.scopes.look(symbol), Some(Value::Macro(_))) {
             let home = self.scopes.home(symbol, local);
             self.scopes.assign_in(home, symbol, Value::Broken);
         }

@@ -10,7 +10,7 @@ use crate::vocabulary::Word;
 use super::arity::surplus;
 use super::stream::TokenKind;
 use super::value::{Components, Poison, Value};
-use super::{Evaluator, Here, Outcome, Reported};
+use super::{Evaluator, Here, Outcome, Reported, Unit};
 
 /// What a vector or a colour is asked for.
 const COMPONENTS: [&str; 12] =
@@ -34,6 +34,19 @@ impl Gathered {
             *slot = number;
         }
         self.count += 1;
+    }
+}
+
+impl Unit {
+    /// Where a component of a vector is written; `None` where its components are not written one by one.
+    pub(super) fn component_span(&self, vector: ExpressionId, place: usize) -> Option<Span> {
+        let ExpressionKind::Vector(components) = self.expression(vector).kind else { return None };
+        let components = self.ast.arguments(components);
+        let one_each = components.iter().all(|one| matches!(one, Argument::Expression(_)));
+        match components.get(place) {
+            Some(&Argument::Expression(id)) if one_each => Some(self.expression(id).span),
+            _ => None,
+        }
     }
 }
 
