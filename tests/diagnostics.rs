@@ -1,22 +1,8 @@
 //! What is said of a broken scene, word for word, and of a right one: nothing.
 //!
-//! `diagnostics/*.scene` hold broken scenes by topic, in a form that reads as a list:
-//!
-//! ```text
-//! === a misspelt word
-//! sphere { 0, 1 pigmnt { rgb 1 } }
-//! --- 1:15 unknown-word: `pigmnt` | did you mean `pigment` | fix pigment
-//! ```
-//!
-//! A case is a title, the scene, and every message that is expected, in the order of the places; any other
-//! message is a failure. A message is the line and the column it points at (`file:line:column` in an
-//! include, `-` for the scene as a whole), its code, and words that its sentences hold. `fix TEXT`
-//! is the text of a fix (a message without has none), `also 2:7` a place it points at too,
-//! `via 4:1` a step of its trace (a message without has none). `+++ a.inc` starts a file the scene may
-//! include. In a title, `(pov)` reads the scene as a `.pov` file, and `(escaped)` lets it
-//! write bytes as `\xE9`, `\t`, `\r`.
+//! `diagnostics/*.scene` hold broken scenes by topic, in the form of `corpus/mod.rs`. In a title, `(pov)` reads
+//! the scene as a `.pov` file.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -25,37 +11,11 @@ use lucarne::diagnostic::render::{Style, human};
 use lucarne::diagnostic::{Code, Diagnostic, Level, Levels, Severity};
 use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
-use lucarne::source::{FileError, FileId, Files, Found, Sources, Span, WriteError};
+use lucarne::source::{FileError, Files, Found, Sources, Span};
 
-/// The files of one case.
-#[derive(Default)]
-struct Includes(BTreeMap<String, Vec<u8>>);
+use corpus::{Case, Expected, Includes, assert_none, said, shown};
 
-impl Files for Includes {
-    fn read(&self, name: &str, _: &str) -> Result<Found, FileError> {
-        if name.starts_with("../") {
-            return Err(FileError::Forbidden);
-        }
-        match self.0.get(name) {
-            Some(bytes) => Ok(Found { name: name.to_owned(), bytes: bytes.clone() }),
-            None => {
-                let names = self.0.keys().map(String::as_str);
-                let similar = lucarne::diagnostic::suggest::closest(name, names);
-                let similar = similar.map(str::to_owned).into_iter().collect();
-                Err(FileError::NotFound { searched: Vec::new(), similar })
-            }
-        }
-    }
-
-    /// The files of a case may be written.
-    fn start(&self, name: &str, _: bool) -> Result<String, WriteError> {
-        match self.0.contains_key(name) {
-            true => Ok(name.to_owned()),
-            false if name.starts_with("../") => Err(WriteError::Outside),
-            false => Err(WriteError::NotAllowed),
-        }
-    }
-}
+mod corpus;
 
 /// Runs a scene as `lucarne check` does, with lints.
 fn messages(name: &str, bytes: Vec<u8>, files: &Includes) -> (Vec<Diagnostic>, Sources) {
@@ -68,239 +28,29 @@ fn messages(name: &str, bytes: Vec<u8>, files: &Includes) -> (Vec<Diagnostic>, S
     (road.diagnostics.iter().cloned().collect(), road.sources)
 }
 
-#[derive(Debug, Default)]
-struct Case {
-    file: String,
-    line: usize,
-    title: String,
-    scene: String,
-    files: Vec<(String, String)>,
-    expected: Vec<Expected>,
+fn corpus() -> Vec<Case> {
+    corpus::corpus("diagnostics")
 }
 
-#[derive(Debug, Default, Clone, PartialEq)]
-struct Expected {
-    place: String,
-    code: String,
-    words: Vec<String>,
-    fixes: Vec<String>,
-    also: Vec<String>,
-    via: Vec<String>,
-}
-
-impl Expected {
-    fn parse(line: &str) -> Self {
-        let (head, rest) = line.split_once(':').map_or((line, ""), |_| {
-            line.find(": ").map_or((line, ""), |at| (&line[..at], &line[at + 2..]))
-        });
-        let (place, code) = head.trim().split_once(' ').expect("a place and a code");
-        let mut expected = Self {
-            place: place.to_owned(),
-            code: code.trim_end_matches(':').to_owned(),
-            ..Self::default()
-        };
-        for part in rest.split('|').map(str::trim).filter(|part| !part.is_empty()) {
-            let list = if let Some(text) = part.strip_prefix("fix") {
-                expected.fixes.push(text.trim().to_owned());
-                continue;
-            } else if let Some(place) = part.strip_prefix("also ") {
-                (&mut expected.also, place)
-            } else if let Some(place) = part.strip_prefix("via ") {
-                (&mut expected.via, place)
-            } else {
-                (&mut expected.words, part)
-            };
-            list.0.push(list.1.to_owned());
-        }
-        expected
-    }
-}
-
-fn cases(path: &Path) -> Vec<Case> {
-    let text = fs::read_to_string(path).expect("readable");
-    let file = path.file_name().expect("a name").to_string_lossy().into_owned();
-    let mut cases: Vec<Case> = Vec::new();
-    for (at, line) in text.lines().enumerate() {
-        if let Some(title) = line.strip_prefix("=== ") {
-            let (file, title) = (file.clone(), title.to_owned());
-            cases.push(Case { file, line: at + 1, title, ..Case::default() });
-            continue;
-        }
-        let Some(case) = cases.last_mut() else { continue };
-        if let Some(expected) = line.strip_prefix("--- ") {
-            case.expected.push(Expected::parse(expected));
-        } else if let Some(name) = line.strip_prefix("+++ ") {
-            case.files.push((name.to_owned(), String::new()));
-        } else {
-            let text = case.files.last_mut().map_or(&mut case.scene, |(_, text)| text);
-            text.push_str(line);
-            text.push('\n');
-        }
-    }
-    cases
-}
-
-/// `\xE9` and its kin as bytes; the last line break goes, so that a file may end anywhere.
-fn unescaped(text: &str) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let mut rest = text.strip_suffix('\n').unwrap_or(text).as_bytes();
-    while let Some((&first, after)) = rest.split_first() {
-        rest = after;
-        let escape = (first == b'\\').then(|| after.first().copied()).flatten();
-        let (byte, used) = match escape {
-            Some(b't') => (b'\t', 1),
-            Some(b'r') => (b'\r', 1),
-            Some(b'x') => {
-                let digits = std::str::from_utf8(&after[1..3]).expect("two digits");
-                (u8::from_str_radix(digits, 16).expect("hexadecimal"), 3)
-            }
-            _ => (first, 0),
-        };
-        bytes.push(byte);
-        rest = &rest[used..];
-    }
-    bytes
-}
-
-fn place(span: Span, sources: &Sources) -> String {
-    let source = sources.get(span.file);
-    let position = source.position(span.start as usize);
-    let (line, column) = (position.line, position.column);
-    match span.file {
-        FileId(0) => format!("{line}:{column}"),
-        _ => format!("{}:{line}:{column}", source.name),
-    }
-}
-
-/// What was said, in the form of the cases.
-fn said(diagnostic: &Diagnostic, sources: &Sources) -> Expected {
-    let primary = diagnostic.primary().map(|label| label.span);
-    let mut words = vec![diagnostic.message.clone()];
-    words.extend(diagnostic.labels.iter().map(|label| label.text.clone()));
-    words.extend(diagnostic.help.iter().cloned());
-    Expected {
-        place: primary.map_or("-".to_owned(), |span| place(span, sources)),
-        code: diagnostic.code.name().to_owned(),
-        words,
-        fixes: diagnostic.fixes.iter().map(|fix| fix.text.trim().to_owned()).collect(),
-        also: diagnostic
-            .labels
-            .iter()
-            .filter(|label| !label.primary)
-            .map(|label| place(label.span, sources))
-            .collect(),
-        via: diagnostic.trace.iter().map(|step| place(step.span, sources)).collect(),
-    }
-}
-
-/// What differs between what was expected and what was said.
-fn differences(wanted: &Expected, said: &Expected) -> Vec<String> {
-    let mut found = Vec::new();
-    if wanted.place != said.place || wanted.code != said.code {
-        found.push(format!("expected {} {}", wanted.place, wanted.code));
-    }
-    let all = said.words.join("\n");
-    for words in wanted.words.iter().filter(|words| !all.contains(*words)) {
-        found.push(format!("says nothing of {words}"));
-    }
-    if wanted.fixes != said.fixes {
-        found.push(format!("expected the fixes {:?}", wanted.fixes));
-    }
-    for place in wanted.also.iter().filter(|place| !said.also.contains(place)) {
-        found.push(format!("does not point at {place}"));
-    }
-    if wanted.via != said.via {
-        found.push(format!("expected the trace {:?}", wanted.via));
-    }
-    found
-}
-
-fn shown(said: &Expected) -> String {
-    let Expected { place, code, words, fixes, also, via } = said;
-    let mut text = format!("{place} {code}: {}", words.join(" | "));
-    fixes.iter().for_each(|fix| text += &format!(" | fix {fix}"));
-    also.iter().for_each(|place| text += &format!(" | also {place}"));
-    via.iter().for_each(|place| text += &format!(" | via {place}"));
-    text
-}
-
-impl Case {
-    fn bytes(&self, text: &str) -> Vec<u8> {
-        match self.title.contains("(escaped)") {
-            true => unescaped(text),
-            false => text.as_bytes().to_vec(),
-        }
-    }
-
-    fn files(&self) -> Includes {
-        let files = self.files.iter();
-        Includes(files.map(|(name, text)| (name.clone(), self.bytes(text))).collect())
-    }
-
-    fn name(&self) -> &'static str {
-        if self.title.contains("(pov)") { "main.pov" } else { "main.scene" }
-    }
+fn name(case: &Case) -> &'static str {
+    if case.title.contains("(pov)") { "main.pov" } else { "main.scene" }
 }
 
 /// Why a case fails; empty when it does not.
 fn failures(case: &Case) -> String {
-    let (found, sources) = messages(case.name(), case.bytes(&case.scene), &case.files());
+    let (found, sources) = messages(name(case), case.bytes(&case.scene), &case.files());
     // The cases leave pigments out where they are not about them.
     let about_pigments = case.expected.iter().any(|wanted| wanted.code == Code::NoPigment.name());
     let found = found.iter().filter(|one| one.code != Code::NoPigment || about_pigments);
-    let mut found: Vec<Expected> = found.map(|one| said(one, &sources)).collect();
-    let mut wrong = String::new();
-    for wanted in &case.expected {
-        // The one that fits; else the one at the same place, or of the same code, is shown beside it.
-        let by = |test: &dyn Fn(&Expected) -> bool| found.iter().position(test);
-        let near = by(&|one| differences(wanted, one).is_empty())
-            .or_else(|| by(&|one| one.place == wanted.place && one.code == wanted.code))
-            .or_else(|| by(&|one| one.place == wanted.place))
-            .or_else(|| by(&|one| one.code == wanted.code));
-        match near {
-            Some(at) => {
-                let one = found.remove(at);
-                let differences = differences(wanted, &one);
-                if !differences.is_empty() {
-                    wrong += &format!("  ! {}\n    {}\n", differences.join("; "), shown(&one));
-                }
-            }
-            None => wrong += &format!("  ! not said: {} {}\n", wanted.place, wanted.code),
-        }
-    }
-    for one in &found {
-        wrong += &format!("  + {}\n", shown(one));
-    }
-    if wrong.is_empty() {
-        wrong
-    } else {
-        format!("{}:{} {}\n{wrong}", case.file, case.line, case.title)
-    }
-}
-
-fn corpus() -> Vec<Case> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics");
-    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
-        .expect("a folder")
-        .map(|entry| entry.expect("an entry").path())
-        .collect();
-    paths.sort();
-    paths.iter().flat_map(|path| cases(path)).collect()
+    let found: Vec<Expected> = found.map(|one| said(one, &sources)).collect();
+    case.report(&case.mismatches(found))
 }
 
 #[test]
 fn every_broken_scene_is_told_what_is_wrong_with_it_and_nothing_else() {
     let corpus = corpus();
     assert!(corpus.len() >= 80, "{} cases", corpus.len());
-    let failures: Vec<String> =
-        corpus.iter().map(failures).filter(|failure| !failure.is_empty()).collect();
-    assert!(
-        failures.is_empty(),
-        "{} of {} cases\n{}",
-        failures.len(),
-        corpus.len(),
-        failures.concat()
-    );
+    assert_none(corpus.iter().map(failures));
 }
 
 /// What is wrong with the fix of each message of a case.
@@ -308,7 +58,7 @@ fn bad_fixes(case: &Case) -> String {
     let Ok(text) = String::from_utf8(case.bytes(&case.scene)) else { return String::new() };
     let text = text.trim_start_matches('\u{feff}');
     let files = case.files();
-    let run = |text: &str| messages(case.name(), text.as_bytes().to_vec(), &files).0;
+    let run = |text: &str| messages(name(case), text.as_bytes().to_vec(), &files).0;
     let weight = |found: &[Diagnostic]| {
         let errors = found.iter().filter(|one| one.severity == Severity::Error).count();
         // Where an error goes, lints of the whole scene may come.
@@ -351,17 +101,12 @@ fn bad_fixes(case: &Case) -> String {
     {
         wrong += &format!("  ! mending twice goes on: {again}\n");
     }
-    match wrong.is_empty() {
-        true => wrong,
-        false => format!("{}:{} {}\n{wrong}", case.file, case.line, case.title),
-    }
+    case.report(&wrong)
 }
 
 #[test]
 fn a_fix_leaves_fewer_messages_and_none_new_and_mending_again_changes_nothing() {
-    let failures: Vec<String> =
-        corpus().iter().map(bad_fixes).filter(|failure| !failure.is_empty()).collect();
-    assert!(failures.is_empty(), "{} cases\n{}", failures.len(), failures.concat());
+    assert_none(corpus().iter().map(bad_fixes));
 }
 
 /// What stands on a screen: a report without the codes that colour it.
@@ -485,7 +230,7 @@ fn no_message_is_wider_than_its_window_and_each_label_is_under_its_text() {
     };
     for case in corpus() {
         let title = format!("{}:{} {}", case.file, case.line, case.title);
-        look(title, messages(case.name(), case.bytes(&case.scene), &case.files()));
+        look(title, messages(name(&case), case.bytes(&case.scene), &case.files()));
     }
     for (at, (name, scene)) in wide_cases().into_iter().enumerate() {
         look(format!("wide case {at}"), messages(&name, scene.into_bytes(), &Includes::default()));

@@ -6,8 +6,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use programs::is_installed;
+
 mod examples;
 mod pictures;
+mod programs;
 mod proofs;
 mod silhouettes;
 mod syntax;
@@ -32,16 +35,6 @@ fn files(folder: &str, extensions: &[&str]) -> Vec<PathBuf> {
     walk(Path::new(folder), extensions, &mut found);
     found.sort();
     found
-}
-
-/// Whether a package is there, by the files it brings; where it must be, it is a failure if not.
-fn is_installed(package: &str, files: &[PathBuf]) -> bool {
-    if files.is_empty() {
-        let required = std::env::var_os("LUCARNE_CONFORMANCE").is_some_and(|v| v == "required");
-        assert!(!required, "the package `{package}` is not installed");
-        println!("not checked: the package `{package}` is not installed");
-    }
-    !files.is_empty()
 }
 
 /// A list's lines by scene: what becomes of it, and what is said of that after `—`.

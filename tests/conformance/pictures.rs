@@ -1,7 +1,7 @@
 //! Every example that is whole looks as POV-Ray 3.7 shows it: `pictures.list` has a line for each.
 //!
 //! Both render it at 160×120 without antialiasing. A line is the scene and `same`, where the mean of FLIP's
-//! errors is at most [`SAME`], or that mean; after `—` it says why. Each sixth is tried, all with
+//! errors is at most `SAME`, or that mean; after `—` it says why. Each sixth is tried, all with
 //! `LUCARNE_LONG` set. `LUCARNE_UPDATE=1` tries all, writes the list anew, and keeps what is said;
 //! `LUCARNE_PICTURES=FOLDER` keeps the pictures that differ: ours, theirs, and FLIP's map.
 //!
@@ -10,86 +10,32 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use image::RgbImage;
-use nv_flip::{
-    DEFAULT_PIXELS_PER_DEGREE, FlipImageFloat, FlipImageRgb8, FlipPool, flip, magma_lut,
-};
+use nv_flip::{FlipPool, magma_lut};
 
+use super::programs::{
+    SAME, Size, errors, is_installed, is_povray_there, mean_error, ours, theirs,
+};
 use super::silhouettes::plain;
-use super::{SCENES, grown, is_installed, listed};
+use super::{SCENES, grown, listed};
 
 const LIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/pictures.list");
 const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/conformance/examples.list");
 
-/// The mean of FLIP's errors up to which two pictures are the same.
-pub(crate) const SAME: f32 = 0.05;
-
 const WIDTH: u32 = 160;
 const HEIGHT: u32 = 120;
 
-/// A picture by one of the two, or what it said instead.
-fn picture(run: &mut Command, file: &Path) -> Result<RgbImage, String> {
-    let told = run.output().expect("it runs");
-    let lines = String::from_utf8_lossy(&told.stderr).into_owned();
-    let last = || lines.lines().rev().take(8).collect::<Vec<_>>().join(" / ");
-    let picture = image::open(file).map_err(|_| last())?.into_rgb8();
-    if told.status.success() { Ok(picture) } else { Err(last()) }
-}
-
-/// Our picture of a scene; what it names lies in that folder.
-pub(crate) fn ours(scene: &Path, folder: &Path) -> Result<RgbImage, String> {
-    let place = tempfile::tempdir().expect("a folder");
-    let file = place.path().join("ours.png");
-    let mut run = Command::new(env!("CARGO_BIN_EXE_lucarne"));
-    run.current_dir(&place).arg("render").arg(scene).arg("-o").arg(&file).arg("-I").arg(folder);
-    run.args(["--size", &format!("{WIDTH}x{HEIGHT}"), "--antialias", "off", "--allow-write"]);
-    picture(&mut run, &file)
-}
-
-/// POV-Ray's.
-pub(crate) fn theirs(scene: &Path, folder: &Path) -> Result<RgbImage, String> {
-    let place = tempfile::tempdir().expect("a folder");
-    let file = place.path().join("theirs.png");
-    let mut run = Command::new("povray");
-    run.current_dir(&place).args(["-D", "-GA", "-A"]).args([
-        format!("+I{}", scene.display()),
-        format!("+O{}", file.display()),
-        format!("+L{}", folder.display()),
-        format!("+W{WIDTH}"),
-        format!("+H{HEIGHT}"),
-    ]);
-    picture(&mut run, &file).map_err(|told| format!("POV-Ray: {told}"))
-}
+pub(crate) const SIZE: Size = [WIDTH, HEIGHT];
 
 /// The pictures of both, ours first.
 fn both(scene: &Path, folder: &Path) -> Result<[RgbImage; 2], String> {
-    Ok([ours(scene, folder)?, theirs(scene, folder)?])
+    Ok([ours(scene, folder, SIZE)?, theirs(scene, folder, SIZE)?])
 }
 
 /// How many pixels of two pictures differ.
 pub(crate) fn differing([ours, theirs]: &[RgbImage; 2]) -> usize {
     ours.pixels().zip(theirs.pixels()).filter(|(ours, theirs)| ours != theirs).count()
-}
-
-/// The mean of FLIP's errors.
-pub(crate) fn mean_error(pictures: &[RgbImage; 2]) -> f32 {
-    FlipPool::from_image(&errors(pictures)).mean()
-}
-
-/// FLIP's errors, of pictures of one size.
-fn errors(pictures: &[RgbImage; 2]) -> FlipImageFloat {
-    let [ours, theirs] = pictures.each_ref().map(|picture| {
-        FlipImageRgb8::with_data(picture.width(), picture.height(), picture.as_raw())
-    });
-    flip(theirs, ours, DEFAULT_PIXELS_PER_DEGREE)
-}
-
-/// Whether there is a POV-Ray to run.
-pub(crate) fn is_povray_there() -> bool {
-    let is_there = Command::new("povray").arg("--version").output().is_ok();
-    is_there || is_installed("povray", &[])
 }
 
 /// What becomes of a scene, as its line has it.

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use super::pictures::{SAME, differing, is_povray_there, mean_error, ours, theirs};
+use super::pictures::{SIZE, differing};
+use super::programs::{SAME, is_installed, is_povray_there, mean_error, ours, theirs};
 use super::silhouettes::plain;
-use super::{SCENES, files, is_installed};
+use super::{SCENES, files};
 
 /// Texts of a scene, and what stands in their place.
 type Changes = &'static [(&'static str, &'static str)];
@@ -81,8 +82,8 @@ fn told_better_povray_shows_what_we_do() {
             file
         };
         let text = changed(&text, both);
-        let mine = ours(&written("ours.pov", &text), folder);
-        let other = theirs(&written("theirs.pov", &changed(&text, alone)), folder);
+        let mine = ours(&written("ours.pov", &text), folder, SIZE);
+        let other = theirs(&written("theirs.pov", &changed(&text, alone)), folder, SIZE);
         let told = |told| panic!("{scene}: {told}");
         let pictures = [mine.unwrap_or_else(told), other.unwrap_or_else(told)];
         let (count, mean) = (differing(&pictures), mean_error(&pictures));

@@ -10,8 +10,9 @@ use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
 
-use super::pictures::{is_povray_there, outcome};
-use super::{SCENES, files, is_installed};
+use super::pictures::outcome;
+use super::programs::{is_installed, is_povray_there};
+use super::{SCENES, files};
 
 const LIST: &str = include_str!("silhouettes.list");
 const EXAMPLES: &str = include_str!("examples.list");
