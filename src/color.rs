@@ -70,6 +70,17 @@ impl Rgb {
         self.red > 0.0 || self.green > 0.0 || self.blue > 0.0
     }
 
+    /// With a large number for what is infinite, as POV-Ray 3.7 shows it (measured), and 0 for what is no
+    /// number.
+    pub fn bounded(self) -> Self {
+        const LARGE: f64 = 1e9;
+        self.map(|c| match c {
+            _ if c.is_nan() => 0.0,
+            _ if c.is_infinite() => LARGE.copysign(c),
+            _ => c,
+        })
+    }
+
     pub fn is_finite(self) -> bool {
         self.red.is_finite() && self.green.is_finite() && self.blue.is_finite()
     }

@@ -118,12 +118,12 @@ codes! {
     WrongArity "wrong-arity" error "a call or a vector has too many or too few parts";
     MissingPart "missing-part" opinion "a block lacks a part it cannot do without";
     ExtraPart "extra-part" opinion "a block has more parts than it can use";
-    DivisionByZero "division-by-zero" error "a number is divided by zero";
-    NotANumber "not-a-number" error "a calculation has no finite result";
+    DivisionByZero "division-by-zero" opinion "a number is divided by zero";
+    NotANumber "not-a-number" opinion "a calculation has no finite result";
     OutOfRange "out-of-range" opinion "a number lies outside what the place allows";
     ZeroScale "zero-scale" opinion "a transform flattens everything to nothing";
-    ZeroSize "zero-size" error "a shape has no size";
-    ZeroVector "zero-vector" error "a direction or normal is the zero vector";
+    ZeroSize "zero-size" opinion "a shape has no size";
+    ZeroVector "zero-vector" opinion "a direction or normal is the zero vector";
     MixedFinish "mixed-finish" error "a finish mixes the seed's words with POV-Ray's";
     IncompleteFinish "incomplete-finish" error "`kd`, `ks` and `phong_exponent` come together";
     NotCallable "not-callable" error "something is called that is neither a macro nor a function";

@@ -5,7 +5,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Argument, Arguments, Callee, ExpressionId, ExpressionKind};
 use crate::vocabulary::Word;
 
-use super::builtin::CallErrorKind;
+use super::builtin::{CallError, CallErrorKind};
 use super::include::embedded;
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
@@ -261,7 +261,38 @@ impl Evaluator<'_> {
         }
         let longest = usize::try_from(self.options.limits.string.saturating_mul(1 << 20))
             .unwrap_or(usize::MAX);
-        builtin::call(word, &values, &mut self.streams, longest).map_err(|error| {
+        let result = builtin::call(word, &values, &mut self.streams, longest);
+        let rendered = self.unbounded_call(word, &values, &result);
+        match (result, rendered) {
+            (result, Some(value)) => {
+                let error = result.err().unwrap_or_else(|| builtin::beyond_32_bits(word));
+                if values.iter().all(Value::is_finite) {
+                    let diagnostic = self.call_error(here, error, list, span);
+                    self.opinion(here, diagnostic)?;
+                }
+                Ok(value)
+            }
+            (Ok(value), None) => Ok(value),
+            // As at every limit, nothing further is evaluated.
+            (Err(error), None) => {
+                let too_long = error.kind == CallErrorKind::TooLong;
+                let diagnostic = self.call_error(here, error, list, span);
+                Err(match too_long {
+                    true => self.halt(here.expansion, diagnostic),
+                    false => self.report(here, diagnostic),
+                })
+            }
+        }
+    }
+
+    /// Why a built-in function has no value.
+    fn call_error(
+        &self,
+        here: &Here,
+        error: CallError,
+        list: &[Argument],
+        span: Span,
+    ) -> Diagnostic {
             let at = error.argument.and_then(|index| list.get(index)).map_or(span, |argument| {
                 match *argument {
                     Argument::Expression(id) => here.unit.expression(id).span,
@@ -277,12 +308,6 @@ impl Evaluator<'_> {
                 Some(given) => help.replace("str(n,", &format!("str({given},")),
                 None => help,
             }));
-            // As at every limit, nothing further is evaluated.
-            if too_long {
-                self.halt(here.expansion, diagnostic)
-            } else {
-                self.report(here, diagnostic)
-            }
-        })
+            diagnostic
     }
 }

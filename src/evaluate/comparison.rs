@@ -11,7 +11,8 @@ const LEFT_OVER: f64 = 1e-10;
 pub enum Comparison {
     /// As POV-Ray: 1e-10 in any unit, so that `#while (I)` ends where `I` is counted down by tenths.
     ///
-    /// **Source:** measured: `0.9999e-10 = 0` and `!0.9999e-10` are 1, and of 1.0001e-10 they are 0.
+    /// **Source:** measured: `0.9999e-10 = 0` and `!0.9999e-10` are 1, and of 1.0001e-10 they are 0. What is
+    /// no number is the same as any number, and false.
     Absolute,
     /// 1e-10 of the larger number, and zero alone is false: small scenes can tell their numbers apart.
     Relative,
@@ -27,11 +28,13 @@ impl Comparison {
 
     /// `0.1 + 0.2 = 0.3`.
     pub fn same(self, a: f64, b: f64) -> bool {
-        let unit = match self {
-            Self::Absolute => 1.0,
-            Self::Relative => a.abs().max(b.abs()),
-        };
-        (a - b).abs() <= LEFT_OVER * unit
+        match self {
+            Self::Absolute => {
+                let apart = (a - b).abs();
+                apart <= LEFT_OVER || apart.is_nan()
+            }
+            Self::Relative => (a - b).abs() <= LEFT_OVER * a.abs().max(b.abs()),
+        }
     }
 
     pub fn is_true(self, number: f64) -> bool {

@@ -5,7 +5,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Argument, DirectiveKind, ExpressionId, ExpressionKind, Target};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::array::{NoElement, element, element_place};
 use super::report::count;
@@ -225,6 +225,10 @@ impl Evaluator<'_> {
         let size = array.dimensions().iter().zip(1u8..).find(|(_, n)| f64::from(*n) == number);
         if let Some((size, _)) = size {
             return Ok(Value::Number(f64::from(*size)));
+        }
+        if self.options.dialect == Dialect::Pov {
+            // As POV-Ray 3.7 answers (measured).
+            return Ok(Value::Number(0.0));
         }
         let count = count(&(array.dimensions().len()..=array.dimensions().len()), "dimension");
         let diagnostic = Diagnostic::new(Code::OutOfRange, format!("the array has {count}"))

@@ -27,11 +27,12 @@ impl Evaluator<'_> {
         let expression = here.unit.expression(id);
         match expression.kind {
             ExpressionKind::Number(number) if number.is_finite() => Ok(Value::Number(number)),
-            ExpressionKind::Number(_) => {
+            ExpressionKind::Number(number) => {
                 let message = "this number is too large: the largest is about 1.8e308";
                 let diagnostic =
                     Diagnostic::new(Code::NotANumber, message).at(expression.span, "too large");
-                Err(self.report(here, diagnostic))
+                self.opinion(here, diagnostic)?;
+                Ok(Value::Number(number))
             }
             ExpressionKind::Name(name) => self.name_value(here, here.symbol(name), expression.span),
             ExpressionKind::Word(word) => self.word_value(here, word, expression.span),
@@ -164,10 +165,12 @@ impl Evaluator<'_> {
         match (value, operand) {
             (Err(Reported), _) | (_, Err(Reported)) => Err(Reported),
             (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => Ok(poison),
-            (Ok(a), Ok(b)) => value::binary(operator, &a, &b, self.comparison()).map_err(|error| {
-                let symbol = format!("`{}`", operator.symbol());
-                self.operation_error(here, error, &symbol, expression.span, [left, right], [&a, &b])
-            }),
+            (Ok(a), Ok(b)) => {
+                value::binary(operator, &a, &b, self.comparison()).or_else(|error| {
+                    let places = (expression.span, [left, right]);
+                    self.no_plain_result(here, operator, error, places, [&a, &b])
+                })
+            }
         }
     }
 
@@ -328,24 +331,8 @@ impl Evaluator<'_> {
                     _ => diagnostic,
                 }
             }
-            OperationError::DivisionByZero => {
-                let diagnostic = Diagnostic::new(Code::DivisionByZero, "division by zero");
-                match here.unit.expression(operands[1]).kind {
-                    ExpressionKind::Number(_) => diagnostic.at(spans[1], "this is zero"),
-                    ExpressionKind::Name(name) => {
-                        let text = self.sources.text(spans[1]);
-                        let diagnostic = diagnostic.at(spans[1], format!("`{text}` is zero here"));
-                        match self.scopes.declared(here.symbol(name)) {
-                            Some(declared) => diagnostic.also(declared.site.span, "declared here"),
-                            None => diagnostic,
-                        }
-                    }
-                    _ => diagnostic.at(spans[1], "this is zero here"),
-                }
-            }
-            OperationError::NotFinite => {
-                Diagnostic::new(Code::NotANumber, "this calculation has no finite result")
-                    .at(span, "the result is larger than any number (about 1.8e308)")
+            OperationError::DivisionByZero | OperationError::NotFinite => {
+                self.no_finite_result(here, error, span, operands[1])
             }
         };
         self.report(here, diagnostic)

@@ -213,8 +213,7 @@ impl Evaluator<'_> {
                 node = Err(Reported);
                 continue;
             };
-            let (operation, left, right) = operation_of(operator, left, right);
-            let built = formula.builder.binary(operation, left, right);
+            let built = operation_of(&mut formula.builder, operator, left, right);
             node = self.built(here, span, built);
         }
         self.either(here, formula, either, node)

@@ -11,7 +11,7 @@ use crate::lower::alone;
 use crate::scene::TransformId;
 use crate::source::{Site, Span};
 use crate::syntax::ast::{Argument, Callee, ExpressionKind};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::arity::surplus;
 use super::report::count;
@@ -248,12 +248,19 @@ impl Evaluator<'_> {
                     names.push(name);
                     continue;
                 }
-                Some(_) => Diagnostic::new(
-                    Code::OutOfRange,
-                    "two parameters of this function have one name",
-                )
-                .at(parameter.span, "the second of them")
-                .help("`u` and `x` are one parameter, and so are `v` and `y`"),
+                Some(name) => {
+                    let message = "two parameters of this function have one name";
+                    let told = Diagnostic::new(Code::OutOfRange, message)
+                        .at(parameter.span, "the second of them")
+                        .help("`u` and `x` are one parameter, and so are `v` and `y`");
+                    if self.options.dialect == Dialect::Pov {
+                        // The last one counts, as in POV-Ray 3.7 (measured).
+                        self.report(&here, told.as_warning());
+                        names.push(name);
+                        continue;
+                    }
+                    told
+                }
                 None => {
                     let message = match parameter.kind {
                         ExpressionKind::Word(word) => {
@@ -337,20 +344,10 @@ impl Evaluator<'_> {
                 functions.value(outside_id(id, 0), &arguments)
             }
         };
-        if value.is_finite() {
-            return Ok(Value::Number(value));
+        match value.is_finite() {
+            true => Ok(Value::Number(value)),
+            false => self.no_finite_value(here, span, value),
         }
-        let message = "this function has no finite value here";
-        let diagnostic = Diagnostic::new(Code::NotANumber, message)
-            .at(
-                span,
-                format!(
-                    "the formula gives {}",
-                    if value.is_nan() { "no number" } else { "infinity" }
-                ),
-            )
-            .help("it divides by zero, or takes a root or a logarithm of what has none");
-        Err(self.report(here, diagnostic))
     }
 
     pub(super) fn check_count(

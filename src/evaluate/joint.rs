@@ -158,14 +158,14 @@ impl Arithmetic<Value> for Evaluator<'_> {
         {
             return Ok(poison.clone());
         }
-        value::binary(operator, &left, &right, self.comparison()).map_err(|error| {
+        value::binary(operator, &left, &right, self.comparison()).or_else(|error| {
             let expression = here.unit.expression(id);
             let operands = match expression.kind {
                 ExpressionKind::Binary(_, left, right) => [left, right],
                 _ => [id; 2],
             };
-            let symbol = format!("`{}`", operator.symbol());
-            self.operation_error(&here, error, &symbol, expression.span, operands, [&left, &right])
+            let places = (expression.span, operands);
+            self.no_plain_result(&here, operator, error, places, [&left, &right])
         })
     }
 }
@@ -183,8 +183,7 @@ impl Arithmetic<Node> for Steps<'_, '_, '_> {
 
     fn apply(&mut self, operation: Pending<Node>, right: Node) -> Outcome<Node> {
         let Pending { left, operator, site: (here, id) } = operation;
-        let (operation, left, right) = operation_of(operator, left, right);
-        let built = self.formula.builder.binary(operation, left, right);
+        let built = operation_of(&mut self.formula.builder, operator, left, right);
         self.evaluator.built(&here, here.unit.expression(id).span, built)
     }
 }

@@ -44,6 +44,7 @@ mod stream;
 mod tests;
 mod told;
 mod turn;
+mod unbounded;
 mod undeclared;
 mod unrun;
 pub mod value;

@@ -54,13 +54,15 @@ impl Evaluator<'_> {
                 match *here.unit.ast.arguments(arguments) {
                     [Argument::Expression(id)] => {
                         let number = self.plain_operand(here, id, depth)?;
-                        let value = builtin::number(word, [number])?;
+                        let value = builtin::number(word, [number])
+                            .filter(|value| !self.is_cut_off(word, *value))?;
                         self.lint_trigonometry(here, word, id, number);
                         Some(value)
                     }
                     [Argument::Expression(a), Argument::Expression(b)] => {
                         let a = self.plain_operand(here, a, depth)?;
                         builtin::number(word, [a, self.plain_operand(here, b, depth)?])
+                            .filter(|value| !self.is_cut_off(word, *value))
                     }
                     _ => None,
                 }

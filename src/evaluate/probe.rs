@@ -92,7 +92,11 @@ impl Evaluator<'_> {
                         "the direction of this `trace` is the zero vector",
                     )
                     .at(spans[2], "expected a vector other than <0, 0, 0>");
-                    return Err(self.report(here, diagnostic));
+                    self.opinion(here, diagnostic)?;
+                    if let Some(argument) = list.get(3) {
+                        self.set_normal(here, argument, span, Vector::ZERO)?;
+                    }
+                    return Ok(Value::vector3(Vector::ZERO));
                 };
                 let (point, normal) = probe.trace(vectors[0], direction).unwrap_or_default();
                 if let Some(argument) = list.get(3) {

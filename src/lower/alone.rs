@@ -18,7 +18,7 @@ pub fn pigment(scene: &Scene, id: PigmentId, diagnostics: &mut Diagnostics) -> O
     let lowered = transforms
         .product(&written.transforms)
         .and_then(|place| lower_pigment(&written.kind, inverse_map(&place)?));
-    Reporter { diagnostics, expansions: &scene.expansions }.made(lowered, written.site)
+    Reporter::new(scene, diagnostics).made(lowered, written.site)
 }
 
 /// An affine map: three rows, and what is added.
@@ -36,5 +36,5 @@ pub fn rows(
         let finite = offset.is_finite() && rows.iter().all(|row| row.is_finite());
         finite.then_some((rows, offset)).ok_or(Fault::not_finite("this transform"))
     });
-    Reporter { diagnostics, expansions: &scene.expansions }.made(map, site)
+    Reporter::new(scene, diagnostics).made(map, site)
 }

@@ -86,7 +86,7 @@ impl Lowering<'_, '_> {
             }
         };
         if ![location, forward, right, up].iter().all(|v| v.is_finite()) {
-            return Err((Fault::not_finite("this camera"), camera.site));
+            return Err((Fault::not_finite("this camera").refused(), camera.site));
         }
         let [location, forward, right, up] = [location, forward, right, up].map(|v| v.round());
         Ok(Camera { kind, location, forward, right, up })
@@ -157,7 +157,7 @@ impl Words {
             .direction
             .vector
             .normalized()
-            .ok_or_else(|| (Fault::not_finite("this camera"), site))?;
+            .ok_or_else(|| (Fault::not_finite("this camera").refused(), site))?;
         self.direction.vector = unit * length;
         Ok(())
     }
@@ -214,7 +214,7 @@ impl Words {
             }
         }
         let Some(across) = across.normalized() else {
-            return Err((Fault::not_finite("this camera"), site));
+            return Err((Fault::not_finite("this camera").refused(), site));
         };
         self.direction.vector = forward * direction.length();
         self.up.vector = forward.cross(across) * up.length();

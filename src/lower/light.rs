@@ -63,11 +63,12 @@ fn spend(light: &LightSource, map: &Affine, aim: &Affine) -> Result<Light, Fault
         }
         world::LightKind::Directional { .. } => true,
     };
-    if !finite || !light.color.is_finite() {
+    let color = light.color.bounded();
+    if !finite || !color.is_finite() {
         return Err(Fault::not_finite("this light"));
     }
     let attenuation = attenuation(light, map, aim)?;
-    Ok(Light { kind, color: light.color, casts_shadows: !light.shadowless, attenuation })
+    Ok(Light { kind, color, casts_shadows: !light.shadowless, attenuation })
 }
 
 fn unit(direction: DoubleVector) -> Result<UnitVector, Fault> {

@@ -38,7 +38,7 @@ use std::sync::Arc;
 use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::scene::mesh::Triangles;
-use crate::scene::{ObjectId, Scene, TextureId, TransformId, Unused};
+use crate::scene::{Dialect, ObjectId, Scene, TextureId, TransformId, Unused};
 use crate::shape::Body;
 use crate::source::{Expansions, Site, Span};
 use crate::world::{Dropped, NearSingular, Origins, Settings, World};
@@ -74,7 +74,7 @@ pub fn lower(
         is_blind: false,
         world: World::default(),
         origins: Origins::default(),
-        reporter: Reporter { diagnostics, expansions: &scene.expansions },
+        reporter: Reporter::new(&scene, diagnostics),
         materials: texture::Materials::default(),
         transforms: transform::Transforms::new(&scene.transforms),
         last_surface: None,
@@ -203,7 +203,7 @@ impl Lowering<'_, '_> {
         self.origins.max_trace_level = settings.max_trace_level_site;
         if let Some(background) = &self.scene.background {
             let Color { rgb, transmit, .. } = background.color;
-            let rgb = rgb * (1.0 - transmit);
+            let rgb = (rgb * (1.0 - transmit)).bounded();
             let rgb = rgb.is_finite().then_some(rgb).ok_or(Fault::not_finite("the background"));
             self.world.background = self.reporter.made(rgb, background.site).unwrap_or_default();
         }
@@ -220,11 +220,13 @@ struct Fault {
     message: String,
     label: String,
     help: Option<&'static str>,
+    /// POV-Ray 3.7 renders nothing either.
+    is_refused: bool,
 }
 
 impl Fault {
     fn new(code: Code, message: impl Into<String>) -> Self {
-        Self { code, message: message.into(), label: String::new(), help: None }
+        Self { code, message: message.into(), label: String::new(), help: None, is_refused: false }
     }
 
     fn label(self, label: impl Into<String>) -> Self {
@@ -233,6 +235,19 @@ impl Fault {
 
     fn help(self, help: &'static str) -> Self {
         Self { help: Some(help), ..self }
+    }
+
+    fn refused(self) -> Self {
+        Self { is_refused: true, ..self }
+    }
+
+    /// Whether POV-Ray 3.7 renders the scene all the same, without this part.
+    fn is_rendered(&self) -> bool {
+        let of_numbers = matches!(
+            self.code,
+            Code::NotANumber | Code::OutOfRange | Code::ZeroSize | Code::ZeroVector
+        );
+        of_numbers && !self.is_refused
     }
 
     /// Of `what` nothing is left that points anywhere: it was too short for what it went through.
@@ -252,17 +267,24 @@ impl Fault {
 struct Reporter<'s, 'd> {
     diagnostics: &'d mut Diagnostics,
     expansions: &'s Expansions,
+    dialect: Dialect,
 }
 
-impl Reporter<'_, '_> {
+impl<'s, 'd> Reporter<'s, 'd> {
+    fn new(scene: &'s Scene, diagnostics: &'d mut Diagnostics) -> Self {
+        Self { diagnostics, expansions: &scene.expansions, dialect: scene.dialect }
+    }
+
+    /// In a `.pov` a warning where POV-Ray 3.7 leaves the part out and renders the rest.
     fn fault(&mut self, fault: Fault, site: Site) {
+        let is_warning = self.dialect == Dialect::Pov && fault.is_rendered();
         let mut diagnostic = Diagnostic::new(fault.code, fault.message)
             .at(site.span, fault.label)
             .traced(site, self.expansions);
         if let Some(help) = fault.help {
             diagnostic = diagnostic.help(help);
         }
-        self.diagnostics.push(diagnostic);
+        self.diagnostics.push(if is_warning { diagnostic.as_warning() } else { diagnostic });
     }
 
     /// What was made, or `None` and a message.

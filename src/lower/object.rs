@@ -151,7 +151,7 @@ impl<'s> Lowering<'s, '_> {
         for &id in [target].iter().chain(uses.iter().rev()) {
             own = own.or(scene.objects[id.index()].item);
             if self.modify(&mut modified, id, default_texture).is_none() {
-                return;
+                return self.leave_out(inherited, object.site);
             }
         }
         let above = &inherited.world_from_here;
@@ -237,7 +237,16 @@ impl<'s> Lowering<'s, '_> {
         if matches!(&spent, Err(fault) if fault.code == Code::ZeroSize) {
             self.drop_part(site, self.word(id), NO_SIZE);
         }
-        self.reporter.made(spent, site);
+        if self.reporter.made(spent, site).is_none() {
+            self.leave_out(here, site);
+        }
+    }
+
+    /// What cannot be built is nothing in a `.pov`, as in POV-Ray 3.7 (measured); elsewhere it is a mistake.
+    fn leave_out(&mut self, here: &Inherited, site: Site) {
+        if self.scene.dialect == Dialect::Pov {
+            self.nothing(here.flags.inverse, site);
+        }
     }
 
     fn solid(

@@ -177,7 +177,8 @@ impl<'a> Nest<'a> {
         }
         let text = self.slice(span);
         match text.parse::<f64>() {
-            Ok(number) if number.is_finite() => {
+            // What is too large for a number is told where it is used, if a `.pov` uses it.
+            Ok(number) if number.is_finite() || self.dialect == Dialect::Pov => {
                 self.operand(ExpressionKind::Number(number), span, false);
             }
             parsed => {

@@ -16,6 +16,9 @@ use super::super::{Evaluator, Here, Outcome, Reported};
 use super::Given;
 use super::Place;
 
+/// Below this POV-Ray 3.7 takes an element of a matrix for 0 (measured: 1e-11 is, 1e-10 is not).
+const NO_LENGTH: f64 = 1e-10;
+
 impl Evaluator<'_> {
     /// The transform that starts with `token`; `None` when the word starts none.
     pub(super) fn transform_from(&mut self, token: &Token) -> Option<Outcome<TransformId>> {
@@ -279,7 +282,7 @@ impl Evaluator<'_> {
     fn with_columns(&mut self, matrix: &Token, rows: [Vector; 4]) -> Outcome<Step> {
         let [mut x, mut y, mut z, place] = rows.map(|row| row.to_array());
         let linear = [&mut x, &mut y, &mut z];
-        let empty = [0, 1, 2].map(|column| linear.iter().all(|row| row[column] == 0.0));
+        let empty = [0, 1, 2].map(|column| linear.iter().all(|row| row[column].abs() < NO_LENGTH));
         for (column, row) in linear.into_iter().enumerate() {
             if empty[column] {
                 row[column] = 1.0;

@@ -57,9 +57,9 @@ pub(super) fn function(word: Word) -> Option<Function> {
         Word::Ln => Function::number(1..=1, |a| Ok(log(above_zero(a)?))),
         Word::Log => Function::number(1..=1, |a| Ok(log10(above_zero(a)?))),
         Word::Max => {
-            Function::number(ANY, |a| Ok(a.all_numbers()?.fold(f64::NEG_INFINITY, f64::max)))
+            Function::number(ANY, |a| chosen(a, |next, most| next > most))
         }
-        Word::Min => Function::number(ANY, |a| Ok(a.all_numbers()?.fold(f64::INFINITY, f64::min))),
+        Word::Min => Function::number(ANY, |a| chosen(a, |next, least| next < least)),
         Word::Mod => Function::number(2..=2, |a| Ok(fmod(a.number(0)?, divisor(a)?))),
         Word::Pow => Function::number(2..=2, power),
         Word::Radians => Function::plain(|n| n * RADIANS_PER_DEGREE),
@@ -74,6 +74,12 @@ pub(super) fn function(word: Word) -> Option<Function> {
         Word::Tanh => Function::plain(tanh),
         _ => None,
     }
+}
+
+/// The first number, or a later one that is better: what is no number never is, as in POV-Ray 3.7 (measured).
+fn chosen(a: &Arguments, is_better: fn(f64, f64) -> bool) -> Result<f64, CallError> {
+    let best = |best, next| if is_better(next, best) { next } else { best };
+    Ok(a.all_numbers()?.reduce(best).unwrap_or(f64::NAN))
 }
 
 /// Toward zero. POV-Ray passes through 32 bits and gives -2147483648 for all that is larger; here

@@ -23,10 +23,12 @@ mod float;
 #[cfg(test)]
 mod measured;
 mod random;
+mod rendered;
 mod string;
 mod vector;
 
 pub use random::RandomStreams;
+pub use rendered::{beyond_32_bits, rendered};
 
 /// Why a call has no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,8 +118,7 @@ pub fn call(
         Body::String(f) => Value::string(f(&arguments)?),
         Body::Random(f) => Value::Number(f(&arguments, streams)?),
     };
-    let finite = value.numbers().is_none_or(|n| n.as_slice().iter().all(|c| c.is_finite()));
-    if finite { Ok(value) } else { Err(arguments.not_finite()) }
+    if value.is_finite() { Ok(value) } else { Err(arguments.not_finite()) }
 }
 
 /// The number that a function of numbers gives; `None` where [`call`] would not, or is of another family.

@@ -10,7 +10,7 @@ use crate::vocabulary::Word;
 
 /// The longest field and the most decimals of `str` and `vstr`: no number has more than 1074
 /// decimals. POV-Ray gives up silently somewhere between 200 and 300.
-const LONGEST: i64 = 1074;
+pub(super) const LONGEST: i64 = 1074;
 
 /// The function that `word` names, if it is one of this family.
 pub(super) fn function(word: Word) -> Option<Function> {

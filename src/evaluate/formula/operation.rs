@@ -5,25 +5,35 @@ use crate::math::elementary::RADIANS_PER_DEGREE;
 use crate::syntax::ast::BinaryOperator;
 use crate::vocabulary::Word;
 
+/// `left operator right`. What is no number counts as greater than any, as in POV-Ray 3.7 (measured): there
+/// `a > b` is "not a <= b".
 pub(in crate::evaluate) fn operation_of(
+    builder: &mut Builder,
     operator: BinaryOperator,
     left: Node,
     right: Node,
-) -> (Binary, Node, Node) {
-    match operator {
-        BinaryOperator::Add => (Binary::Add, left, right),
-        BinaryOperator::Subtract => (Binary::Subtract, left, right),
-        BinaryOperator::Multiply => (Binary::Multiply, left, right),
-        BinaryOperator::Divide => (Binary::Divide, left, right),
-        BinaryOperator::Less => (Binary::Less, left, right),
-        BinaryOperator::LessOrEqual => (Binary::LessOrEqual, left, right),
-        BinaryOperator::Equal => (Binary::Equal, left, right),
-        BinaryOperator::NotEqual => (Binary::NotEqual, left, right),
-        BinaryOperator::GreaterOrEqual => (Binary::LessOrEqual, right, left),
-        BinaryOperator::Greater => (Binary::Less, right, left),
-        BinaryOperator::And => (Binary::And, left, right),
-        BinaryOperator::Or => (Binary::Or, left, right),
-    }
+) -> Result<Node, TooLong> {
+    let operation = match operator {
+        BinaryOperator::Add => Binary::Add,
+        BinaryOperator::Subtract => Binary::Subtract,
+        BinaryOperator::Multiply => Binary::Multiply,
+        BinaryOperator::Divide => Binary::Divide,
+        BinaryOperator::Less => Binary::Less,
+        BinaryOperator::LessOrEqual => Binary::LessOrEqual,
+        BinaryOperator::Equal => Binary::Equal,
+        BinaryOperator::NotEqual => Binary::NotEqual,
+        BinaryOperator::And => Binary::And,
+        BinaryOperator::Or => Binary::Or,
+        BinaryOperator::GreaterOrEqual | BinaryOperator::Greater => {
+            let opposite = match operator {
+                BinaryOperator::Greater => Binary::LessOrEqual,
+                _ => Binary::Less,
+            };
+            let is_opposite = builder.binary(opposite, left, right)?;
+            return builder.unary(Unary::Not, is_opposite);
+        }
+    };
+    builder.binary(operation, left, right)
 }
 
 fn unary_of(word: Word) -> Option<Unary> {
