@@ -110,7 +110,7 @@ codes! {
     UndeclaredName "undeclared-name" error "a name is used and was never declared";
     ReservedName "reserved-name" error "a word of the language cannot be declared";
     RedeclaredFunction "redeclared-function" error "a function or a macro is declared again as something else, without `#undef`";
-    NotSupportedYet "not-supported-yet" error "the language has this word, and this version does not build it yet";
+    NotSupportedYet "not-supported-yet" opinion "the language has this word, and this version does not build it yet";
     ForeignWord "foreign-word" error "a word of another tool stands where ours has another name";
     UnknownDirective "unknown-directive" opinion "the word after `#` is not a directive";
     // values

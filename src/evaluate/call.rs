@@ -293,21 +293,23 @@ impl Evaluator<'_> {
         list: &[Argument],
         span: Span,
     ) -> Diagnostic {
-            let at = error.argument.and_then(|index| list.get(index)).map_or(span, |argument| {
-                match *argument {
+        let at =
+            error.argument.and_then(|index| list.get(index)).map_or(
+                span,
+                |argument| match *argument {
                     Argument::Expression(id) => here.unit.expression(id).span,
                     Argument::Items(_) => span,
-                }
-            });
-            let too_long = error.kind == CallErrorKind::TooLong;
-            let label = if too_long { "too much with this" } else { "expected another value" };
-            let mut diagnostic = Diagnostic::new(error.kind.code(), error.message).at(at, label);
-            // "`str(n, 0, -1)`", of what was given.
-            let given = Some(self.sources.text(at)).filter(|text| at != span && text.len() < 30);
-            diagnostic.help.extend(error.help.map(|help| match given {
-                Some(given) => help.replace("str(n,", &format!("str({given},")),
-                None => help,
-            }));
-            diagnostic
+                },
+            );
+        let too_long = error.kind == CallErrorKind::TooLong;
+        let label = if too_long { "too much with this" } else { "expected another value" };
+        let mut diagnostic = Diagnostic::new(error.kind.code(), error.message).at(at, label);
+        // "`str(n, 0, -1)`", of what was given.
+        let given = Some(self.sources.text(at)).filter(|text| at != span && text.len() < 30);
+        diagnostic.help.extend(error.help.map(|help| match given {
+            Some(given) => help.replace("str(n,", &format!("str({given},")),
+            None => help,
+        }));
+        diagnostic
     }
 }

@@ -165,12 +165,10 @@ impl Evaluator<'_> {
         match (value, operand) {
             (Err(Reported), _) | (_, Err(Reported)) => Err(Reported),
             (Ok(poison @ Value::Poison(_)), _) | (_, Ok(poison @ Value::Poison(_))) => Ok(poison),
-            (Ok(a), Ok(b)) => {
-                value::binary(operator, &a, &b, self.comparison()).or_else(|error| {
-                    let places = (expression.span, [left, right]);
-                    self.no_plain_result(here, operator, error, places, [&a, &b])
-                })
-            }
+            (Ok(a), Ok(b)) => value::binary(operator, &a, &b, self.comparison()).or_else(|error| {
+                let places = (expression.span, [left, right]);
+                self.no_plain_result(here, operator, error, places, [&a, &b])
+            }),
         }
     }
 

@@ -70,7 +70,12 @@ impl Evaluator<'_> {
 
     /// The value of a function that is no finite number.
     #[cold]
-    pub(super) fn no_finite_value(&mut self, here: &Here, span: Span, value: f64) -> Outcome<Value> {
+    pub(super) fn no_finite_value(
+        &mut self,
+        here: &Here,
+        span: Span,
+        value: f64,
+    ) -> Outcome<Value> {
         let gives = if value.is_nan() { "no number" } else { "infinity" };
         let diagnostic =
             Diagnostic::new(Code::NotANumber, "this function has no finite value here")

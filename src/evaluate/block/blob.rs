@@ -14,6 +14,9 @@ use super::super::value::Poison;
 use super::super::{Evaluator, Outcome, Reported};
 use super::{Given, Place};
 
+/// A threshold as good as 0.
+const SMALLEST: f64 = 1e-6;
+
 impl Evaluator<'_> {
     /// `blob { threshold number sphere { … } cylinder { … } … }`, in any order.
     pub(super) fn blob(&mut self, token: &Token) -> Outcome<Solid> {
@@ -60,7 +63,7 @@ impl Evaluator<'_> {
             self.owed = Some((token.here.clone(), diagnostic));
             return Err(Reported);
         }
-        if blob.is_weak() {
+        if blob.is_weak() && blob.threshold < f64::INFINITY {
             let message = format!(
                 "the strengths of this blob add up to no more than its threshold, {}",
                 blob.threshold
@@ -94,9 +97,17 @@ impl Evaluator<'_> {
     fn threshold(&mut self, token: &Token, word: Word, blob: &mut Blob) -> Outcome<()> {
         let given = self.number_after(token, "a number for the threshold")?;
         if given.value <= 0.0 {
-            return Err(self.out_of_range(&given, word, "more than 0"));
+            let read = match given.value == 0.0 {
+                true => "the blob ends where its field does",
+                false => "nothing is drawn",
+            };
+            self.out_of_range_but_read(&given, word, "more than 0", read)?;
         }
-        blob.threshold = given.value;
+        blob.threshold = match given.value {
+            0.0 => SMALLEST,
+            value if value < 0.0 => f64::INFINITY,
+            value => value,
+        };
         Ok(())
     }
 

@@ -8,7 +8,7 @@ use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ClassicFinish, Finish, FinishId, FinishOrigin};
 use crate::source::{Site, Span};
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
@@ -16,6 +16,9 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::pieces::WrittenColor;
 use super::{Given, Place};
 use whole::Written;
+
+/// What POV-Ray does with a negative power.
+const AS_A_POWER: &str = "light is taken to this negative power";
 
 /// A loop may go through one place again and again.
 pub(super) fn list_once(sites: &mut Vec<Site>, item: Site) {
@@ -208,12 +211,12 @@ impl Evaluator<'_> {
                 finish.diffuse = self.strength_after(token, word)?;
                 self.back_side(token)?;
             }
-            Word::Brilliance => finish.brilliance = self.at_least_zero(token, word)?,
+            Word::Brilliance => finish.brilliance = self.power_after(token, word)?,
             Word::Phong => {
                 albedo.phong |= self.skip_albedo();
                 finish.phong = self.strength_after(token, word)?;
             }
-            Word::PhongSize => finish.phong_size = self.at_least_zero(token, word)?,
+            Word::PhongSize => finish.phong_size = self.power_after(token, word)?,
             Word::Specular => {
                 albedo.specular |= self.skip_albedo();
                 finish.specular = self.strength_after(token, word)?;
@@ -236,6 +239,12 @@ impl Evaluator<'_> {
                 let help = "write `interior { ior … }` beside the texture";
                 self.lint_legacy(&token.here, token.span, "`ior` in a finish is an old form", help);
             }
+            Word::Crand | Word::Caustics | Word::Refraction
+                if self.options.dialect == Dialect::Pov =>
+            {
+                self.old_finish_word(token, word)?;
+                return Ok(false);
+            }
             _ => {
                 let poisoned = self.poison.is_some();
                 self.unexpected(token, Place::FINISH);
@@ -254,9 +263,19 @@ impl Evaluator<'_> {
             return Ok(f64::MAX);
         }
         if given.value < 0.0 {
-            return Err(self.out_of_range(&given, Word::Roughness, "more than 0"));
+            self.out_of_range_but_read(&given, Word::Roughness, "more than 0", AS_A_POWER)?;
         }
         self.lint_highlight(&given, Word::Roughness);
+        Ok(given.value)
+    }
+
+    /// A power of a cosine: POV-Ray 3.7 takes a negative one, too (measured).
+    pub(super) fn power_after(&mut self, token: &Token, word: Word) -> Outcome<f64> {
+        let given = self.number_after(token, "a number")?;
+        if given.value < 0.0 {
+            self.out_of_range_but_read(&given, word, "0 or more", AS_A_POWER)?;
+        }
+        self.lint_highlight(&given, word);
         Ok(given.value)
     }
 

@@ -5,7 +5,7 @@
 use crate::color::{self, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
@@ -204,6 +204,24 @@ impl Evaluator<'_> {
         self.inside_block(&next.here, contents, next.span, Self::run_items);
         self.take_back(before);
         Some(reported)
+    }
+
+    /// Whether three numbers in a row may be three vectors, as in `triangle { 0, 0, 0 }`, which POV-Ray 3.7 reads
+    /// (measured).
+    pub(super) fn takes_bare_numbers(&self, after: &Token) -> bool {
+        use Word as W;
+        self.options.dialect == Dialect::Pov
+            && matches!(
+                after.kind,
+                TokenKind::Word(
+                    W::Triangle
+                        | W::SmoothTriangle
+                        | W::Disc
+                        | W::AreaLight
+                        | W::Cylinder
+                        | W::Cone
+                )
+            )
     }
 
     /// `sphere { 0 0 0, 1 }`: as many bare numbers as make `points` points and `numbers` numbers. Tells the

@@ -181,7 +181,12 @@ impl Evaluator<'_> {
             let message = format!("a landscape of {count} heights {name}");
             let diagnostic = Diagnostic::new(Code::OutOfRange, message)
                 .at(given.span, format!("expected 2 to {MOST}"));
-            Err(self.report(&given.here, diagnostic))
+            if !(0.0..2.0).contains(&count) {
+                return Err(self.report(&given.here, diagnostic));
+            }
+            // POV-Ray 3.7 draws nothing then (measured).
+            self.opinion(&given.here, diagnostic)?;
+            Ok(count as usize)
         };
         let (width, rows) = (size("along x")?, size("along z")?);
         if !self.has_memory(2 * (width * rows * size_of::<f32>()) as u64) {
@@ -205,6 +210,9 @@ impl Evaluator<'_> {
         }
         // Of a colour, red.
         let id = outside_id(id, 0);
+        if width.min(rows) < 2 {
+            return Ok(("a function".to_owned(), Heights { width: 2, heights: Vec::new() }));
+        }
         let functions = Functions { all: &self.functions, noise: self.noise };
         let place = |i: usize, count: usize| i as f64 / (count - 1) as f64;
         let mut heights = Vec::with_capacity(width * rows);
@@ -213,9 +221,10 @@ impl Evaluator<'_> {
         for row in 0..rows {
             for column in 0..width {
                 let (x, y) = (place(column, width), place(row, rows));
-                let value = functions.value(id, &[x, y, 0.0]);
+                let mut value = functions.value(id, &[x, y, 0.0]);
                 if !value.is_finite() {
                     stray.get_or_insert((x, y));
+                    value = 0.0;
                 }
                 (low, high) = (low.min(value), high.max(value));
                 heights.push(heights::height(wrapped(value)));
@@ -225,7 +234,7 @@ impl Evaluator<'_> {
             let message = format!("this function has no finite value at x = {x}, y = {y}");
             let diagnostic =
                 Diagnostic::new(Code::NotANumber, message).at(word.span, "of this landscape");
-            return Err(self.report(&word.here, diagnostic));
+            self.opinion(&word.here, diagnostic)?;
         }
         if low < 0.0 || high > 1.0 {
             // As short as they are told apart.

@@ -1,7 +1,7 @@
 //! `interior` and `material`: what a solid is filled with, and what it is made of.
 
 use crate::scene::{Interior, InteriorId};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Material, Value};
@@ -34,6 +34,9 @@ impl Evaluator<'_> {
                     interior.sites.clear();
                 }
                 list_once(&mut interior.sites, self.whole(token));
+            }
+            TokenKind::Word(Word::Caustics) if self.options.dialect == Dialect::Pov => {
+                return self.not_simulated_number(token);
             }
             TokenKind::Expression(id) => match self.declared(token, id) {
                 Some(Value::Broken) => return Err(Reported),

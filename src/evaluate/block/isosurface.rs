@@ -14,6 +14,10 @@ use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::{Given, Place};
 
+/// What POV-Ray takes where `accuracy` or `max_gradient` is not said, or is no length.
+const ACCURACY: f64 = 0.001;
+const MAX_GRADIENT: f64 = 1.1;
+
 /// What stands behind the function of an `isosurface`.
 const OF_ISOSURFACE: &[Word] = &[
     // One too many.
@@ -40,16 +44,18 @@ impl Evaluator<'_> {
         let compared = word.as_ref().ok().and_then(|_| self.compared_surface());
         let function = word.and_then(|word| self.closed_function(&word));
         let mut container = None;
-        let (mut threshold, mut accuracy, mut open) = (0.0, 0.001, false);
+        let (mut threshold, mut accuracy, mut open) = (0.0, ACCURACY, false);
         let mut failed = false;
         while let Some((item, word)) = self.next_part(Word::Isosurface, OF_ISOSURFACE) {
             let outcome = match word {
                 Word::Threshold => {
                     self.number_after(&item, "a number").map(|given| threshold = given.value)
                 }
-                Word::Accuracy => self.positive_after(&item).map(|value| accuracy = value),
+                Word::Accuracy => {
+                    self.positive_after(&item, accuracy).map(|value| accuracy = value)
+                }
                 Word::ContainedBy => self.contained_by(&item).map(|held| container = Some(held)),
-                Word::MaxGradient => self.positive_after(&item).map(drop),
+                Word::MaxGradient => self.positive_after(&item, MAX_GRADIENT).map(drop),
                 Word::Open => {
                     open = true;
                     Ok(())
@@ -169,7 +175,7 @@ impl Evaluator<'_> {
             let outcome = match word {
                 Word::ContainedBy => self.contained_by(&item).map(|held| container = held),
                 // Every crossing is found as exactly as rounding allows.
-                Word::Accuracy => self.positive_after(&item).map(drop),
+                Word::Accuracy => self.positive_after(&item, ACCURACY).map(drop),
                 _ => self.inert(&item, Place::shape(Word::Parametric)).unwrap_or(Ok(())),
             };
             failed |= outcome.is_err();
@@ -202,7 +208,8 @@ impl Evaluator<'_> {
         }
     }
 
-    fn positive_after(&mut self, item: &Token) -> Outcome<f64> {
+    /// A number above 0; any other is `otherwise`, as in POV-Ray 3.7 (measured).
+    fn positive_after(&mut self, item: &Token, otherwise: f64) -> Outcome<f64> {
         let given = self.number_after(item, "a number more than 0")?;
         if given.value > 0.0 {
             return Ok(given.value);
@@ -212,7 +219,8 @@ impl Evaluator<'_> {
         let message = format!("{name} is {}, and must be a {what}", given.value);
         let diagnostic = Diagnostic::new(Code::OutOfRange, message)
             .at(given.span, "expected a number more than 0");
-        Err(self.report(&given.here, diagnostic))
+        self.opinion(&given.here, diagnostic)?;
+        Ok(otherwise)
     }
 
     /// `contained_by { sphere { … } }` or `contained_by { box { … } }`.

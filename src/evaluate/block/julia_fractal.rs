@@ -79,7 +79,7 @@ impl Evaluator<'_> {
                     self.iterations(&item).map(|iterations| fractal.iterations = iterations)
                 }
                 // Every crossing is found as exactly as rounding allows.
-                Word::Precision => self.more_than_zero(&item, Word::Precision).map(drop),
+                Word::Precision => self.precision(&item),
                 Word::Slice => self.slice(&item, &mut fractal),
                 _ => {
                     fractal.function = word;
@@ -125,8 +125,21 @@ impl Evaluator<'_> {
         self.lint_count(&given.here, given.span, given.value);
         match given.value.trunc() {
             count if (1.0..=MOST).contains(&count) => Ok(count as u32),
-            _ => Err(self.out_of_range(&given, Word::MaxIteration, "1 or more")),
+            _ => {
+                let read = "it is 1";
+                self.out_of_range_but_read(&given, Word::MaxIteration, "1 or more", read)?;
+                Ok(1)
+            }
         }
+    }
+
+    fn precision(&mut self, item: &Token) -> Outcome<()> {
+        let given = self.number_after(item, "a number")?;
+        if given.value <= 0.0 {
+            let read = "it is 1";
+            self.out_of_range_but_read(&given, Word::Precision, "more than 0", read)?;
+        }
+        Ok(())
     }
 
     /// The normal of the three dimensions that are seen, and how far they are from the origin along it.

@@ -235,8 +235,9 @@ impl Evaluator<'_> {
             let diagnostic =
                 Diagnostic::new(Code::ZeroVector, "this light points at its own place")
                     .at(token.span, "expected a `point_at` other than the light's place");
-            self.report(&token.here, diagnostic);
-            failed = true;
+            // It gives no light, as in POV-Ray 3.7 (measured).
+            failed = self.opinion(&token.here, diagnostic).is_err();
+            light.color = Rgb::BLACK;
         }
         // What failed may be the word that is missing.
         if let Some(light) = light

@@ -1,17 +1,42 @@
-//! The numbers of a `matrix` as other tools print them: in rows, with a fourth column, without brackets.
+//! The numbers of a `matrix` as other tools print them: in rows, with a fourth column, without brackets; and
+//! columns of zeros.
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
+use crate::math::transform::Step;
 use crate::source::Span;
 
 use super::super::stream::{Token, TokenKind};
-use super::super::{Evaluator, Reported};
+use super::super::{Evaluator, Outcome, Reported};
 
 /// How many rows and columns a matrix has here, and how many columns elsewhere.
 const ROWS: usize = 4;
 const COLUMNS: usize = 3;
 const COLUMNS_ELSEWHERE: usize = 4;
 
+/// Below this POV-Ray 3.7 takes an element of a matrix for 0 (measured: 1e-11 is, 1e-10 is not).
+const NO_LENGTH: f64 = 1e-10;
+
 impl Evaluator<'_> {
+    /// Replaces the diagonal element of a column of zeros by 1, with a warning, as POV-Ray 3.7 does (measured).
+    pub(super) fn with_columns(&mut self, matrix: &Token, rows: [Vector; 4]) -> Outcome<Step> {
+        let [mut x, mut y, mut z, place] = rows.map(|row| row.to_array());
+        let linear = [&mut x, &mut y, &mut z];
+        let empty = [0, 1, 2].map(|column| linear.iter().all(|row| row[column].abs() < NO_LENGTH));
+        for (column, row) in linear.into_iter().enumerate() {
+            if empty[column] {
+                row[column] = 1.0;
+            }
+        }
+        if empty.contains(&true) {
+            let message = "a column of zeros in a `matrix` flattens everything to nothing";
+            let diagnostic = Diagnostic::new(Code::ZeroScale, message)
+                .at(matrix.span, "its element on the diagonal is read as 1");
+            self.opinion(&matrix.here, diagnostic)?;
+        }
+        Ok(Step::Matrix([x, y, z, place].map(Vector::from_array)))
+    }
+
     /// `matrix 1,0,0, 0,1,0, 0,0,1, 0,0,0`: the first of the numbers is taken.
     pub(super) fn bare_matrix(&mut self, first: &Token) -> Option<Reported> {
         let text = self.sources.get(first.span.file).text.get(first.span.start as usize..)?;

@@ -3,7 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{FinishId, Modifier, ModifierKind, ObjectId, ObjectKind};
 use crate::source::{Site, Span};
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
@@ -285,6 +285,9 @@ impl Evaluator<'_> {
                 );
                 None
             }),
+            Word::Radiosity if self.options.dialect == Dialect::Pov => {
+                self.importance(token).map(|()| None)
+            }
             _ => return None,
         };
         Some(kind)

@@ -4,6 +4,7 @@
 //! of a `sor` rise.
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::math::Vector;
 use crate::scene::outline::{Point, Spline, are_in_line, sameness};
 use crate::scene::{Dialect, Solid};
 use crate::source::Span;
@@ -64,7 +65,11 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(Code::ZeroSize, message)
                 .at(last.span, "expected another height")
                 .help("a flat ring is a `disc { <centre>, <normal>, radius, hole }`");
-            return Err(self.report(&last.here, diagnostic));
+            self.opinion(&last.here, diagnostic)?;
+            let radii = || points.iter().map(|point| point.value[0].abs());
+            let (radius, hole) = (radii().fold(0.0, f64::max), radii().fold(f64::MAX, f64::min));
+            let centre = Vector::Y * last.value[1];
+            return Ok(Solid::Disc { centre, normal: Vector::Y, radius, hole });
         }
         Ok(solid)
     }

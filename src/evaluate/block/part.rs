@@ -186,7 +186,9 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn vector_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Vector>> {
-        if let Some(reported) = self.bare_points(1, 0) {
+        if !self.takes_bare_numbers(after)
+            && let Some(reported) = self.bare_points(1, 0)
+        {
             self.skip_values();
             return Err(reported);
         }
@@ -310,13 +312,20 @@ impl Evaluator<'_> {
         what: &str,
     ) -> Outcome<Given<Vector>> {
         if given.value == Vector::ZERO {
-            let diagnostic = Diagnostic::new(
-                Code::ZeroVector,
-                format!("{what} is the zero vector, and points nowhere"),
-            )
-            .at(given.span, "expected a vector other than <0, 0, 0>")
-            .help("a direction such as `y`, which points up");
-            return Err(self.report(&given.here, diagnostic));
+            return Err(self.report(&given.here, points_nowhere(&given, what)));
+        }
+        Ok(given)
+    }
+
+    /// As [`Self::direction_after`]; the zero vector, too, where POV-Ray renders the scene with it.
+    pub(super) fn any_direction_after(
+        &mut self,
+        after: &Token,
+        what: &str,
+    ) -> Outcome<Given<Vector>> {
+        let given = self.vector_after(after, &format!("a vector for {what}"))?;
+        if given.value == Vector::ZERO {
+            self.opinion(&given.here, points_nowhere(&given, what))?;
         }
         Ok(given)
     }
@@ -416,4 +425,10 @@ impl Evaluator<'_> {
         }
         Ok(given)
     }
+}
+
+fn points_nowhere(given: &Given<Vector>, what: &str) -> Diagnostic {
+    Diagnostic::new(Code::ZeroVector, format!("{what} is the zero vector, and points nowhere"))
+        .at(given.span, "expected a vector other than <0, 0, 0>")
+        .help("a direction such as `y`, which points up")
 }

@@ -25,7 +25,7 @@ impl Evaluator<'_> {
                     TokenKind::Word(Word::Checker) => found = Some(Pattern::Checker),
                     TokenKind::Word(Word::Gradient) => {
                         let given =
-                            evaluator.direction_after(&token, "the gradient's direction")?;
+                            evaluator.any_direction_after(&token, "the gradient's direction")?;
                         found = Some(Pattern::Gradient { direction: given.value });
                     }
                     _ => match evaluator.inert(&token, Place::PATTERN) {

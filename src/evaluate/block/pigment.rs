@@ -198,7 +198,7 @@ impl Evaluator<'_> {
                 pigment.clear = clear;
             }
             TokenKind::Word(Word::Gradient) => {
-                let direction = self.direction_after(token, "the gradient's direction")?.value;
+                let direction = self.any_direction_after(token, "the gradient's direction")?.value;
                 self.alone_in_pigment(token, Some(Word::Gradient), written)?;
                 self.pattern_of(pigment, written, token, None);
                 let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);

@@ -58,6 +58,9 @@ impl Place {
         families: &[Family::FinishItem, Family::Color],
         others: &[],
     };
+    /// Of an object.
+    pub const RADIOSITY: Self =
+        Self { word: Some(Word::Radiosity), families: &[], others: &[Word::Importance] };
     pub const TEXTURE: Self = Self {
         word: Some(Word::Texture),
         families: &[Family::Texture, Family::Transform, Family::Pattern, Family::PatternItem],

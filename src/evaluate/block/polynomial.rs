@@ -6,7 +6,7 @@ use crate::math::terms::{count_of_terms, exponents};
 use crate::scene::Solid;
 use crate::source::Span;
 use crate::syntax::ast::{Arguments, Callee, ExpressionKind};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
@@ -15,6 +15,9 @@ use super::part::Given;
 
 /// The orders that `poly` and `polynomial` take.
 const ORDERS: std::ops::RangeInclusive<f64> = 2.0..=15.0;
+
+/// The greatest order that POV-Ray 3.7 takes.
+const POV_ORDER: f64 = 35.0;
 
 impl Evaluator<'_> {
     /// `<A, B, C>, <D, E, F>, <G, H, I>, J`: Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J.
@@ -90,7 +93,15 @@ impl Evaluator<'_> {
             return Err(reported);
         }
         let order = self.number_after(token, "a number for the order")?;
-        if !ORDERS.contains(&order.value) || order.value.fract() != 0.0 {
+        let is_pov = self.options.dialect == Dialect::Pov;
+        let value = if is_pov { order.value.trunc() } else { order.value };
+        if is_pov && value > *ORDERS.end() && value <= POV_ORDER {
+            let message = format!("polynomials of order {value} are not supported yet");
+            let diagnostic = Diagnostic::new(Code::NotSupportedYet, message)
+                .at(order.span, format!("expected {} or less", ORDERS.end()));
+            return Err(self.report(&order.here, diagnostic));
+        }
+        if !ORDERS.contains(&value) || value.fract() != 0.0 {
             let message = match order.value.fract() == 0.0 {
                 true => format!("the order is {}, and must be 2 to 15", order.value),
                 false => format!("the order is {}, and must be a whole number", order.value),
@@ -104,7 +115,10 @@ impl Evaluator<'_> {
             };
             return Err(self.report(&order.here, diagnostic));
         }
-        Ok(order.value as usize)
+        if value != order.value {
+            self.lint_count(&order.here, order.span, order.value);
+        }
+        Ok(value as usize)
     }
 
     /// `poly { <1, 0, …> }`: coefficients without the order before them.
@@ -161,7 +175,11 @@ impl Evaluator<'_> {
 
     /// Which term `xyz(i, j, k)` is.
     fn powers(&mut self, term: &Token, powers: Arguments, degree: usize) -> Outcome<usize> {
-        let given = self.numbers_of(&term.here, powers, term.span)?;
+        let mut given = self.numbers_of(&term.here, powers, term.span)?;
+        if self.options.dialect == Dialect::Pov {
+            // As in POV-Ray 3.7 (measured).
+            given.iter_mut().for_each(|power| *power = power.trunc());
+        }
         let wanted = exponents(degree)
             .position(|[i, j, k]| given.as_slice() == [i as f64, j as f64, k as f64]);
         wanted.ok_or_else(|| {

@@ -17,6 +17,9 @@ use super::finish::list_once;
 /// The deepest `max_trace_level` that POV-Ray goes by; it warns of more.
 const DEEPEST: f64 = 256.0;
 
+/// The deepest `max_trace_level` here.
+const MOST_LEVELS: f64 = 1_000_000.0;
+
 impl Evaluator<'_> {
     pub(super) fn global_settings(&mut self, token: &Token) -> Outcome<()> {
         self.block(token, Word::GlobalSettings, |evaluator| {
@@ -56,12 +59,11 @@ impl Evaluator<'_> {
             }
             TokenKind::Word(Word::MaxTraceLevel) => {
                 let given = self.number_after(token, "a whole number")?;
-                if !(1.0..=1_000_000.0).contains(&given.value) || given.value.fract() != 0.0 {
-                    return Err(self.out_of_range(
-                        &given,
-                        Word::MaxTraceLevel,
-                        "a whole number from 1 to 1000000",
-                    ));
+                let level = given.value.trunc().clamp(1.0, MOST_LEVELS);
+                if level != given.value {
+                    let wanted = format!("a whole number from 1 to {MOST_LEVELS}");
+                    let read = format!("it is {level}");
+                    self.out_of_range_but_read(&given, Word::MaxTraceLevel, &wanted, &read)?;
                 }
                 if given.value > DEEPEST && self.options.dialect == Dialect::Pov {
                     let message = format!(
@@ -73,11 +75,16 @@ impl Evaluator<'_> {
                         .help("here rays go as deep as they are told to");
                     self.report(&given.here, diagnostic);
                 }
-                self.scene.settings.max_trace_level = given.value as u32;
+                self.scene.settings.max_trace_level = level as u32;
                 self.scene.settings.max_trace_level_site = Some(given.site());
             }
             TokenKind::Word(Word::AdcBailout) => {
-                self.scene.settings.adc_bailout = self.at_least_zero(token, Word::AdcBailout)?;
+                let given = self.number_after(token, "a number")?;
+                if given.value < 0.0 {
+                    let read = "it is 0";
+                    self.out_of_range_but_read(&given, Word::AdcBailout, "0 or more", read)?;
+                }
+                self.scene.settings.adc_bailout = given.value.max(0.0);
             }
             TokenKind::Word(Word::NoiseGenerator) => {
                 let given = self.number_after(token, "a number")?;

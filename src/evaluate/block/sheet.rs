@@ -135,11 +135,19 @@ impl Evaluator<'_> {
                 Word::Type => {
                     let kind = self.number_after(&item, "0 or 1")?;
                     if ![0.0, 1.0].contains(&kind.value) {
-                        return Err(self.out_of_range(&kind, word, "0 or 1"));
+                        // How it is divided changes nothing here. POV-Ray drops fractions (measured).
+                        if kind.value.trunc() < 0.0 {
+                            return Err(self.out_of_range(&kind, word, "0 or 1"));
+                        }
+                        let read = if kind.value < 1.0 { "it is 0" } else { "it is 1" };
+                        self.out_of_range_but_read(&kind, word, "0 or 1", read)?;
                     }
                 }
                 _ => {
-                    self.at_least_zero(&item, word)?;
+                    let given = self.number_after(&item, "a number")?;
+                    if given.value < 0.0 {
+                        self.out_of_range_but_read(&given, word, "0 or more", "it is 0")?;
+                    }
                 }
             }
         }

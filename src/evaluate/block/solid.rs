@@ -10,6 +10,9 @@ use super::super::{Evaluator, Here, Outcome};
 use super::habit::told_comma;
 use super::part::Given;
 
+/// What an exponent 0 of a superellipsoid is in POV-Ray 3.7 (measured).
+const SHARPEST: f64 = 1e-5;
+
 impl Evaluator<'_> {
     /// Whether `open` stands next, perhaps behind a comma.
     pub(super) fn take_open(&mut self) -> bool {
@@ -258,7 +261,7 @@ impl Evaluator<'_> {
             return Err(reported);
         }
         let centre = self.vector_after(token, "a vector for the centre");
-        let normal = self.direction_after(token, "the normal");
+        let normal = self.any_direction_after(token, "the normal");
         let radius = self.number_after(token, "a number for the radius");
         let (centre, normal, radius) = (centre?, normal?, radius?);
         self.skip_commas();
@@ -269,6 +272,11 @@ impl Evaluator<'_> {
             _ => None,
         };
         let hole_radius = hole.as_ref().map_or(0.0, |hole| hole.value);
+        if normal.value == Vector::ZERO {
+            // Told, and left out.
+            let (centre, normal) = (centre.value, Vector::Y);
+            return Ok(Solid::Disc { centre, normal, radius: 0.0, hole: 0.0 });
+        }
         if radius.value == 0.0 {
             let diagnostic = Diagnostic::new(self.sizeless(), "a disc of radius 0 is nothing")
                 .at(radius.span, "expected a number more than 0");
@@ -410,8 +418,13 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(Code::OutOfRange, message)
                 .at(component.unwrap_or(given.span), "expected more than 0")
                 .help("from near 0, a box, over 1, round, to 2 and more, a star");
-            return Err(self.report(&given.here, diagnostic));
+            self.opinion(&given.here, diagnostic)?;
+            // POV-Ray 3.7 draws nothing where one is negative, and the sharpest box for 0 (measured).
+            if exponents.iter().any(|exponent| *exponent < 0.0) {
+                return Ok(Solid::Sphere { centre: Vector::ZERO, radius: 0.0 });
+            }
         }
+        let exponents = exponents.map(|exponent| if exponent == 0.0 { SHARPEST } else { exponent });
         Ok(Solid::Superellipsoid { exponents })
     }
 }

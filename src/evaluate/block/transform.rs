@@ -16,9 +16,6 @@ use super::super::{Evaluator, Here, Outcome, Reported};
 use super::Given;
 use super::Place;
 
-/// Below this POV-Ray 3.7 takes an element of a matrix for 0 (measured: 1e-11 is, 1e-10 is not).
-const NO_LENGTH: f64 = 1e-10;
-
 impl Evaluator<'_> {
     /// The transform that starts with `token`; `None` when the word starts none.
     pub(super) fn transform_from(&mut self, token: &Token) -> Option<Outcome<TransformId>> {
@@ -276,25 +273,6 @@ impl Evaluator<'_> {
             Dialect::Scene => Ok(Step::Matrix(rows)),
             Dialect::Pov => self.with_columns(&next, rows),
         }
-    }
-
-    /// Replaces the diagonal element of a column of zeros by 1, with a warning, as POV-Ray 3.7 does (measured).
-    fn with_columns(&mut self, matrix: &Token, rows: [Vector; 4]) -> Outcome<Step> {
-        let [mut x, mut y, mut z, place] = rows.map(|row| row.to_array());
-        let linear = [&mut x, &mut y, &mut z];
-        let empty = [0, 1, 2].map(|column| linear.iter().all(|row| row[column].abs() < NO_LENGTH));
-        for (column, row) in linear.into_iter().enumerate() {
-            if empty[column] {
-                row[column] = 1.0;
-            }
-        }
-        if empty.contains(&true) {
-            let message = "a column of zeros in a `matrix` flattens everything to nothing";
-            let diagnostic = Diagnostic::new(Code::ZeroScale, message)
-                .at(matrix.span, "its element on the diagonal is read as 1");
-            self.opinion(&matrix.here, diagnostic)?;
-        }
-        Ok(Step::Matrix([x, y, z, place].map(Vector::from_array)))
     }
 
     /// `transform { … }` or `transform Name`.

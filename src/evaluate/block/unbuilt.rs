@@ -3,6 +3,7 @@
 //! **Invariant:** it is poison, whatever is found in it.
 
 mod items;
+mod left_out;
 mod picture;
 mod ranges;
 

@@ -56,9 +56,7 @@ pub(super) fn function(word: Word) -> Option<Function> {
         Word::Int => Function::plain(whole_part),
         Word::Ln => Function::number(1..=1, |a| Ok(log(above_zero(a)?))),
         Word::Log => Function::number(1..=1, |a| Ok(log10(above_zero(a)?))),
-        Word::Max => {
-            Function::number(ANY, |a| chosen(a, |next, most| next > most))
-        }
+        Word::Max => Function::number(ANY, |a| chosen(a, |next, most| next > most)),
         Word::Min => Function::number(ANY, |a| chosen(a, |next, least| next < least)),
         Word::Mod => Function::number(2..=2, |a| Ok(fmod(a.number(0)?, divisor(a)?))),
         Word::Pow => Function::number(2..=2, power),

@@ -124,10 +124,11 @@ impl Evaluator<'_> {
             return Ok(1.0);
         }
         if given.value < 0.0 {
-            return Err(self.out_of_range(&given, Word::Ior, "more than 0"));
+            let read = "light is bent to the other side";
+            self.out_of_range_but_read(&given, Word::Ior, "more than 0", read)?;
         }
         let value = given.value;
-        if value < 1.0 && is_literal(self.sources.text(given.span)) {
+        if value > 0.0 && value < 1.0 && is_literal(self.sources.text(given.span)) {
             let message = format!("an `ior` of {value} is below that of a vacuum");
             let diagnostic = Diagnostic::new(Code::LowIor, message)
                 .at(given.span, "expected 1 or more: water has 1.33, glass 1.5")

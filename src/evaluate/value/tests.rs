@@ -14,8 +14,7 @@ fn vector(values: &[f64]) -> Value {
 fn a_number_fills_all_components_and_a_short_vector_fills_up_with_zeros() {
     let sum = binary(BinaryOperator::Add, &Value::Number(1.0), &vector(&[1.0, 2.0, 3.0]));
     assert_eq!(sum, Ok(vector(&[2.0, 3.0, 4.0])));
-    let product =
-        binary(BinaryOperator::Multiply, &vector(&[1.0, 2.0, 3.0]), &vector(&[1.0, 2.0]));
+    let product = binary(BinaryOperator::Multiply, &vector(&[1.0, 2.0, 3.0]), &vector(&[1.0, 2.0]));
     assert_eq!(product, Ok(vector(&[1.0, 4.0, 0.0])));
 }
 

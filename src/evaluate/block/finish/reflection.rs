@@ -10,6 +10,9 @@ use crate::scene::Reflection;
 use crate::source::{Site, Span};
 use crate::vocabulary::Word;
 
+/// An `exponent` as good as 0: light to the power of a million is none.
+const NEARLY_NOTHING: f64 = 1e-6;
+
 impl Evaluator<'_> {
     /// `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`. What a finish had
     /// `before` says how its reflection behaves until it is said again, as in POV-Ray. Beside it, what can
@@ -52,10 +55,10 @@ impl Evaluator<'_> {
             while let Some(token) = evaluator.next() {
                 match token.kind {
                     TokenKind::Word(Word::Falloff) => {
-                        reflection.falloff = evaluator.at_least_zero(&token, Word::Falloff)?;
+                        reflection.falloff = evaluator.power_after(&token, Word::Falloff)?;
                     }
                     TokenKind::Word(Word::Exponent) => {
-                        reflection.exponent = evaluator.more_than_zero(&token, Word::Exponent)?;
+                        reflection.exponent = evaluator.exponent(&token)?;
                     }
                     TokenKind::Word(Word::Metallic) => {
                         reflection.metallic = evaluator.optional_number(&token, 1.0)?;
@@ -72,6 +75,21 @@ impl Evaluator<'_> {
             }
             Ok((reflection, pieces))
         })
+    }
+
+    /// `exponent`: POV-Ray 3.7 takes light to the power of its reciprocal, so that 0 leaves nothing of what is
+    /// reflected (measured).
+    fn exponent(&mut self, token: &Token) -> Outcome<f64> {
+        let given = self.number_after(token, "a number")?;
+        if given.value > 0.0 {
+            return Ok(given.value);
+        }
+        let read = match given.value == 0.0 {
+            true => "nothing is reflected",
+            false => "light is taken to this negative power",
+        };
+        self.out_of_range_but_read(&given, Word::Exponent, "more than 0", read)?;
+        Ok(if given.value == 0.0 { NEARLY_NOTHING } else { given.value })
     }
 
     /// `reflection 0.1, 0.9`, whose first number was taken.

@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::math::double::DoubleVector;
 use crate::source::Site;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::super::Evaluator;
 use super::super::super::stream::Token;
@@ -40,6 +40,12 @@ impl Evaluator<'_> {
         let mesh = token.here.site(token.span);
         if left == 0 && self.poison.is_none() {
             self.scene.sizeless.push((word.name(), mesh));
+            // Of a mesh2 POV-Ray 3.7 draws nothing then, and refuses a mesh (measured).
+            if word == Word::Mesh2 && degenerate.count > 0 && self.options.dialect == Dialect::Pov {
+                let diagnostic = without_triangles(token, word, degenerate.count);
+                self.report(&token.here, diagnostic.as_warning());
+                return;
+            }
             // Unless its triangles stand too late.
             self.owed =
                 Some((token.here.clone(), without_triangles(token, word, degenerate.count)));

@@ -7,7 +7,7 @@ use crate::math::Vector;
 use crate::scene::mesh::{Face, Triangles};
 use crate::scene::{Solid, TextureId};
 use crate::source::Span;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::super::lint::is_literal;
 use super::super::super::stream::Token;
@@ -94,6 +94,13 @@ impl Evaluator<'_> {
         };
         self.expect_entries(&of_vertices, vertices.len(), "vertices")?;
         self.expect_entries(&of_faces, faces.len(), "faces")?;
+        let is_pov = self.options.dialect == Dialect::Pov;
+        // Of lists without an entry POV-Ray 3.7 takes no notice (measured).
+        let is_said = |list: &(Token, Vec<Vector>)| !is_pov || !list.1.is_empty();
+        let (normals, uv_vectors) =
+            (normals.filter(is_said), uv_vectors.filter(|list| is_said(list) || face_uv.is_some()));
+        let face_normals =
+            face_normals.filter(|(_, all)| !is_pov || !all.is_empty() || normals.is_some());
         let of_normals = normals.as_ref().map(|(list, _)| list.clone());
         let corners = self.as_indices(&of_faces, &faces, vertices.len(), "vertex_vectors")?;
         let smooth = match (normals, face_normals) {
@@ -129,6 +136,10 @@ impl Evaluator<'_> {
                 let found = (indices.len(), "places in a texture");
                 self.one_for_each(&of_indices, found, ("face", corners.len()))?;
                 Some((uvs, indices))
+            }
+            // One place for all (measured).
+            (Some((_, uvs)), None) if is_pov && uvs.len() == 1 => {
+                Some((uvs, vec![[0; 3]; corners.len()]))
             }
             (Some((of_uvs, uvs)), None) => {
                 let found = (uvs.len(), "places in a texture");

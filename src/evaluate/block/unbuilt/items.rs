@@ -6,7 +6,7 @@
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::syntax::ast::ExpressionId;
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::super::stream::{Token, TokenKind};
 use super::super::super::value::Value;
@@ -286,6 +286,7 @@ impl Evaluator<'_> {
             self.report(&here, diagnostic);
         } else if let Ok(kind) = self.number_after(opener, "a number from 1 to 5 for the kind")
             && !(1.0..6.0).contains(&kind.value)
+            && self.options.dialect == Dialect::Scene
         {
             self.out_of_range(&kind, Word::Scattering, "a kind from 1 to 5");
         }

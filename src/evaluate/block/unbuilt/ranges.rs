@@ -3,7 +3,7 @@
 //! **Source:** what POV-Ray 3.7 refuses, one number after the other; manual, 3.4.3.3 "Radiosity", 3.4.7.6 "Pattern Modifiers",
 //! 3.4.8.1 "Media".
 
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::super::Evaluator;
 use super::super::super::stream::Token;
@@ -81,7 +81,10 @@ impl Evaluator<'_> {
         let mut behind = text.get(given.span.end as usize..).unwrap_or("").chars();
         let is_whole =
             behind.next() != Some(',') || !behind.next().is_some_and(|c| c.is_ascii_digit());
-        if is_whole && !(range.holds)(given.value) {
+        // Those POV-Ray 3.7 warns of (measured).
+        let is_rendered =
+            self.options.dialect == Dialect::Pov && matches!(word, Word::FogType | Word::Target);
+        if is_whole && !is_rendered && !(range.holds)(given.value) {
             self.out_of_range(given, word, range.wanted);
         }
     }

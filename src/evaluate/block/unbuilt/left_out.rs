@@ -1,0 +1,61 @@
+//! Effects of a `.pov` that are left out, with a warning: all else is rendered as it is written.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::vocabulary::Word;
+
+use super::super::super::stream::{Token, TokenKind};
+use super::super::super::value::Poison;
+use super::super::super::{Evaluator, Outcome};
+use super::super::Place;
+
+impl Evaluator<'_> {
+    /// `caustics n`: light that is added; of strength 0 it is none.
+    pub(in super::super) fn not_simulated_number(&mut self, token: &Token) -> Outcome<()> {
+        let given = self.number_after(token, "a number")?;
+        if given.value != 0.0 {
+            self.not_simulated(token);
+        }
+        Ok(())
+    }
+
+    /// `crand`, `caustics` and `refraction` in a finish. The last has no effect in POV-Ray 3.7 (measured).
+    pub(in super::super) fn old_finish_word(&mut self, token: &Token, word: Word) -> Outcome<()> {
+        match word {
+            Word::Caustics => self.not_simulated_number(token),
+            Word::Refraction => self.number_after(token, "a number").map(drop),
+            _ => {
+                let given = self.number_after(token, "a number")?;
+                if given.value != 0.0 {
+                    self.set_poison(Poison::new(word, token.here.site(token.span)));
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// `radiosity { importance n }` of an object: how many samples it is worth.
+    pub(in super::super) fn importance(&mut self, token: &Token) -> Outcome<()> {
+        self.block(token, Word::Radiosity, |evaluator| {
+            while let Some(item) = evaluator.next() {
+                match item.kind {
+                    TokenKind::Word(Word::Importance) => {
+                        let given = evaluator.number_of(&item, Word::Importance)?;
+                        if given.value != 1.0 {
+                            evaluator.not_simulated(&item);
+                        }
+                    }
+                    _ => evaluator.unexpected(&item, Place::RADIOSITY),
+                }
+            }
+            Ok(())
+        })
+    }
+
+    fn not_simulated(&mut self, token: &Token) {
+        let what = self.describe(token);
+        let diagnostic =
+            Diagnostic::new(Code::NotSupportedYet, format!("{what} is not simulated yet"))
+                .at(token.span, "the scene is rendered without it");
+        self.report(&token.here, diagnostic.as_warning());
+    }
+}
