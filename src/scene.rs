@@ -362,6 +362,8 @@ impl Default for Settings {
 pub struct Camera {
     pub kind: CameraKind,
     pub items: Vec<CameraItem>,
+    /// Each word changes what those before it came to, as in scenes for POV-Ray 3.1 and older.
+    pub is_in_order: bool,
     pub site: Site,
 }
 

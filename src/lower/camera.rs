@@ -12,7 +12,7 @@ use super::{Fault, Lowering};
 use crate::diagnostic::Code;
 use crate::math::Vector;
 use crate::math::double::{Double, DoubleVector, sin_cos_degrees};
-use crate::scene::{self, CameraItemKind, CameraKind, Dialect, TransformId};
+use crate::scene::{self, CameraItem, CameraItemKind, CameraKind, Dialect, TransformId};
 use crate::source::Site;
 use crate::world::{self, Camera};
 
@@ -58,17 +58,24 @@ impl Lowering<'_, '_> {
 
     fn spend_camera(&mut self, camera: &scene::Camera) -> Result<Camera, (Fault, Site)> {
         let dialect = self.scene.dialect;
-        let mut words = Words::sort(camera, dialect);
+        let mut words = match camera.is_in_order {
+            true => Words::in_order(camera, dialect)?,
+            false => Words::sort(camera, dialect),
+        };
         let mut map = Affine::IDENTITY;
         for &(id, site) in &words.transforms {
             map = self.transforms.get(id).map_err(|fault| (fault, site))?.after(&map);
         }
         words.check(camera.site)?;
-        words.widen()?;
+        if !camera.is_in_order {
+            words.widen()?;
+        }
         if camera.kind == CameraKind::Orthographic {
             words.fit_to_look_at(dialect);
         }
-        words.turn(dialect, camera.site)?;
+        if !camera.is_in_order {
+            words.turn(dialect, camera.site)?;
+        }
         let location = map.point(words.location);
         let [forward, right, up] =
             [words.direction, words.right, words.up].map(|word| map.direction(word.vector));
@@ -94,10 +101,36 @@ impl Lowering<'_, '_> {
 }
 
 impl Words {
+    /// As POV-Ray 3.7 reads a scene of version 3.1 or older (measured): each word changes what those before it
+    /// came to, so that a `direction` behind `look_at` is not turned.
+    fn in_order(camera: &scene::Camera, dialect: Dialect) -> Result<Self, (Fault, Site)> {
+        let mut words = Self::unwritten(dialect);
+        for item in &camera.items {
+            if let CameraItemKind::Location(_) = item.kind {
+                words.take(item);
+            }
+        }
+        for item in &camera.items {
+            words.take(item);
+            match item.kind {
+                CameraItemKind::Angle(_) => words.widen()?,
+                CameraItemKind::LookAt(_) => words.turn(dialect, camera.site)?,
+                _ => {}
+            }
+        }
+        Ok(words)
+    }
+
     fn sort(camera: &scene::Camera, dialect: Dialect) -> Self {
+        let mut words = Self::unwritten(dialect);
+        camera.items.iter().for_each(|item| words.take(item));
+        words
+    }
+
+    fn unwritten(dialect: Dialect) -> Self {
         let default = |v: Vector| Word { vector: exact(v), site: None };
         let (direction, right) = defaults(dialect);
-        let mut words = Self {
+        Self {
             location: DoubleVector::ZERO,
             placed: false,
             direction: default(direction),
@@ -108,24 +141,22 @@ impl Words {
             angle: None,
             shift: (0.0, 0.0),
             transforms: Vec::new(),
-        };
-        for item in &camera.items {
-            let word = |v: Vector| Word { vector: exact(v), site: Some(item.site) };
-            match item.kind {
-                CameraItemKind::Location(v) => {
-                    (words.location, words.placed) = (exact(v), true);
-                }
-                CameraItemKind::LookAt(v) => words.look_at = Some((exact(v), item.site)),
-                CameraItemKind::Sky(v) => words.sky = exact(v),
-                CameraItemKind::Up(v) => words.up = word(v),
-                CameraItemKind::Right(v) => words.right = word(v),
-                CameraItemKind::Direction(v) => words.direction = word(v),
-                CameraItemKind::Angle(degrees) => words.angle = Some((degrees, item.site)),
-                CameraItemKind::Shift { x, y } => words.shift = (x, y),
-                CameraItemKind::Transform(id) => words.transforms.push((id, item.site)),
-            }
         }
-        words
+    }
+
+    fn take(&mut self, item: &CameraItem) {
+        let word = |v: Vector| Word { vector: exact(v), site: Some(item.site) };
+        match item.kind {
+            CameraItemKind::Location(v) => (self.location, self.placed) = (exact(v), true),
+            CameraItemKind::LookAt(v) => self.look_at = Some((exact(v), item.site)),
+            CameraItemKind::Sky(v) => self.sky = exact(v),
+            CameraItemKind::Up(v) => self.up = word(v),
+            CameraItemKind::Right(v) => self.right = word(v),
+            CameraItemKind::Direction(v) => self.direction = word(v),
+            CameraItemKind::Angle(degrees) => self.angle = Some((degrees, item.site)),
+            CameraItemKind::Shift { x, y } => self.shift = (x, y),
+            CameraItemKind::Transform(id) => self.transforms.push((id, item.site)),
+        }
     }
 
     fn check(&self, camera: Site) -> Result<(), (Fault, Site)> {

@@ -46,6 +46,10 @@ impl<'a> Nest<'a> {
             }
             Mark::Dot => self.component(span),
             Mark::Not => self.unary(UnaryOperator::Not, span),
+            Mark::Plus | Mark::Minus if holding && self.parts_signed_numbers() => {
+                self.finish_expression();
+                self.mark(mark, token);
+            }
             Mark::Plus if !holding => self.unary(UnaryOperator::Plus, span),
             Mark::Minus if !holding => self.unary(UnaryOperator::Minus, span),
             Mark::Less if !(holding && full) => self.open_vector(span),
@@ -97,6 +101,11 @@ impl<'a> Nest<'a> {
             ),
             _ => false,
         }
+    }
+
+    /// `<0 2 -6>` in a scene for POV-Ray 1.0, which has sums in parentheses only: three numbers.
+    fn parts_signed_numbers(&mut self) -> bool {
+        self.lacks_sums && !self.top().full
     }
 
     /// A sum or a product, or what stands in parentheses only.

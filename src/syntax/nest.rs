@@ -14,6 +14,7 @@ use super::ast::{
 use super::comment::Quiet;
 use super::directive::Body;
 use super::expression::Stacks;
+use super::old_words;
 use super::token::{Bracket, Head, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
@@ -98,6 +99,8 @@ pub(super) struct Nest<'a> {
     pub stacks: Stacks,
     /// A branch without its directive was told: the `#end` behind it is part of that.
     pub orphaned: bool,
+    /// Outside of parentheses there are no sums.
+    pub lacks_sums: bool,
     /// The tokens end before the text does, which has been told.
     pub ends_early: bool,
     /// The text was given up at a limit: what is open now is no mistake of the author's.
@@ -142,6 +145,7 @@ pub(super) fn nest<'a>(
         arguments: Vec::new(),
         stacks: Stacks::default(),
         orphaned: false,
+        lacks_sums: old_words::lacks_sums(tokens, &quiet.text, options.dialect),
         ends_early: cut,
         cut: false,
     };

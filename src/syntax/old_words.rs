@@ -1,12 +1,25 @@
-//! Words of old versions that POV-Ray 3.7 still reads in a `.pov`: `composite` as `union`, `alpha` as `filter`.
+//! What POV-Ray 3.7 still reads of old versions in a `.pov`: `composite` as `union`, `alpha` as `filter`, and that
+//! version 1.0 has sums in parentheses only.
 
-use super::token::{Token, TokenKind};
+use super::token::{Head, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{Dialect, Word};
 
 /// The old words, and what each is today (measured).
 const OLD: &[(Word, Word)] = &[(Word::Composite, Word::Union), (Word::Alpha, Word::Filter)];
+
+/// The version from which on there are sums outside of parentheses (measured).
+const SUMS_SINCE: f64 = 1.5;
+
+/// Whether the first `#version` of a text is one without sums.
+pub(super) fn lacks_sums(tokens: &[Token], text: &str, dialect: Dialect) -> bool {
+    let is_version = |token: &Token| token.kind == TokenKind::Directive(Head::Version);
+    let number = tokens.iter().position(is_version).and_then(|at| tokens.get(at + 1));
+    let number = number.and_then(|token| text.get(token.start as usize..token.end as usize));
+    dialect == Dialect::Pov
+        && number.and_then(|number| number.parse::<f64>().ok()).is_some_and(|n| n < SUMS_SINCE)
+}
 
 /// Replaces the old words, with a warning for each.
 pub(super) fn replace(

@@ -33,6 +33,7 @@ impl Sketch {
         let mut sketch = Self {
             scene: Scene {
                 cameras: vec![Camera {
+                    is_in_order: false,
                     kind: CameraKind::Perspective,
                     items: camera.map(|kind| CameraItem { kind, site: SITE }).to_vec(),
                     site: SITE,

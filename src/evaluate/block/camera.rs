@@ -4,17 +4,22 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Camera, CameraItem, CameraItemKind, CameraKind};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Components, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 
+/// The version from which on the order of a camera's words does not matter (measured).
+const SORTED_SINCE: f64 = 3.5;
+
 impl Evaluator<'_> {
     pub(super) fn camera(&mut self, token: &Token) -> Outcome<Value> {
         let site = token.here.site(token.span);
-        let mut camera = Camera { kind: CameraKind::Perspective, items: Vec::new(), site };
+        let is_in_order = self.options.dialect == Dialect::Pov && self.version < SORTED_SINCE;
+        let (kind, items) = (CameraKind::Perspective, Vec::new());
+        let mut camera = Camera { kind, items, is_in_order, site };
         let outer = self.poison.take();
         let outcome = self.block(token, Word::Camera, |evaluator| {
             let mut failed = false;

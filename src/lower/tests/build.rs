@@ -33,6 +33,7 @@ impl Build {
         let checker = build.pigment(checker(), vec![]);
         build.texture(checker, vec![]);
         build.0.cameras.push(Camera {
+            is_in_order: false,
             kind: CameraKind::Perspective,
             items: vec![],
             site: site(0),
