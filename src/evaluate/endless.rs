@@ -4,19 +4,61 @@
 //! **Invariant:** says so only when it is certain: a condition of names that nothing in the body assigns to never
 //! changes, and only a `#break`, an `#error` or a macro that holds one leaves a loop early.
 
-use crate::diagnostic::suggest;
-use crate::source::Span;
+use std::collections::HashSet;
+use std::rc::Rc;
+
+use crate::diagnostic::{Code, Diagnostic, suggest};
+use crate::source::{ExpansionId, Span};
 use crate::syntax::ast::{
     Argument, Ast, Callee, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items,
     NameId,
 };
 use crate::vocabulary::Word;
 
+use super::expand::Macro;
 use super::scope::Symbol;
 use super::value::Value;
-use super::{Evaluator, Here};
+use super::{Evaluator, Here, Reported};
 
 impl Evaluator<'_> {
+    /// Nothing further is evaluated.
+    pub(super) fn too_many_calls(
+        &mut self,
+        here: &Here,
+        definition: &Macro,
+        span: Span,
+        message: String,
+        help: &str,
+    ) -> Reported {
+        self.forget_echoes_of_calls(here.expansion);
+        let name = self.scopes.name(definition.name);
+        let diagnostic = Diagnostic::new(Code::MacroLimit, message)
+            .at(span, format!("this call of `{name}` is one too many"))
+            .also(definition.defined, "defined here")
+            .help(help);
+        self.halt(here.expansion, diagnostic)
+    }
+
+    /// What the calls that never ended were found to lack, they might have given at their end.
+    fn forget_echoes_of_calls(&mut self, innermost: ExpansionId) {
+        let expansions = &self.scene.expansions;
+        let names: HashSet<&str> =
+            expansions.chain(innermost).map(|expansion| expansions.name(expansion)).collect();
+        let called = |definition: &&Rc<Macro>| names.contains(self.scopes.name(definition.name));
+        let bodies: Vec<Span> =
+            self.macros.iter().filter(called).filter_map(|definition| definition.text()).collect();
+        let sources = &self.sources;
+        self.diagnostics.retain_after(0, |told| {
+            let Some(place) = told.primary().map(|label| label.span) else { return true };
+            let is_name =
+                told.code == Code::UnknownWord && Word::from_name(sources.text(place)).is_none();
+            let inside = bodies.iter().any(|body| {
+                body.file == place.file && body.range().contains(&(place.start as usize))
+            });
+            !(inside && told.code.is_about_place() && !is_name)
+        });
+    }
+
     /// Whether nothing that a loop's condition asks can change in a turn, and nothing in its body leaves it.
     pub(super) fn never_changes(&self, here: &Here, condition: ExpressionId, body: Items) -> bool {
         let ast = &here.unit.ast;

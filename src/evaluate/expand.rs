@@ -4,7 +4,6 @@
 //! parameter that a call leaves out, at its end or empty between commas, is not declared inside
 //! (`optional` is version 3.8's; 3.7 has no such word).
 
-use std::collections::HashSet;
 use std::rc::Rc;
 
 use crate::diagnostic::{Code, Diagnostic};
@@ -56,7 +55,7 @@ impl Macro {
     }
 
     /// Its body, where it is written.
-    fn text(&self) -> Option<Span> {
+    pub fn text(&self) -> Option<Span> {
         let MacroBody::Items(body) = self.body else { return None };
         match self.unit.ast.items(body) {
             [] => None,
@@ -354,44 +353,6 @@ impl Evaluator<'_> {
         let name = self.scopes.name(definition.name);
         let parameters = definition.parameters.iter().map(|&(symbol, _)| self.scopes.name(symbol));
         format!("{name}({})", parameters.collect::<Vec<_>>().join(", "))
-    }
-
-    /// Nothing further is evaluated.
-    fn too_many_calls(
-        &mut self,
-        here: &Here,
-        definition: &Macro,
-        span: Span,
-        message: String,
-        help: &str,
-    ) -> Reported {
-        self.forget_echoes_of_calls(here.expansion);
-        let name = self.scopes.name(definition.name);
-        let diagnostic = Diagnostic::new(Code::MacroLimit, message)
-            .at(span, format!("this call of `{name}` is one too many"))
-            .also(definition.defined, "defined here")
-            .help(help);
-        self.halt(here.expansion, diagnostic)
-    }
-
-    /// What the calls that never ended were found to lack, they might have given at their end.
-    fn forget_echoes_of_calls(&mut self, innermost: ExpansionId) {
-        let expansions = &self.scene.expansions;
-        let names: HashSet<&str> =
-            expansions.chain(innermost).map(|expansion| expansions.name(expansion)).collect();
-        let called = |definition: &&Rc<Macro>| names.contains(self.scopes.name(definition.name));
-        let bodies: Vec<Span> =
-            self.macros.iter().filter(called).filter_map(|definition| definition.text()).collect();
-        let sources = &self.sources;
-        self.diagnostics.retain_after(0, |told| {
-            let Some(place) = told.primary().map(|label| label.span) else { return true };
-            let is_name =
-                told.code == Code::UnknownWord && Word::from_name(sources.text(place)).is_none();
-            let inside = bodies.iter().any(|body| {
-                body.file == place.file && body.range().contains(&(place.start as usize))
-            });
-            !(inside && told.code.is_about_place() && !is_name)
-        });
     }
 
     /// A lone name or `A[i]` is passed by reference, all else by value.

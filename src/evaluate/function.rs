@@ -47,6 +47,25 @@ impl ParameterName {
 }
 
 impl Evaluator<'_> {
+    /// Passes over the parameters and the body of a `function`: its names are its own.
+    pub(super) fn skip_function(&mut self) {
+        while let Some(token) = self.peek() {
+            match token.kind {
+                TokenKind::Expression(_) | TokenKind::Comma | TokenKind::Literal(_) => {
+                    drop(self.next())
+                }
+                TokenKind::Block(_) => {
+                    if let Some(Token { kind: TokenKind::Block(contents), here, span }) =
+                        self.next()
+                    {
+                        self.inside_block(&here, contents, span, |_| {});
+                    }
+                    return;
+                }
+                TokenKind::Word(_) | TokenKind::Entry(_) | TokenKind::Semicolon => return,
+            }
+        }
+    }
     /// `function [(a, b)] { … }`, after its word.
     pub(super) fn function(&mut self, token: &Token) -> Outcome<Value> {
         let Some(parameters) = self.parameters(token)? else {
