@@ -464,6 +464,15 @@ fn every_diagnostic_code_has_a_page() {
     assert_none(Code::ALL.iter().filter(missing).map(|code| code.name().to_owned()).collect());
 }
 
+#[test]
+fn the_page_of_an_opinion_says_where_it_is_a_warning() {
+    let is_silent = |code: &&Code| {
+        !code.page().contains("In a `.pov` that POV-Ray renders all the same, it is")
+    };
+    let opinions = Code::ALL.iter().filter(|code| code.is_opinion());
+    assert_none(opinions.filter(is_silent).map(|code| code.name().to_owned()).collect());
+}
+
 /// Directives that make sense together only, and are shown together.
 const SHOWN_TOGETHER: &[&str] = &[
     "debug",
