@@ -7,7 +7,7 @@ mod dark;
 mod echo;
 mod unread;
 
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, Fix, Levels, allowances};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Fix, Levels, Severity, allowances};
 use crate::evaluate::{EvaluateOptions, evaluate};
 use crate::lower::{LowerOptions, lower};
 use crate::scene::{Dialect, Scene};
@@ -206,7 +206,9 @@ impl<'a> Road<'a> {
 /// A lint about a file that comes with POV-Ray is no use to who includes it.
 fn is_of_a_standard_include(told: &Diagnostic, sources: &Sources) -> bool {
     let file = told.primary().map_or(FileId(0), |label| label.span.file);
-    if !told.code.is_lint() || file == FileId(0) {
+    // An opinion on what POV-Ray renders all the same.
+    let is_opinion = told.code.severity() == Severity::Error && !told.is_error();
+    if !(told.code.is_lint() || is_opinion) || file == FileId(0) {
         return false;
     }
     let name = &sources.get(file).name;

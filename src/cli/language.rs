@@ -2,7 +2,8 @@
 //!
 //! **Rule:** `.pov` and `.inc` are POV-Ray's language, `.scene` is ours. A file of another name, or standard
 //! input, is POV-Ray's if its text has one of these outside of comments: `#version`, `assumed_gamma`, an
-//! `#include` of a file that comes with POV-Ray, `color red` (or `green`, `blue`), `right -`. Else it is ours.
+//! `#include` of a file that comes with POV-Ray, `color red` (or `green`, `blue`), `right -`, or a `location`
+//! with a negative z, where POV-Ray's camera stands; or if it names the Persistence of Vision. Else it is ours.
 
 use std::path::Path;
 
@@ -59,9 +60,18 @@ pub fn of(asked: Option<Language>, file: &Path, text: &[u8]) -> (Dialect, Option
     }
 }
 
+/// What scenes for POV-Ray call the program, in small letters.
+const PROGRAM: &str = "persistence of vision";
+
 /// The first thing in a text that only scenes for POV-Ray have.
 fn sign_of_povray(text: &[u8]) -> Option<String> {
+    let named = text.to_ascii_lowercase();
+    if named.windows(PROGRAM.len()).any(|part| part == PROGRAM.as_bytes()) {
+        return Some("Persistence of Vision".to_owned());
+    }
     let mut last = [Piece::Sign(b' '); 2];
+    // How many commas there were since a `location <`.
+    let mut location: Option<usize> = None;
     let mut rest = text;
     while let Some((piece, behind)) = next(rest) {
         rest = behind;
@@ -78,6 +88,15 @@ fn sign_of_povray(text: &[u8]) -> Option<String> {
             ) => Some(format!("color {}", String::from_utf8_lossy(part))),
             ([_, Piece::Word(b"right")], Piece::Sign(b'-')) => Some("right -".to_owned()),
             _ => None,
+        };
+        location = match (last, piece) {
+            ([_, Piece::Word(b"location")], Piece::Sign(b'<')) => Some(0),
+            (_, Piece::Sign(b'>' | b'<' | b'(')) => None,
+            (_, Piece::Sign(b',')) => location.map(|commas| commas + 1),
+            ([_, Piece::Sign(b',')], Piece::Sign(b'-')) if location == Some(2) => {
+                return Some("location <…, …, -".to_owned());
+            }
+            _ => location,
         };
         if sign.is_some() {
             return sign;

@@ -1,7 +1,7 @@
 //! Directives: run where they stand, between two items of whoever is reading.
 
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::source::Span;
+use crate::source::{FileId, Span};
 use crate::syntax::ast::{
     DirectiveId, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, Items, Target, Test,
 };
@@ -194,12 +194,17 @@ impl Evaluator<'_> {
         /// The one whose language this is.
         const BUILT: f64 = 3.7;
         if self.version <= NEWEST {
-            if self.version > BUILT {
+            // Includes save the scene's version, and set it again.
+            if self.version > BUILT && !std::mem::replace(&mut self.warned_of_version, true) {
                 let message = format!("version {} is newer than the language here", self.version);
                 let diagnostic = Diagnostic::new(Code::OldVersion, message)
                     .at(span, format!("it is that of {BUILT}, with few words of what comes"))
-                    .help(format!("write `#version {BUILT};`"))
-                    .fix(span, BUILT.to_string());
+                    .help(format!("write `#version {BUILT};`"));
+                // Nobody mends an installed file.
+                let diagnostic = match span.file == FileId(0) {
+                    true => diagnostic.fix(span, BUILT.to_string()),
+                    false => diagnostic,
+                };
                 self.report(here, diagnostic);
             }
             return Ok(());

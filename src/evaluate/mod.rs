@@ -46,6 +46,7 @@ mod told;
 mod turn;
 mod unbounded;
 mod undeclared;
+mod unit;
 mod unrun;
 pub mod value;
 mod vector;
@@ -56,14 +57,14 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
 
 use crate::color::Color;
-use crate::diagnostic::{Diagnostic, Diagnostics, suggest};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::noise::NoiseGenerator;
 use crate::scene::{
     ClassicFinish, Finish, FinishId, ObjectId, Pigment, PigmentId, PigmentKind, Scene, Texture,
     TextureId,
 };
 use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
-use crate::syntax::ast::{Ast, DirectiveId, DirectiveKind, Expression, ExpressionId, NameId};
+use crate::syntax::ast::{Ast, DirectiveId};
 
 use crate::vocabulary::PREDECLARED;
 
@@ -75,6 +76,7 @@ use expand::Macro;
 use remembered::Remembered;
 use scope::{Scopes, Symbol};
 use stream::{Frame, Hold, Silent, Token};
+use unit::{Here, Unit};
 use value::{Poison, Value};
 
 /// Runs `main`, which is gone then: of a big scene it is the larger half. Whatever is wrong goes to `diagnostics`.
@@ -95,60 +97,6 @@ pub fn evaluate(
 struct Reported;
 
 type Outcome<T> = Result<T, Reported>;
-
-/// A parsed file, its names interned.
-#[derive(Debug)]
-struct Unit {
-    ast: Ast,
-    symbols: Vec<Symbol>,
-}
-
-impl Unit {
-    fn expression(&self, id: ExpressionId) -> &Expression {
-        self.ast.expression(id)
-    }
-
-    /// Everything this file declares, and where.
-    fn declarations(&self) -> impl Iterator<Item = (NameId, Span)> {
-        self.ast.directives.iter().filter_map(|directive| match &directive.kind {
-            DirectiveKind::Declare { target, .. } => Some((target.name, target.span)),
-            DirectiveKind::Macro { name, name_span, .. } => Some((*name, *name_span)),
-            _ => None,
-        })
-    }
-
-    /// Where this file declares a name, run or not.
-    fn declaration_of(&self, symbol: Symbol) -> Option<Span> {
-        self.declarations()
-            .find(|(name, _)| self.symbols[name.0 as usize] == symbol)
-            .map(|(_, span)| span)
-    }
-
-    /// A name this file declares somewhere that is much like `name`.
-    fn similar_declaration(&self, name: &str) -> Option<(String, Span)> {
-        let names = self.declarations().map(|(name, _)| self.ast.name(name));
-        let close = suggest::closest(name, names)?;
-        let span = self.declarations().find(|(name, _)| self.ast.name(*name) == close)?.1;
-        Some((close.to_owned(), span))
-    }
-}
-
-/// Where something is written: its file, and the expansion that runs it.
-#[derive(Debug, Clone)]
-struct Here {
-    unit: Rc<Unit>,
-    expansion: ExpansionId,
-}
-
-impl Here {
-    fn site(&self, span: Span) -> Site {
-        Site { span, expansion: self.expansion }
-    }
-
-    fn symbol(&self, name: crate::syntax::ast::NameId) -> Symbol {
-        self.unit.symbols[name.0 as usize]
-    }
-}
 
 struct Evaluator<'a> {
     sources: &'a mut Sources,
@@ -217,6 +165,7 @@ struct Evaluator<'a> {
     /// Whether any file said `#version`; whether the scene did, and `assumed_gamma`.
     has_version: bool,
     says_version: bool,
+    warned_of_version: bool,
     says_gamma: bool,
     /// The first colour that was converted before `assumed_gamma` was said.
     srgb_before_gamma: Option<Site>,
@@ -364,6 +313,7 @@ impl<'a> Evaluator<'a> {
             version: 3.7,
             has_version: false,
             says_version: false,
+            warned_of_version: false,
             says_gamma: false,
             srgb_before_gamma: None,
             poison: None,

@@ -315,9 +315,11 @@ impl Evaluator<'_> {
             }
             _ => diagnostic.at(directive.head, label),
         };
-        let diagnostic = match self.options.interrupt.is_set() {
-            true => diagnostic,
-            false => diagnostic.help("`--limit loop-turns=N` raises the limit"),
+        // No limit helps a loop that is known not to end.
+        let limited = diagnostic.message.contains("turn") && !self.options.interrupt.is_set();
+        let diagnostic = match limited {
+            true => diagnostic.help("`--limit loop-turns=N` raises the limit"),
+            false => diagnostic,
         };
         Err(self.halt(here.expansion, diagnostic))
     }

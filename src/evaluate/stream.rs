@@ -215,31 +215,6 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `#break`: leaves the innermost loop, switch or macro. `false` when there is none in this block
-    /// or file.
-    pub(super) fn break_out(&mut self) -> bool {
-        let reach = self.frames.iter().rposition(|frame| !matches!(frame.kind, FrameKind::Branch));
-        let Some(at) = reach else { return false };
-        match self.frames[at].kind {
-            FrameKind::While { .. } | FrameKind::For { .. } | FrameKind::Switch => {
-                self.frames.truncate(at);
-                true
-            }
-            FrameKind::Macro => self.end_of_macro(at),
-            FrameKind::Barrier if self.is_body_of_macro(at) => self.end_of_macro(at),
-            FrameKind::Barrier | FrameKind::Block | FrameKind::Branch | FrameKind::Include => false,
-        }
-    }
-
-    /// Goes on where the macro ends whose body a frame walks.
-    fn end_of_macro(&mut self, at: usize) -> bool {
-        self.frames.truncate(at + 1);
-        if let Some(frame) = self.frames.last_mut() {
-            frame.at = frame.end;
-        }
-        true
-    }
-
     /// Whether the next statement stands in the main file itself, outside of macros.
     pub(super) fn in_main(&self) -> bool {
         self.scopes.depth() == 1

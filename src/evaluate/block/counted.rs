@@ -8,7 +8,7 @@ use crate::source::Span;
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::Word;
 
-use super::super::stream::TokenKind;
+use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Reported};
 use super::Given;
@@ -260,6 +260,24 @@ impl Evaluator<'_> {
         };
         let reported = self.report(&next.here, told);
         self.next();
+        self.skip_values();
+        Some(reported)
+    }
+
+    /// `prism { 0, 5, <…>, … }`: one height, and the count where the other should stand.
+    pub(super) fn lone_height(&mut self, prism: &Token, count: Span) -> Option<Reported> {
+        self.skip_commas();
+        let next = self.peek().cloned()?;
+        if !self.sources.text(next.span).starts_with('<') {
+            return None;
+        }
+        let message = "expected two heights and a count before the points of a `prism`";
+        let told = Diagnostic::new(Code::MissingPart, message)
+            .at(next.span, "expected a number for how many points follow")
+            .also(count, "read as the second height")
+            .also(prism.span, "for this")
+            .help("is a height missing? `prism { low, high, count, <points> }`");
+        let reported = self.report(&next.here, told);
         self.skip_values();
         Some(reported)
     }

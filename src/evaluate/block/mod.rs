@@ -41,6 +41,7 @@ mod pieces;
 mod pigment;
 mod place;
 mod polynomial;
+mod range;
 mod settings;
 mod sheet;
 mod skip;

@@ -13,7 +13,7 @@ use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
-use super::super::{Evaluator, Here, Outcome, Reported};
+use super::super::{Evaluator, Here, Outcome};
 use super::part::Given;
 
 /// Points, and where each is written.
@@ -413,23 +413,5 @@ impl Evaluator<'_> {
             [_, Argument::Expression(height)] => point.here.unit.expression(*height).span,
             _ => point.span,
         }
-    }
-
-    /// `prism { 0, 5, <…>, … }`: one height, and the count where the other should stand.
-    fn lone_height(&mut self, prism: &Token, count: Span) -> Option<Reported> {
-        self.skip_commas();
-        let next = self.peek().cloned()?;
-        if !self.sources.text(next.span).starts_with('<') {
-            return None;
-        }
-        let message = "expected two heights and a count before the points of a `prism`";
-        let told = Diagnostic::new(Code::MissingPart, message)
-            .at(next.span, "expected a number for how many points follow")
-            .also(count, "read as the second height")
-            .also(prism.span, "for this")
-            .help("is a height missing? `prism { low, high, count, <points> }`");
-        let reported = self.report(&next.here, told);
-        self.skip_values();
-        Some(reported)
     }
 }

@@ -88,6 +88,9 @@ impl Evaluator<'_> {
                             "a direction that is to stay as it is takes the factor 1: `<{x}, {y}, {z}>`"
                         ));
                     }
+                    if self.options.dialect == Dialect::Pov {
+                        diagnostic = diagnostic.help("as in POV-Ray, a factor of 0 is read as 1");
+                    }
                     let diagnostic = self.in_this_turn(diagnostic);
                     self.opinion(&given.here, diagnostic)?;
                     return Ok(Step::Scale(Vector::new(x, y, z)));
