@@ -132,7 +132,7 @@ codes! {
     PictureShape "picture-shape" lint "the picture and the camera have different shapes, so pixels are not square";
     DuplicateCamera "duplicate-camera" sure "the scene has two cameras; the last one is used";
     MisplacedBlock "misplaced-block" error "a block stands inside another that cannot hold it";
-    DegenerateCamera "degenerate-camera" error "the camera's directions leave no picture plane";
+    DegenerateCamera "degenerate-camera" opinion "the camera's directions leave no picture plane";
     NoLight "no-light" lint "nothing gives light, so the picture is dark";
     EmptyScene "empty-scene" lint "the scene shows nothing";
     UnusedDeclaration "unused-declaration" lint "a declared name is never used";

@@ -213,8 +213,10 @@ impl Evaluator<'_> {
                 node = Err(Reported);
                 continue;
             };
-            let built = operation_of(&mut formula.builder, operator, left, right);
-            node = self.built(here, span, built);
+            node = self.divides(here, formula, operator, [left, right], span).and_then(|()| {
+                let built = operation_of(&mut formula.builder, operator, left, right);
+                self.built(here, span, built)
+            });
         }
         self.either(here, formula, either, node)
     }

@@ -96,6 +96,11 @@ impl Builder {
         (index < self.parameters as usize).then_some(Node(index as u32))
     }
 
+    /// Whether `b` is the number 0, and `a` no number that is known.
+    pub fn divides_by_zero(&self, a: Node, b: Node) -> bool {
+        self.value(a).is_none() && self.value(b) == Some(0.0)
+    }
+
     pub fn constant(&mut self, value: f64) -> Result<Node, TooLong> {
         self.add(Kind::Constant(value.to_bits()))
     }

@@ -36,7 +36,12 @@ struct Words {
     angle: Option<(f64, Site)>,
     shift: (f64, f64),
     transforms: Vec<(TransformId, Site)>,
+    /// One of the three vectors was zero.
+    is_flat: bool,
 }
+
+/// The length of what stands for a vector that is zero, in its default length.
+const NEARLY_ZERO: f64 = 1e-9;
 
 /// Two directions closer than this, relative, are parallel: 2⁻⁸⁰, far below `f64`.
 const PARALLEL: f64 = 1.0 / (1u128 << 80) as f64;
@@ -66,7 +71,7 @@ impl Lowering<'_, '_> {
         for &(id, site) in &words.transforms {
             map = self.transforms.get(id).map_err(|fault| (fault, site))?.after(&map);
         }
-        words.check(camera.site)?;
+        words.check(camera.site, dialect)?;
         if !camera.is_in_order {
             words.widen()?;
         }
@@ -83,7 +88,13 @@ impl Lowering<'_, '_> {
         let uncancelled = forward.largest() * right.largest() * up.largest();
         if volume <= PARALLEL * uncancelled {
             let message = "`direction`, `right` and `up` of this camera lie in one plane";
-            return Err((degenerate(message, "no picture plane is left"), camera.site));
+            let fault =
+                Fault::new(Code::DegenerateCamera, message).label("no picture plane is left");
+            match dialect {
+                Dialect::Scene => return Err((fault, camera.site)),
+                // POV-Ray 3.7 traces the rays that are left (measured).
+                Dialect::Pov => self.reporter.fault(fault, camera.site),
+            }
         }
         let shift = right * Double::from(words.shift.0) + up * Double::from(words.shift.1);
         let (kind, location, forward) = match camera.kind {
@@ -141,6 +152,7 @@ impl Words {
             angle: None,
             shift: (0.0, 0.0),
             transforms: Vec::new(),
+            is_flat: false,
         }
     }
 
@@ -159,7 +171,10 @@ impl Words {
         }
     }
 
-    fn check(&self, camera: Site) -> Result<(), (Fault, Site)> {
+    fn check(&mut self, camera: Site, dialect: Dialect) -> Result<(), (Fault, Site)> {
+        if dialect == Dialect::Pov {
+            self.fill();
+        }
         for (name, word) in [("direction", self.direction), ("right", self.right), ("up", self.up)]
         {
             if word.vector.is_zero() {
@@ -175,6 +190,17 @@ impl Words {
             return Err((degenerate(&message, "expected more than 0 and less than 180"), site));
         }
         Ok(())
+    }
+
+    /// Where a vector is zero, nearly so: its picture is that of POV-Ray 3.7 (measured).
+    fn fill(&mut self) {
+        let (direction, right) = defaults(Dialect::Pov);
+        let words =
+            [(&mut self.direction, direction), (&mut self.right, right), (&mut self.up, Vector::Y)];
+        for (word, default) in words.into_iter().filter(|(word, _)| word.vector.is_zero()) {
+            word.vector = exact(default * NEARLY_ZERO);
+            self.is_flat = true;
+        }
     }
 
     /// `angle`: |direction| = ½ |right| / tan(angle / 2).
@@ -229,7 +255,7 @@ impl Words {
         let [direction, right, up] = [self.direction, self.right, self.up].map(|word| word.vector);
         let handed = up.cross(direction).dot(right).round();
         // Before it is turned a camera may be flat, as with `up z`: POV-Ray mirrors it (measured).
-        let mirrored = handed < 0.0 || handed == 0.0 && dialect == Dialect::Pov;
+        let mirrored = handed < 0.0 || (handed == 0.0 || self.is_flat) && dialect == Dialect::Pov;
         let mut across = self.sky.cross(forward);
         if across.largest() <= PARALLEL * self.sky.largest() {
             across = right - forward * right.dot(forward);
@@ -237,6 +263,13 @@ impl Words {
                 across = -across;
             }
             if across.largest() <= PARALLEL * right.largest() {
+                if dialect == Dialect::Pov {
+                    // Nothing is left of `up`, and `right` stays (measured).
+                    self.direction.vector = forward * direction.length();
+                    self.up.vector =
+                        forward.cross(exact(aside(forward))) * Double::from(NEARLY_ZERO);
+                    return Ok(());
+                }
                 let fault = degenerate(
                     "this camera looks along both its `sky` and its `right`",
                     "nothing says which way is up in the picture",
@@ -265,5 +298,14 @@ fn defaults(dialect: Dialect) -> (Vector, Vector) {
 }
 
 fn degenerate(message: &str, label: &str) -> Fault {
-    Fault::new(Code::DegenerateCamera, message).label(label)
+    Fault::new(Code::DegenerateCamera, message).label(label).refused()
+}
+
+/// The axis that is least along a direction.
+fn aside(direction: DoubleVector) -> Vector {
+    let sizes = direction.round().abs();
+    [Vector::X, Vector::Y, Vector::Z]
+        .into_iter()
+        .min_by(|a, b| sizes.dot(*a).total_cmp(&sizes.dot(*b)))
+        .unwrap_or(Vector::X)
 }

@@ -245,7 +245,11 @@ impl Fault {
     fn is_rendered(&self) -> bool {
         let of_numbers = matches!(
             self.code,
-            Code::NotANumber | Code::OutOfRange | Code::ZeroSize | Code::ZeroVector
+            Code::NotANumber
+                | Code::OutOfRange
+                | Code::ZeroSize
+                | Code::ZeroVector
+                | Code::DegenerateCamera
         );
         of_numbers && !self.is_refused
     }

@@ -81,20 +81,20 @@ impl Evaluator<'_> {
             Word::Location => CameraItemKind::Location(self.vector_after(token, "a point")?.value),
             Word::LookAt => CameraItemKind::LookAt(self.vector_after(token, "a point")?.value),
             Word::Sky => {
-                CameraItemKind::Sky(self.direction_after(token, "the sky's direction")?.value)
+                CameraItemKind::Sky(self.any_direction_after(token, "the sky's direction")?.value)
             }
             Word::Up => {
-                let given = self.direction_after(token, "the picture's height")?;
+                let given = self.any_direction_after(token, "the picture's height")?;
                 self.lint_lone_side(&given, word, 'y');
                 CameraItemKind::Up(given.value)
             }
             Word::Right => {
-                let given = self.direction_after(token, "the picture's width")?;
+                let given = self.any_direction_after(token, "the picture's width")?;
                 self.lint_lone_side(&given, word, 'x');
                 CameraItemKind::Right(given.value)
             }
             Word::Direction => {
-                CameraItemKind::Direction(self.direction_after(token, "the lens's axis")?.value)
+                CameraItemKind::Direction(self.any_direction_after(token, "the lens's axis")?.value)
             }
             Word::Angle => self.angle(token, camera.kind)?,
             Word::Shift => self.shift(token)?,

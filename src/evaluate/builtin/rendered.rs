@@ -18,7 +18,9 @@ pub fn rendered(word: Word, values: &[Value]) -> Option<Value> {
         Word::Asin => asin(number(0)?.clamp(-1.0, 1.0)),
         Word::Acosh => acosh(number(0)?),
         Word::Atanh => atanh(number(0)?),
-        Word::Sqrt | Word::Ln | Word::Log => number(0).filter(|number| number.is_nan())?,
+        Word::Sqrt | Word::Ln | Word::Log => {
+            number(0).filter(|number| number.is_nan() || *number == f64::INFINITY)?
+        }
         Word::Pow => match (number(0)?, number(1)?) {
             (0.0, 0.0) => return None,
             (base, exponent) => pow(base, exponent),

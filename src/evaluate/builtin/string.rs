@@ -129,6 +129,11 @@ impl Format {
 
     fn append(&self, number: f64, text: &mut String) {
         let Self { width, decimals, .. } = *self;
+        // As POV-Ray writes it, but for a sign.
+        if number.is_nan() {
+            let _ = write!(text, "{:>width$}", "nan");
+            return;
+        }
         // Whole numbers are written much faster as such.
         let whole = number as i64;
         let is_whole = whole as f64 == number && whole != 0 && whole.unsigned_abs() < 1 << 53;

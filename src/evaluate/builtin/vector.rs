@@ -43,6 +43,9 @@ fn length(v: Vector) -> f64 {
     if (1e-280..1e300).contains(&squared) {
         return squared.sqrt();
     }
+    if !v.is_finite() {
+        return squared.sqrt();
+    }
     UnitVector::from_direction(v).map_or(0.0, |direction| v.dot(direction.get()))
 }
 

@@ -1,16 +1,38 @@
 //! What has no meaning in a function: a vector's letter that is no parameter, a stream of random numbers.
 
+use super::Formula;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::evaluate::{Evaluator, Here, Reported};
+use crate::evaluate::{Evaluator, Here, Outcome, Reported};
+use crate::function::Node;
 use crate::source::Span;
-use crate::syntax::ast::{Argument, Callee, ExpressionId, ExpressionKind};
-use crate::vocabulary::Word;
+use crate::syntax::ast::{Argument, BinaryOperator, Callee, ExpressionId, ExpressionKind};
+use crate::vocabulary::{Dialect, Word};
 
 impl Evaluator<'_> {
-    pub(super) fn too_long(&mut self, here: &Here, span: Span) -> Reported {
+    pub(in crate::evaluate) fn too_long(&mut self, here: &Here, span: Span) -> Reported {
         let diagnostic = Diagnostic::new(Code::OutOfRange, "this function is too long")
             .at(span, "it comes to more than a million operations, or 56 loops inside each other");
         self.report(here, diagnostic)
+    }
+
+    /// A division by the number 0, which POV-Ray 3.7 refuses, too.
+    pub(super) fn divides(
+        &mut self,
+        here: &Here,
+        formula: &Formula,
+        operator: BinaryOperator,
+        [left, right]: [Node; 2],
+        span: Span,
+    ) -> Outcome<()> {
+        if operator != BinaryOperator::Divide
+            || self.options.dialect == Dialect::Scene
+            || !formula.builder.divides_by_zero(left, right)
+        {
+            return Ok(());
+        }
+        let message = "this function divides by zero, whatever it is given";
+        let told = Diagnostic::new(Code::DivisionByZero, message);
+        Err(self.report(here, told.at(span, "expected another divisor")))
     }
 
     pub(super) fn no_parameter(&mut self, here: &Here, span: Span) -> Reported {

@@ -6,11 +6,12 @@
 //! **Source:** the numbers are those of POV-Ray 3.7 (manual, section 3.4.9.1.7 "Functions.inc").
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::function::NoiseFunction;
+use crate::function::{Builder, NoiseFunction};
 use crate::source::{ExpansionId, Source, Span};
 use crate::standard::place_of;
 use crate::syntax::ast::{Argument, Arguments};
 use crate::syntax::{self, ParseOptions};
+use crate::vocabulary::Dialect;
 
 use super::super::value::Value;
 use super::super::{Evaluator, Here, Outcome, Reported};
@@ -127,6 +128,11 @@ impl Evaluator<'_> {
         let number = self.number(here, id)?;
         let last = NAMES.len() - 1;
         let known = (0.0..NAMES.len() as f64).contains(&number).then_some(number as usize);
+        // The one that is not there is 0 everywhere in POV-Ray 3.7 (measured).
+        let is_pov = self.options.dialect == Dialect::Pov;
+        if is_pov && known.is_some_and(|known| NAMES[known].is_empty()) {
+            return self.zero_everywhere(here, span);
+        }
         let Some(known) = known.filter(|known| !NAMES[*known].is_empty()) else {
             let message = format!("there is no built-in function {number}");
             let diagnostic = Diagnostic::new(Code::OutOfRange, message)
@@ -144,6 +150,16 @@ impl Evaluator<'_> {
         let found = self.internals.get(known).copied().flatten();
         // They are all there (a test asks each).
         found.ok_or(Reported)
+    }
+
+    fn zero_everywhere(&mut self, here: &Here, span: Span) -> Outcome<FunctionId> {
+        let built = Builder::new(3).and_then(|mut builder| {
+            let zero = builder.constant(0.0)?;
+            Ok(builder.finish(zero))
+        });
+        let function = built.map_err(|_| self.too_long(here, span))?;
+        self.functions.push(AuthorFunction::Formula(function));
+        Ok(FunctionId(self.functions.len() as u32 - 1))
     }
 
     /// Every formula by its number; their names are forgotten again.
