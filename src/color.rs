@@ -146,6 +146,13 @@ impl Color {
         Self { rgb, filter: 0.0, transmit: 0.0 }
     }
 
+    /// With 0 for what is no number, as in POV-Ray 3.7 (measured).
+    pub fn of_numbers(self) -> Self {
+        let number = |n: f64| if n.is_nan() { 0.0 } else { n };
+        let (filter, transmit) = (number(self.filter), number(self.transmit));
+        Self { rgb: self.rgb.map(number), filter, transmit }
+    }
+
     /// Each number rounded to single precision; what is too large for that is its largest.
     pub fn single(self) -> Self {
         let single = |number: f64| {

@@ -113,9 +113,11 @@ impl Evaluator<'_> {
                 };
                 let now = set.map_or(*value, |set| set + *step);
                 *value = now;
-                let reached = comparison.same(now, *to)
+                let apart = (now - *to).abs();
+                // What is no number is never reached.
+                let reached = !apart.is_nan() && comparison.same(now, *to)
                     // A step's worth of rounding: 0, 0.1 … 1 has eleven values.
-                    || (now - *to).abs() <= 1e-9 * step.abs();
+                    || (step.is_finite() && apart <= 1e-9 * step.abs());
                 let goes_on = reached || (*step > 0.0 && now < *to) || (*step < 0.0 && now > *to);
                 let left = ((*to - now) / *step).max(0.0);
                 // Without a way out it need not turn to be known.

@@ -55,7 +55,7 @@ fn lower_classic(finish: &ClassicFinish, ambient_light: Rgb) -> Finish {
     let reflection = reflection.filter(|r| r.minimum.gives_light() || r.maximum.gives_light());
     Finish {
         glow: finish.ambient * ambient_light + finish.emission,
-        diffuse: finish.diffuse.max(0.0),
+        diffuse: if finish.diffuse < 0.0 { 0.0 } else { finish.diffuse },
         // Brilliance bends diffuse light only.
         brilliance: if finish.diffuse <= 0.0 { 1.0 } else { finish.brilliance },
         lobes,

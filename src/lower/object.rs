@@ -151,7 +151,7 @@ impl<'s> Lowering<'s, '_> {
         for &id in [target].iter().chain(uses.iter().rev()) {
             own = own.or(scene.objects[id.index()].item);
             if self.modify(&mut modified, id, default_texture).is_none() {
-                return self.leave_out(inherited, object.site);
+                return self.leave_out(object.site);
             }
         }
         let above = &inherited.world_from_here;
@@ -238,14 +238,15 @@ impl<'s> Lowering<'s, '_> {
             self.drop_part(site, self.word(id), NO_SIZE);
         }
         if self.reporter.made(spent, site).is_none() {
-            self.leave_out(here, site);
+            self.leave_out(site);
         }
     }
 
     /// What cannot be built is nothing in a `.pov`, as in POV-Ray 3.7 (measured); elsewhere it is a mistake.
-    fn leave_out(&mut self, here: &Inherited, site: Site) {
+    fn leave_out(&mut self, site: Site) {
         if self.scene.dialect == Dialect::Pov {
-            self.nothing(here.flags.inverse, site);
+            // No place is in it, nor in what it is taken from.
+            self.nothing(false, site);
         }
     }
 

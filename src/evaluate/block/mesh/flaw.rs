@@ -8,8 +8,8 @@ use crate::math::double::DoubleVector;
 use crate::source::Site;
 use crate::vocabulary::{Dialect, Word};
 
-use super::super::super::Evaluator;
 use super::super::super::stream::Token;
+use super::super::super::{Evaluator, Outcome};
 
 /// How many have a flaw, and where the first of them stands, if that is known.
 #[derive(Debug, Clone, Copy, Default)]
@@ -34,6 +34,39 @@ pub(super) struct Flaws {
 }
 
 impl Evaluator<'_> {
+    /// A list of a mesh2 that must not be empty: POV-Ray, too, refuses a mesh without a triangle.
+    pub(super) fn expect_entries(&mut self, list: &Token, count: usize, of: &str) -> Outcome<()> {
+        if count > 0 {
+            return Ok(());
+        }
+        let diagnostic = Diagnostic::new(Code::MissingPart, format!("this mesh2 has no {of}"))
+            .at(list.span, "this list is empty")
+            .help("leave the mesh out where nothing of it is left, by `#if`");
+        Err(self.report(&list.here, diagnostic))
+    }
+
+    pub(super) fn one_for_each(
+        &mut self,
+        list: &Token,
+        (found, of_what): (usize, &str),
+        (what, of): (&str, usize),
+    ) -> Outcome<()> {
+        if found == of {
+            return Ok(());
+        }
+        let many = if what == "vertex" { "vertices" } else { "faces" };
+        let message = format!("{found} {of_what} for {of} {many}");
+        let diagnostic = Diagnostic::new(Code::WrongArity, message)
+            .at(list.span, format!("expected one for each {what}: {of}"));
+        let diagnostic = match (of_what, what) {
+            ("normals", "vertex") => {
+                diagnostic.help("or `normal_indices`, which say which of them each corner has")
+            }
+            _ => diagnostic,
+        };
+        Err(self.report(&list.here, diagnostic))
+    }
+
     /// Tells what is wrong with some of a mesh's triangles, of which `left` are there to be seen.
     pub(super) fn tell_of_flaws(&mut self, token: &Token, word: Word, left: usize, flaws: Flaws) {
         let Flaws { degenerate, aimless } = flaws;
@@ -115,8 +148,9 @@ fn without_triangles(token: &Token, word: Word, degenerate: u32) -> Diagnostic {
     }
 }
 
-/// Whether three corners lie in a line.
+/// Whether three corners lie in a line, or one of them nowhere.
 pub(super) fn is_degenerate(corners: [Vector; 3]) -> bool {
+    let is_nowhere = corners.iter().any(|corner| !corner.is_finite());
     let [a, b, c] = corners.map(DoubleVector::from);
-    (b - a).cross(c - a).is_zero()
+    is_nowhere || (b - a).cross(c - a).is_zero()
 }

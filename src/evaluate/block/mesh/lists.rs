@@ -162,6 +162,9 @@ impl Evaluator<'_> {
             (!flat).then_some(Face { vertices: all, normals, paint, uvs })
         });
         let faces: Vec<Face> = faces.collect();
+        // Those of faces that are left out.
+        let somewhere = |vertex: Vector| if vertex.is_finite() { vertex } else { Vector::ZERO };
+        let vertices = vertices.into_iter().map(somewhere).collect();
         let first = first.and_then(|first| self.entry_in(&of_faces, count, first));
         let first = first.map(|first| of_faces.here.site(first));
         let flaws = Flaws {
@@ -403,38 +406,5 @@ impl Evaluator<'_> {
         let blank = number.len() - number.trim_start().len();
         let start = entry.range().start + 1 + before + blank;
         Some(Span::new(entry.file, start, start + number.trim().len()))
-    }
-
-    /// A list of a mesh2 that must not be empty: POV-Ray, too, refuses a mesh without a triangle.
-    fn expect_entries(&mut self, list: &Token, count: usize, of: &str) -> Outcome<()> {
-        if count > 0 {
-            return Ok(());
-        }
-        let diagnostic = Diagnostic::new(Code::MissingPart, format!("this mesh2 has no {of}"))
-            .at(list.span, "this list is empty")
-            .help("leave the mesh out where nothing of it is left, by `#if`");
-        Err(self.report(&list.here, diagnostic))
-    }
-
-    fn one_for_each(
-        &mut self,
-        list: &Token,
-        (found, of_what): (usize, &str),
-        (what, of): (&str, usize),
-    ) -> Outcome<()> {
-        if found == of {
-            return Ok(());
-        }
-        let many = if what == "vertex" { "vertices" } else { "faces" };
-        let message = format!("{found} {of_what} for {of} {many}");
-        let diagnostic = Diagnostic::new(Code::WrongArity, message)
-            .at(list.span, format!("expected one for each {what}: {of}"));
-        let diagnostic = match (of_what, what) {
-            ("normals", "vertex") => {
-                diagnostic.help("or `normal_indices`, which say which of them each corner has")
-            }
-            _ => diagnostic,
-        };
-        Err(self.report(&list.here, diagnostic))
     }
 }

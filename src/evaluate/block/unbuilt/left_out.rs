@@ -18,11 +18,18 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// `crand`, `caustics` and `refraction` in a finish. The last has no effect in POV-Ray 3.7 (measured).
+    /// `crand`, `caustics` and `refraction` in a finish. The last is a factor of the light
+    /// that goes through, beside that of the pigment (measured).
     pub(in super::super) fn old_finish_word(&mut self, token: &Token, word: Word) -> Outcome<()> {
         match word {
             Word::Caustics => self.not_simulated_number(token),
-            Word::Refraction => self.number_after(token, "a number").map(drop),
+            Word::Refraction => {
+                let given = self.number_after(token, "a number")?;
+                if given.value != 1.0 {
+                    self.not_simulated(token);
+                }
+                Ok(())
+            }
             _ => {
                 let given = self.number_after(token, "a number")?;
                 if given.value != 0.0 {
