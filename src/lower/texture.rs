@@ -346,20 +346,20 @@ fn lower_pattern(pattern: Pattern) -> Pattern {
 /// A pigment all of one colour has no pattern.
 pub(super) fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fault> {
     let pigment = match kind {
-        PigmentKind::Color(color) => Pigment::Color(*color),
+        PigmentKind::Color(color) => Pigment::Color(color.of_numbers()),
         PigmentKind::Faces(colors) => match &colors[..] {
             [] => Pigment::Color(Color::BLACK),
             [color, others @ ..] if others.iter().all(|other| other == color) => {
-                Pigment::Color(*color)
+                Pigment::Color(color.of_numbers())
             }
-            _ => Pigment::Faces(colors.clone()),
+            _ => Pigment::Faces(colors.iter().map(|color| color.of_numbers()).collect()),
         },
         PigmentKind::Patterned { pattern, map: colors } => match colors.lone_color() {
-            Some(color) => Pigment::Color(color),
+            Some(color) => Pigment::Color(color.of_numbers()),
             None => Pigment::Patterned {
                 pattern: lower_pattern(*pattern),
                 pattern_from_texture: map,
-                map: colors.0.clone(),
+                map: colors.0.iter().map(|&(value, color)| (value, color.of_numbers())).collect(),
             },
         },
     };

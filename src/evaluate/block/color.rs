@@ -133,7 +133,7 @@ impl Evaluator<'_> {
             return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
         };
         self.lint_color(given, color.rgb);
-        Ok(color.of_numbers())
+        Ok(color)
     }
 
     /// `rgb`, `srgbft` and the like, and their numbers.
@@ -179,7 +179,7 @@ impl Evaluator<'_> {
         let [red, green, blue, filter, transmit] = all;
         let rgb = Rgb::new(red, green, blue);
         self.lint_color(&given, rgb);
-        Ok(Color { rgb: meant(rgb), filter, transmit }.of_numbers())
+        Ok(Color { rgb: meant(rgb), filter, transmit })
     }
 
     /// The last number of a vector that is written as one.
