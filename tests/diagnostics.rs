@@ -411,7 +411,8 @@ fn what_would_never_end_is_stopped_soon_with_one_message_and_code_four() {
         fs::write(folder.path().join("endless.scene"), text).expect("written");
         let start = std::time::Instant::now();
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_lucarne"))
-            .args(["check", "--message-format", "short", "endless.scene"])
+            .args(["check", "--message-format", "short", "--limit", "loop-turns=1000000"])
+            .arg("endless.scene")
             .current_dir(folder.path())
             .output()
             .expect("runs");
