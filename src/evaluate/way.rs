@@ -1,11 +1,11 @@
 //! Bodies that are read when they are run: of macros whose brackets pair only on the way that is taken, each way
 //! as a body of its own; and in a `.pov` those that cannot be read.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-use crate::source::{ExpansionId, Source, Span};
+use crate::source::{ExpansionId, FileId, Source, Span};
 use crate::syntax::ast::{Ast, DirectiveKind, ExpressionId, ItemKind, Items};
 use crate::syntax::{self, ParseOptions, Ways, alone};
 
@@ -18,6 +18,10 @@ use super::{Evaluator, Here, Outcome, Unit};
 pub(super) struct Read {
     /// `None` of one that has no way.
     ways: HashMap<Span, Option<Rc<Forked>>>,
+    /// The mistakes of files that are read as a whole, with what is not run.
+    wholes: HashMap<FileId, Vec<Diagnostic>>,
+    /// Bodies that have mistakes.
+    broken: HashSet<Span>,
     /// By what the conditions came to.
     bodies: HashMap<(Span, Vec<bool>), (Rc<Unit>, Items)>,
 }
@@ -98,20 +102,48 @@ impl Evaluator<'_> {
         Some(Forked { ways, conditions })
     }
 
-    /// Runs a body that could not be read, whose mistakes are told now.
+    /// Runs a body that could not be read. Its mistakes are reported now, as those of the whole file, in which
+    /// more is understood of them; what it declares is there and not known.
     pub(super) fn run_unread(&mut self, here: &Here, span: Span) {
         let key = (span, Vec::new());
-        let (unit, body) = match self.read.bodies.get(&key) {
-            Some(known) => known.clone(),
-            None => {
-                let text = alone(&self.sources.get(span.file).text, span);
-                let unit = self.read_part(text, span, Some(here.expansion));
-                let body = (unit.clone(), unit.ast.root);
-                self.read.bodies.insert(key, body.clone());
-                body
-            }
+        if let Some((unit, body)) = self.read.bodies.get(&key).cloned() {
+            let here = Here { unit, expansion: here.expansion };
+            return match self.read.broken.contains(&span) {
+                true => self.declare_broken(&here, body),
+                false => self.push_branch(&here, body),
+            };
+        }
+        let text = alone(&self.sources.get(span.file).text, span);
+        let (ast, of_part) = self.mistakes_of(text, span, true);
+        let unit = self.unit(ast);
+        let body = (unit.clone(), unit.ast.root);
+        self.read.bodies.insert(key, body.clone());
+        let here = Here { unit, expansion: here.expansion };
+        if !of_part.iter().any(Diagnostic::is_error) {
+            return self.push_branch(&here, body.1);
+        }
+        let is_inside = |one: &&Diagnostic| {
+            one.primary()
+                .is_some_and(|label| span.start <= label.span.start && label.span.end <= span.end)
         };
-        self.push_branch(&Here { unit, expansion: here.expansion }, body);
+        let of_whole: Vec<_> =
+            self.whole_mistakes(span).iter().filter(is_inside).cloned().collect();
+        let told = if of_whole.iter().any(Diagnostic::is_error) { of_whole } else { of_part };
+        for one in told {
+            self.report_in(ExpansionId::MAIN, one);
+        }
+        self.read.broken.insert(span);
+        self.declare_broken(&here, body.1);
+    }
+
+    /// The mistakes of a file, were all of it run.
+    fn whole_mistakes(&mut self, span: Span) -> &[Diagnostic] {
+        if !self.read.wholes.contains_key(&span.file) {
+            let text = self.sources.get(span.file).text.to_string();
+            let mistakes = self.mistakes_of(text, span, false).1;
+            self.read.wholes.insert(span.file, mistakes);
+        }
+        &self.read.wholes[&span.file]
     }
 
     /// Warns of the bodies of a text that could not be read and were not run.
@@ -123,7 +155,8 @@ impl Evaluator<'_> {
                 continue;
             }
             let text = alone(&self.sources.get(span.file).text, span);
-            let Some(first) = self.mistakes_of(text, span).1.into_iter().find(Diagnostic::is_error)
+            let Some(first) =
+                self.mistakes_of(text, span, true).1.into_iter().find(Diagnostic::is_error)
             else {
                 continue;
             };
@@ -137,7 +170,7 @@ impl Evaluator<'_> {
 
     /// Reads what is left of a file, and tells its mistakes where it is called.
     fn read_part(&mut self, text: String, span: Span, told_in: Option<ExpansionId>) -> Rc<Unit> {
-        let (ast, told) = self.mistakes_of(text, span);
+        let (ast, told) = self.mistakes_of(text, span, true);
         if let Some(expansion) = told_in {
             for one in told {
                 self.report_in(expansion, one);
@@ -146,11 +179,13 @@ impl Evaluator<'_> {
         self.unit(ast)
     }
 
-    fn mistakes_of(&self, text: String, span: Span) -> (Ast, Vec<Diagnostic>) {
+    /// `defers`: bodies that cannot be read stay text in it.
+    fn mistakes_of(&self, text: String, span: Span, defers: bool) -> (Ast, Vec<Diagnostic>) {
         let name = self.sources.get(span.file).name.clone();
         let options = ParseOptions {
             dialect: self.options.dialect,
             nesting_limit: self.options.limits.nesting as usize,
+            defers,
             ..ParseOptions::default()
         };
         let mut told = Diagnostics::new(true);

@@ -1,7 +1,7 @@
 //! What POV-Ray 3.7 still reads of old versions in a `.pov`: `composite` as `union`, `alpha` as `filter`, and that
 //! version 1.0 has sums in parentheses only.
 
-use super::token::{Head, Token, TokenKind};
+use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{Dialect, Word};
@@ -31,9 +31,13 @@ pub(super) fn replace(
     if dialect == Dialect::Scene {
         return;
     }
-    for token in tokens {
-        let TokenKind::Word(word) = token.kind else { continue };
+    for at in 0..tokens.len() {
+        let TokenKind::Word(word) = tokens[at].kind else { continue };
         let Some(&(old, today)) = OLD.iter().find(|(old, _)| *old == word) else { continue };
+        if begins_finish(&tokens[..at]) {
+            continue;
+        }
+        let token = &mut tokens[at];
         token.kind = TokenKind::Word(today);
         let span = Span::new(file, token.start as usize, token.end as usize);
         let (old, today) = (old.name(), today.name());
@@ -43,4 +47,10 @@ pub(super) fn replace(
             .fix(span, today);
         diagnostics.push(told.as_warning());
     }
+}
+
+/// Whether `finish {` stands before it: `finish { alpha 0.5 }` is refused, and `finish { ambient 1 alpha 0.5 }` is not.
+fn begins_finish(before: &[Token]) -> bool {
+    let kinds = before.iter().rev().take(2).map(|token| token.kind);
+    kinds.eq([TokenKind::Mark(Mark::Open(Bracket::Brace)), TokenKind::Word(Word::Finish)])
 }
