@@ -203,6 +203,26 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     ("trace/sharpness.rs", "const ROUNDED", "roundings of a direction, whose length is 1"),
     ("trace/sharpness.rs", "* centres", "roundings of a map's centres, relative"),
     ("world.rs", "adc_bailout", "a weight of light"),
+    ("color.rs", "const LARGE", "what POV-Ray shows for infinite light, a colour"),
+    ("evaluate/block/blob.rs", "const SMALLEST", "a threshold of a field, as good as 0"),
+    ("evaluate/block/finish/reflection.rs", "const NEARLY_NOTHING", "an exponent, as good as 0"),
+    (
+        "evaluate/block/matrix.rs",
+        "const NO_LENGTH",
+        "what POV-Ray takes for 0 in a matrix (measured)",
+    ),
+    ("evaluate/block/outline.rs", "let (radius, hole)", "an empty minimum"),
+    (
+        "evaluate/block/solid.rs",
+        "const SHARPEST",
+        "what POV-Ray takes for an exponent of 0 (measured)",
+    ),
+    ("evaluate/builtin/rendered.rs", "let is_half", "numbers of characters"),
+    (
+        "lower/camera.rs",
+        "const NEARLY_ZERO",
+        "of a default vector's length, where a camera has none",
+    ),
 ];
 
 /// A file's code without its tests, its comments and what stands in quotes: strings, raw ones too,

@@ -4,7 +4,7 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::token::{Bracket, Head, Mark, Token, TokenKind};
-use crate::vocabulary::{Role, Word};
+use crate::vocabulary::{Dialect, Role, Word};
 
 /// What other languages write before a name that gets its value.
 const TYPES: &[&str] = &[
@@ -54,6 +54,15 @@ impl Reader<'_> {
         true
     }
 
+    /// What is reported of a directive's word without its `#`: a warning where POV-Ray 3.7 takes it for the directive
+    /// all the same (measured).
+    pub(super) fn without_hash(&self, word: Word, told: Diagnostic) -> Diagnostic {
+        let is_read = self.dialect == Dialect::Pov
+            && self.inside.is_empty()
+            && matches!(word, Word::Declare | Word::Include | Word::Version);
+        if is_read { told.as_warning() } else { told }
+    }
+
     /// `version 3.7;` where an item stands.
     pub(super) fn version_without_hash(&mut self, meant: &mut Vec<Token>) -> bool {
         let begins = meant.last().is_none_or(|last| {
@@ -70,10 +79,8 @@ impl Reader<'_> {
             .at(span, "a directive without its `#`")
             .help("write `#version`")
             .fix(Span { end: span.start, ..span }, "#");
-        self.diagnostics.push(match self.needs_no_hash(Word::Version) {
-            true => told.as_warning(),
-            false => told,
-        });
+        let told = self.without_hash(Word::Version, told);
+        self.diagnostics.push(told);
         meant.push(Token { kind: TokenKind::Directive(Head::Version), ..self.tokens[self.at] });
         self.at += 1;
         true

@@ -372,10 +372,7 @@ impl Reader<'_> {
                 .at(span, "a directive without its `#`")
                 .help(format!("write `#{name}`"))
                 .fix(Span { end: span.start, ..span }, "#");
-        let diagnostic = match self.needs_no_hash(word) {
-            true => diagnostic.as_warning(),
-            false => diagnostic,
-        };
+        let diagnostic = self.without_hash(word, diagnostic);
         if !after_paren
             && matches!(
                 word,
@@ -400,13 +397,6 @@ impl Reader<'_> {
         });
         self.at += 1;
         true
-    }
-
-    /// Whether POV-Ray 3.7 takes this word for its directive also without the `#` (measured).
-    fn needs_no_hash(&self, word: Word) -> bool {
-        self.dialect == Dialect::Pov
-            && self.inside.is_empty()
-            && matches!(word, Word::Declare | Word::Include | Word::Version)
     }
 
     /// Where the bracket that opens at `ahead` closes, if it is this kind of bracket.
