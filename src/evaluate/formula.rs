@@ -59,6 +59,12 @@ impl Evaluator<'_> {
             return Err(self.too_long(here, span));
         };
         let names = parameters.iter().enumerate();
+        // Of two parameters of one name the first counts; `x` and `u` are one, and the last counts (measured on
+        // POV-Ray 3.7).
+        let is_first = |(at, name): &(usize, &ParameterName)| {
+            !(matches!(name, ParameterName::Name(_)) && parameters[..*at].contains(name))
+        };
+        let names = names.filter(is_first);
         let names = names.filter_map(|(at, name)| Some((*name, builder.parameter(at)?))).collect();
         let mut formula = Formula { builder, names, poison: None };
         let result = self.joined_node(here, &mut formula, id)?;

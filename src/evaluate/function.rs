@@ -273,7 +273,7 @@ impl Evaluator<'_> {
                         .at(parameter.span, "the second of them")
                         .help("`u` and `x` are one parameter, and so are `v` and `y`");
                     if self.options.dialect == Dialect::Pov {
-                        // The last one counts, as in POV-Ray 3.7 (measured).
+                        // POV-Ray 3.7 takes both.
                         self.report(&here, told.as_warning());
                         names.push(name);
                         continue;

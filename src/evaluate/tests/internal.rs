@@ -41,7 +41,7 @@ facts! {
     a_number_is_cut_off:
         "#declare F = function { internal(57.9) } P(F(3, 4, 0))" => "5.000";
     a_number_without_a_function_is_told:
-        "#declare F = function { internal(77) }" => "there is no built-in function 77";
+        "#declare F = function { internal(77) } P(F(1, 2, 3))" => "there is no built-in function 77";
     it_is_a_whole_function:
         "#declare F = function { internal(57) + 1 }"
         => "`internal(n)` is a whole function, and no number";
@@ -86,7 +86,7 @@ facts! {
         "#declare F = function { transform { scale 2 } } #declare G = function { F(x, y, z).t }"
         => "`F(x, y, z).t`: this function's value has no such component";
     a_transform_that_cannot_be_undone_is_told:
-        "#declare F = function { pigment { checker matrix <1,0,0, 1,0,0, 0,0,1, 0,0,0> } }"
+        "#declare F = function { pigment { checker matrix <1,1,0, 1,1,0, 0,0,1, 0,0,0> } }"
         => "this transform flattens space";
 
     the_normal_of_an_inverse_object_points_into_the_shape:

@@ -129,10 +129,12 @@ facts! {
         => "a function works on numbers, and `vlength` on a vector";
     a_wrong_number_of_arguments_is_told:
         "#declare F = function(a,b) { a+b } P(F(1))" => "`F` takes 2 arguments, and is given 1";
-    what_has_no_value_is_told:
-        "#declare F = function(a) { sqrt(-a) } P(F(1))" => "this function has no finite value here";
+    what_has_no_value_is_not_a_number:
+        "#declare F = function(a) { sqrt(-a) } P(F(1))" => "nan";
     a_parameter_named_by_a_word_is_told:
         "#declare F = function(t) { t + 1 }" => "`t` is a word of the language, and no name of a parameter";
-    two_parameters_of_one_name_are_told:
-        "#declare F = function(x,u) { x+u }" => "two parameters of this function have one name";
+    of_two_parameters_of_one_name_the_first_counts:
+        "#declare F = function(A,A) { A } P(F(2, 3))" => "2.000";
+    x_and_u_are_one_parameter_and_the_last_counts:
+        "#declare F = function(x,u) { x+u } P(F(2, 3))" => "6.000";
 }

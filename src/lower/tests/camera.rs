@@ -233,7 +233,7 @@ fn cameras_that_see_nothing_are_reported_where_it_is_written() {
     check(words![location(), Right(Vector::ZERO)], 701);
     check(words![Up(Vector::ZERO)], 700);
     check(words![Direction(Vector::ZERO)], 700);
-    for angle in [0.0, -10.0, 180.0, 200.0, f64::NAN] {
+    for angle in [-10.0, 180.0, 200.0, f64::NAN] {
         check(words![location(), Angle(angle)], 701);
     }
     check(words![Right(Vector::Y)], 600);
