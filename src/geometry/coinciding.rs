@@ -21,6 +21,9 @@ const LINES: usize = 8;
 const ASKEW: f64 = 0.1;
 /// What lines aim at is inside of a part's hull, and not on it.
 const INNER: f64 = 0.95;
+/// Parts that are compared with one where a line crosses that: of many that all lie around each other, not each pair
+/// is.
+const MOST_OTHERS: usize = 256;
 
 /// Of each part, the first declared with which it shares a surface; as two objects, the first one first.
 pub fn coinciding_parts(world: &World) -> Vec<[u32; 2]> {
@@ -82,21 +85,27 @@ impl Geometry {
     /// The first of the other leaves whose surface a line crosses where it crosses that of `leaf`.
     fn partner(&self, whole: &Whole, leaf: u32, line: &Ray) -> Option<u32> {
         let seen = |met: &Met| met.is_seen() && met.t.is_finite();
-        let own = self.crossings(&whole.leaves[leaf as usize].solid, line);
         let mut first: Option<u32> = None;
-        whole.search(line, |other| {
-            if other == leaf || first.is_some_and(|first| first < other) {
-                return;
-            }
-            let others = self.crossings(&whole.leaves[other as usize].solid, line);
-            let meets = |met: &Met| {
-                let same = |own: &Met| (own.t - met.t).abs() <= own.error + met.error;
-                seen(met) && own.iter().filter(|own| seen(own)).any(same)
-            };
-            if others.iter().any(meets) {
-                first = Some(other);
-            }
-        });
+        for own in
+            self.crossings(&whole.leaves[leaf as usize].solid, line).iter().filter(|own| seen(own))
+        {
+            let mut looked = 0;
+            // Their boxes are rounded outward.
+            whole.search_within(line, (own.t - own.error, own.t + own.error), |other| {
+                if other == leaf
+                    || first.is_some_and(|first| first < other)
+                    || looked == MOST_OTHERS
+                {
+                    return;
+                }
+                looked += 1;
+                let others = self.crossings(&whole.leaves[other as usize].solid, line);
+                let meets = |met: &Met| (own.t - met.t).abs() <= own.error + met.error;
+                if others.iter().any(|met| seen(met) && meets(met)) {
+                    first = Some(other);
+                }
+            });
+        }
         first
     }
 }

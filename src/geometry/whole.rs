@@ -109,13 +109,8 @@ impl Whole {
         Self { nodes, leaves, around, is_around, is_convex, bounds, price, always, tree }
     }
 
-    /// Shows `look` every leaf that the line of a ray may meet, on both sides of its start.
-    pub fn search(&self, ray: &Ray, look: impl FnMut(u32)) {
-        self.search_within(ray, (f64::NEG_INFINITY, f64::INFINITY), look);
-    }
-
-    /// Those at least that it may meet from one place to another.
-    fn search_within(&self, ray: &Ray, (low, high): (f64, f64), mut look: impl FnMut(u32)) {
+    /// Shows `look` those leaves at least that the line of a ray may meet from one place to another.
+    pub fn search_within(&self, ray: &Ray, (low, high): (f64, f64), mut look: impl FnMut(u32)) {
         self.always.iter().for_each(|&leaf| look(leaf));
         if let Some((tree, order)) = &self.tree {
             let show = |places: Range<usize>, limit| {

@@ -230,7 +230,7 @@ fn a_block_with_ten_thousand_balls_taken_out_asks_few_of_them() {
         let origin = target + Vector::new(random.number(-9.0, 9.0), 3.0, 20.0);
         let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
         let ray = Ray { origin, direction: direction.get() };
-        geometry.wholes[0].search(&ray, |_| asked += 1);
+        geometry.wholes[0].search_within(&ray, (f64::NEG_INFINITY, f64::INFINITY), |_| asked += 1);
         let hit = geometry.nearest(&ray);
         assert_eq!(hit, list.nearest(&ray), "{ray:?}");
         balls += usize::from(hit.is_some_and(|hit| hit.object != 0));
