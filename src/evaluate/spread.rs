@@ -8,6 +8,7 @@ use std::ops::RangeInclusive;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Argument, BinaryOperator, Callee, ExpressionId, ExpressionKind};
+use crate::vocabulary::Dialect;
 
 use super::stream::{Token, TokenKind};
 use super::value::{Components, Value};
@@ -70,7 +71,11 @@ impl Evaluator<'_> {
         let (mut spread, mut count) = (Spread::new(), list.len());
         for (place, argument) in list.iter().enumerate() {
             let values = match *argument {
-                Argument::Items(items) if items.is_empty() => continue,
+                Argument::Items(items)
+                    if items.is_empty() || self.options.dialect == Dialect::Scene =>
+                {
+                    continue;
+                }
                 Argument::Items(items) => {
                     self.inside(here, items, |evaluator| evaluator.values_side_by_side(here, span))?
                 }
@@ -85,6 +90,9 @@ impl Evaluator<'_> {
                     },
                 },
             };
+            if values.is_empty() {
+                continue;
+            }
             count += values.len() - 1;
             spread.push((place, values));
         }

@@ -184,7 +184,9 @@ impl Evaluator<'_> {
                 TokenKind::Word(Word::PointAt) => {
                     written.last = Some(token.clone());
                     cone.word(&token);
-                    written.aimed_after = transforms_of(modifiers);
+                    if !ours {
+                        written.aimed_after = transforms_of(modifiers);
+                    }
                     self.vector_after(&token, "a point").map(|given| written.point_at = given.value)
                 }
                 TokenKind::Word(

@@ -19,6 +19,9 @@ impl Evaluator<'_> {
 
     /// Begins a file that stays in memory.
     pub(super) fn hold_file(&mut self, name: &str, from: &str, append: bool) {
+        if append && self.held_files.contains_key(name) {
+            return;
+        }
         let before = self.read_file(name, from).ok().filter(|_| append);
         let bytes = before.map_or_else(Vec::new, |found| found.bytes);
         self.stored += bytes.len() as u64;
