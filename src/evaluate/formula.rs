@@ -58,13 +58,10 @@ impl Evaluator<'_> {
         let Ok(builder) = Builder::new(parameters.len()) else {
             return Err(self.too_long(here, span));
         };
-        let names = parameters.iter().enumerate();
-        // Of two parameters of one name the first counts; `x` and `u` are one, and the last counts (measured on
-        // POV-Ray 3.7).
-        let is_first = |(at, name): &(usize, &ParameterName)| {
+        // Of two parameters of one name the first counts; of `x` and `u` the last (measured on POV-Ray 3.7).
+        let names = parameters.iter().enumerate().filter(|(at, name)| {
             !(matches!(name, ParameterName::Name(_)) && parameters[..*at].contains(name))
-        };
-        let names = names.filter(is_first);
+        });
         let names = names.filter_map(|(at, name)| Some((*name, builder.parameter(at)?))).collect();
         let mut formula = Formula { builder, names, poison: None };
         let result = self.joined_node(here, &mut formula, id)?;
@@ -411,8 +408,7 @@ impl Evaluator<'_> {
         formula.names.push((ParameterName::Name(here.symbol(counter)), open.counter));
         let turn = self.node(here, formula, turn);
         formula.names.pop();
-        let built = formula.builder.close(open, turn?);
-        self.built(here, word_span, built)
+        self.built(here, word_span, formula.builder.close(open, turn?))
     }
 
     fn operation_node(
@@ -424,13 +420,11 @@ impl Evaluator<'_> {
         arguments: Arguments,
     ) -> Outcome<Node> {
         let nodes = self.argument_nodes(here, formula, arguments)?;
-        if let Some(arity) = builtin::arity(word)
-            && !arity.contains(&nodes.len())
-        {
+        let arity = builtin::arity(word).filter(|arity| !arity.contains(&nodes.len()));
+        if let Some(arity) = arity {
             let list = here.unit.ast.arguments(arguments);
             return Err(self.wrong_arity(here, word, word_span, arity, (nodes.len(), list)));
         }
-        let built = operation(&mut formula.builder, word, &nodes);
-        self.built(here, word_span, built)
+        self.built(here, word_span, operation(&mut formula.builder, word, &nodes))
     }
 }
