@@ -323,12 +323,11 @@ mod tests {
 
     #[test]
     fn a_name_that_is_no_lint_is_told_with_its_fix() {
-        let text =
-            "// lucarne: allow(color-range, unused-declarations)\n// lucarne: allow(unknown-word)";
+        let text = "// lucarne: allow(color-range, unused-declarations)\n// lucarne: allow(unclosed-block)";
         let (allowed, told) = allowances(&Source::new("a.scene", text), FileId(0));
         assert_eq!(allowed.len(), 1);
         let said: Vec<_> = told.iter().map(|told| told.message.as_str()).collect();
-        assert_eq!(said, ["there is no lint `unused-declarations`", "`unknown-word` is no lint"]);
+        assert_eq!(said, ["there is no lint `unused-declarations`", "`unclosed-block` is no lint"]);
         assert_eq!(told[0].fixes[0].text, "unused-declaration");
         assert_eq!(&text[told[0].fixes[0].span.range()], "unused-declarations");
     }

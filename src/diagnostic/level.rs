@@ -88,7 +88,7 @@ mod tests {
         levels.set_all(Level::Warn);
         assert_eq!(levels.of(Code::UnusedDeclaration), Some(Level::Deny));
         assert_eq!(levels.of(Code::NoLight), Some(Level::Warn));
-        assert_eq!(levels.of(Code::UnknownWord), None);
+        assert_eq!(levels.of(Code::UnclosedBlock), None);
         assert_eq!(Levels::new(false).of(Code::AuthorWarning), Some(Level::Warn));
     }
 

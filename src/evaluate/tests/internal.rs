@@ -40,8 +40,8 @@ fn all_of_them_agree_to_twelve_digits() {
 facts! {
     a_number_is_cut_off:
         "#declare F = function { internal(57.9) } P(F(3, 4, 0))" => "5.000";
-    a_number_without_a_function_is_told:
-        "#declare F = function { internal(77) } P(F(1, 2, 3))" => "there is no built-in function 77";
+    a_number_without_a_function_is_0:
+        "#declare F = function { internal(77) } P(F(1, 2, 3))" => "0.000";
     it_is_a_whole_function:
         "#declare F = function { internal(57) + 1 }"
         => "`internal(n)` is a whole function, and no number";

@@ -12,7 +12,7 @@ mod space;
 
 use self::atom::Atom;
 use super::{ParseOptions, balance, comment, control, parse, skipped, token};
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Source};
 use crate::syntax::comment::Quiet;
 use crate::syntax::token::{Token, TokenKind};
@@ -37,7 +37,10 @@ pub fn format(
     // What cannot be read has no layout, run or not.
     let all = ParseOptions { defers: false, ..*options };
     let ast = parse(source, file, &all, &mut found);
-    let broken = found.has_errors();
+    // Words that a `.pov` may have without their sign, or with one, are read as others than they are written.
+    let reads_otherwise =
+        |one: &Diagnostic| matches!(one.code, Code::UnknownDirective | Code::UnknownWord);
+    let broken = found.has_errors() || found.iter().any(reads_otherwise);
     found.iter().for_each(|diagnostic| diagnostics.push(diagnostic.clone()));
     if broken {
         return Err(Unformatted::Broken);

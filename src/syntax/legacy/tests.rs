@@ -153,16 +153,16 @@ fn a_file_that_does_not_say_its_version_is_mended_at_the_right_places() {
     for (old, new) in [
         (
             sphere.to_owned(),
-            format!("#version 3.7; global_settings {{ assumed_gamma 1 }}\n{sphere}"),
+            format!("#version 3.7; global_settings {{ assumed_gamma srgb }}\n{sphere}"),
         ),
         (
             format!("// a\n#version 3.6;\n{sphere}"),
-            format!("// a\n#version 3.7;\nglobal_settings {{ assumed_gamma 1 }}\n{sphere}"),
+            format!("// a\n#version 3.7;\nglobal_settings {{ assumed_gamma srgb }}\n{sphere}"),
         ),
         (
             format!("global_settings {{ max_trace_level 3 }}\n{sphere}"),
             format!(
-                "#version 3.7;\nglobal_settings {{ assumed_gamma 1 max_trace_level 3 }}\n{sphere}"
+                "#version 3.7;\nglobal_settings {{ assumed_gamma srgb max_trace_level 3 }}\n{sphere}"
             ),
         ),
         (
