@@ -74,7 +74,7 @@ impl Evaluator<'_> {
         Some((self.scopes.name(symbol).to_owned(), Vector::new(part(0), part(1), part(2))))
     }
 
-    /// Both of them.
+    /// The values of a call: two where [`Self::value_before_group`] finds two.
     pub(super) fn values_of_call(&mut self, here: &Here, id: ExpressionId) -> Outcome<Vec<Value>> {
         match self.value_before_group(here, id) {
             Some((Token { kind: TokenKind::Literal(value), .. }, group)) => {

@@ -71,8 +71,7 @@ fn innermost_around(
     bodies.iter().filter(holds).min_by_key(|body| body.len()).cloned()
 }
 
-/// The quiet text with blanks in the place of what is not read, and the tokens of the rest, with one for each
-/// body left out.
+/// Puts blanks in the place of what is not read.
 pub(super) fn leave_out(quiet: &mut Quiet, unread: &[Range<usize>]) {
     let inside = |at: usize| unread.iter().any(|body| body.contains(&at));
     quiet.comments.retain(|comment| !inside(comment.start as usize));

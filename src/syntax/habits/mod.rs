@@ -106,8 +106,8 @@ struct Reader<'a> {
     at: usize,
     text: &'a str,
     file: FileId,
-    /// The brackets around the place reached.
     dialect: Dialect,
+    /// The brackets around the place reached.
     inside: Vec<Inside>,
     /// Tokens to be left out, such as the braces of a directive's body; and whether each is meant as `#end`.
     dropped: HashMap<usize, bool>,
