@@ -133,9 +133,7 @@ impl Evaluator<'_> {
                     open.extend([a, b, c]);
                     continue;
                 }
-                ExpressionKind::Call(Callee::Word(word, _), _)
-                    if matches!(word, Word::Rand | Word::FileExists) =>
-                {
+                ExpressionKind::Call(Callee::Word(Word::Rand | Word::FileExists, _), _) => {
                     return false;
                 }
                 ExpressionKind::Call(Callee::Name(name, _), arguments) => {
