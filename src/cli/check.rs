@@ -15,7 +15,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files::DiskFiles;
 use super::language;
 use super::messages::{self, Messages};
-use super::output::write_whole;
+use super::output::write_over;
 use super::text::{is_include, is_stdin, name_of, read_main, read_scene};
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
@@ -123,7 +123,7 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
     let fixed = mended.as_ref().map_or(0, |(_, fixed)| *fixed);
     let text = mended.as_ref().map_or(text, |(text, _)| text);
     if fixed > 0 {
-        write_whole(file, &[mark, text.as_bytes()].concat())?;
+        write_over(file, &[mark, text.as_bytes()].concat())?;
     }
     let rest = messages(text);
     for (elsewhere, count) in fixes_elsewhere(file, dialect, text, arguments) {

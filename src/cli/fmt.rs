@@ -11,7 +11,7 @@ use super::arguments::FmtArguments;
 use super::exit::{Exit, Failure, Outcome};
 use super::language;
 use super::messages::{self, Messages};
-use super::output::write_whole;
+use super::output::write_over;
 use super::text::{is_stdin, name_of, read_main};
 
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
@@ -77,7 +77,7 @@ fn one(file: &Path, arguments: &FmtArguments, messages: &mut Messages) -> Outcom
     if is_stdin(file) {
         messages::print_bytes(&encoded)?;
     } else if encoded != bytes {
-        write_whole(file, &encoded)?;
+        write_over(file, &encoded)?;
     }
     Ok(Exit::Done)
 }

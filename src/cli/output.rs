@@ -193,6 +193,16 @@ pub fn can_be_made(path: &Path) -> Result<(), Failure> {
     temporary(path).map(drop)
 }
 
+/// Writes a text over the one that it was made from, unless that is write-protected.
+pub fn write_over(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    match is_protected(file) {
+        true => {
+            Err(Failure::file(format!("`{}` is write-protected: not overwritten", file.display())))
+        }
+        false => write_whole(file, bytes),
+    }
+}
+
 /// Writes a file that is whole or not there, with the permissions that it had.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: std::io::Error| cannot(file, &reason(&error));

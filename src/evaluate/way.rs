@@ -120,30 +120,34 @@ impl Evaluator<'_> {
         self.read.bodies.insert(key, body.clone());
         let here = Here { unit, expansion: here.expansion };
         if !of_part.iter().any(Diagnostic::is_error) {
+            for one in of_part {
+                self.report_in(here.expansion, one);
+            }
             return self.push_branch(&here, body.1);
         }
-        let is_inside = |one: &&Diagnostic| {
-            one.primary()
-                .is_some_and(|label| span.start <= label.span.start && label.span.end <= span.end)
-        };
-        let of_whole: Vec<_> =
-            self.whole_mistakes(span).iter().filter(is_inside).cloned().collect();
+        let of_whole = self.whole_mistakes_in(span);
         let told = if of_whole.iter().any(Diagnostic::is_error) { of_whole } else { of_part };
         for one in told {
-            self.report_in(ExpansionId::MAIN, one);
+            self.report_in(here.expansion, one);
         }
         self.read.broken.insert(span);
         self.declare_broken(&here, body.1);
     }
 
-    /// The mistakes of a file, were all of it run.
-    fn whole_mistakes(&mut self, span: Span) -> &[Diagnostic] {
+    /// What is told of a body in a file, were all of the file run.
+    fn whole_mistakes_in(&mut self, span: Span) -> Vec<Diagnostic> {
         if !self.read.wholes.contains_key(&span.file) {
             let text = self.sources.get(span.file).text.to_string();
-            let mistakes = self.mistakes_of(text, span, false).1;
+            let mut mistakes = self.mistakes_of(text, span, false).1;
+            mistakes.retain(|one| one.primary().is_some());
+            mistakes.sort_by_key(start_of);
             self.read.wholes.insert(span.file, mistakes);
         }
-        &self.read.wholes[&span.file]
+        let mistakes = &self.read.wholes[&span.file];
+        let first = mistakes.partition_point(|one| start_of(one) < span.start);
+        let is_before_end = |one: &&Diagnostic| start_of(one) < span.end;
+        let is_inside = |one: &&Diagnostic| one.primary().is_some_and(|l| l.span.end <= span.end);
+        mistakes[first..].iter().take_while(is_before_end).filter(is_inside).cloned().collect()
     }
 
     /// Warns of the bodies of a text that could not be read and were not run.
@@ -154,16 +158,16 @@ impl Evaluator<'_> {
             if !is_unread || self.read.bodies.contains_key(&(span, Vec::new())) {
                 continue;
             }
-            let text = alone(&self.sources.get(span.file).text, span);
-            let Some(first) =
-                self.mistakes_of(text, span, true).1.into_iter().find(Diagnostic::is_error)
-            else {
-                continue;
+            let first = self.whole_mistakes_in(span).into_iter().find(Diagnostic::is_error);
+            let warning = match first {
+                Some(Diagnostic { message, labels, help, fixes, .. }) => {
+                    let message = format!("code that is not run cannot be read: {message}");
+                    let warning = Diagnostic::new(Code::UnreadBranch, message);
+                    Diagnostic { labels, help, fixes, ..warning }
+                }
+                None => Diagnostic::new(Code::UnreadBranch, "code that is not run cannot be read")
+                    .at(span, "this is passed over"),
             };
-            let message = format!("code that is not run cannot be read: {}", first.message);
-            let told = Diagnostic { message, ..first };
-            let mut warning = Diagnostic::new(Code::UnreadBranch, told.message);
-            (warning.labels, warning.help, warning.fixes) = (told.labels, told.help, told.fixes);
             self.diagnostics.push(warning);
         }
     }
@@ -192,4 +196,9 @@ impl Evaluator<'_> {
         let ast = syntax::parse(&Source::new(name, text), span.file, &options, &mut told);
         (ast, told.iter().cloned().collect())
     }
+}
+
+/// Where the first label of a message begins in its file.
+fn start_of(one: &Diagnostic) -> u32 {
+    one.primary().map_or(0, |label| label.span.start)
 }

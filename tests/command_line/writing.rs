@@ -60,3 +60,18 @@ fn a_write_protected_picture_is_overwritten_by_force_only_and_permissions_stay()
         assert_eq!(mode(), kept);
     }
 }
+
+#[test]
+fn a_write_protected_text_is_neither_fixed_nor_formatted() {
+    let place = Place::new();
+    place.write("wide.scene", "sphere   { 0,1 }\n");
+    for (command, name) in [("check --fix", "broken.scene"), ("fmt", "wide.scene")] {
+        let before = place.read(name);
+        let mut mode = fs::metadata(place.path(name)).expect("there").permissions();
+        mode.set_readonly(true);
+        fs::set_permissions(place.path(name), mode).expect("set");
+        let said = format!("`{name}` is write-protected: not overwritten");
+        place.run(&format!("{command} {name}")).ends(3, &[&said]);
+        assert_eq!(place.read(name), before);
+    }
+}
