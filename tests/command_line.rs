@@ -335,7 +335,7 @@ fn an_interrupted_render_leaves_what_is_done() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_before_the_trace_says_that_nothing_was_written() {
+fn an_interrupt_before_the_trace_says_which_loop_turned() {
     let place = Place::new();
     place.write("loop.scene", "#for (I, 1, 1e9) #end\n");
     let interrupted = |delay: &u32| {
@@ -348,7 +348,7 @@ fn an_interrupt_before_the_trace_says_that_nothing_was_written() {
         run.0.status.code().is_some().then_some(run)
     };
     let run = [200, 1000, 5000].iter().find_map(interrupted).expect("it hears");
-    run.ends(130, &["interrupted: nothing was written", "interrupted while a loop turned"]);
+    run.ends(130, &["interrupted while a loop turned", "loop.scene:1:1"]);
 }
 
 // ── what is known before ──
@@ -462,7 +462,7 @@ fn a_warning_is_dropped_told_or_denied_as_the_flags_and_the_comments_say() {
     let words = ["old-version", "color-range", "2 warnings"];
     place.run("check a.pov --warn color-range").ends(0, &words);
     place.run("check a.scene --allow unused-declarations").ends(2, &["unused-declaration"]);
-    place.run("check a.scene --allow unknown-word").ends(2, &["no warning"]);
+    place.run("check a.scene --allow unclosed-block").ends(2, &["no warning"]);
 }
 
 #[test]

@@ -321,6 +321,13 @@ impl Diagnostics {
         self.list.iter().any(Diagnostic::is_error)
     }
 
+    /// Adds a help to the first error, where there is one.
+    pub fn help_first_error(&mut self, text: impl Into<String>) {
+        if let Some(first) = self.list.iter_mut().find(|one| one.is_error()) {
+            first.help.push(text.into());
+        }
+    }
+
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
         self.list.iter()
     }

@@ -75,7 +75,7 @@ use enclosure::Enclosure;
 use expand::Macro;
 use remembered::Remembered;
 use scope::{Scopes, Symbol};
-use stream::{Frame, Hold, Silent, Token};
+use stream::{Frame, Hold, MOST_RUN_SINCE_FAULT, Silent, Token};
 use unit::{Here, Unit};
 use value::{Poison, Value};
 
@@ -362,6 +362,11 @@ impl<'a> Evaluator<'a> {
         self.scene.skipped = self.skipped(&here.unit.ast);
         self.assume_old_gamma();
         self.warn_of_unread(&here.unit);
+        if self.run_since_fault > MOST_RUN_SINCE_FAULT {
+            self.diagnostics.help_first_error(format!(
+                "behind an error loops and macros run {MOST_RUN_SINCE_FAULT} times at most: there may be more errors"
+            ));
+        }
         if self.halted {
             // Nobody looks at what there is of it.
             self.scene.roots.clear();

@@ -167,6 +167,14 @@ impl Lowering<'_, '_> {
         Some(self.world.wholes.len() as u32)
     }
 
+    /// Lets the parts of a whole that will have no more stand by themselves.
+    pub(super) fn leave_unfinished(&mut self) {
+        let Some(building) = self.building.take() else { return };
+        for part in &mut self.world.objects[building.first as usize..] {
+            part.whole = None;
+        }
+    }
+
     fn finish(&mut self) {
         let Some(building) = self.building.take() else { return };
         let Building { first, nodes, operations, .. } = building;

@@ -11,7 +11,8 @@ use crate::world::Object;
 
 impl Lowering<'_, '_> {
     pub(super) fn doubled(&mut self) {
-        if !self.reporter.diagnostics.tells(Code::ClearTwice) {
+        let diagnostics = &self.reporter.diagnostics;
+        if !diagnostics.tells(Code::ClearTwice) || diagnostics.has_errors() {
             return;
         }
         let world = &self.world;

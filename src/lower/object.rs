@@ -103,7 +103,7 @@ impl<'s> Lowering<'s, '_> {
                     continue;
                 };
                 if !self.may_visit(id, &mut visits) {
-                    return;
+                    return self.leave_unfinished();
                 }
                 self.visit(id, &inherited, default_texture, &mut stack);
             }

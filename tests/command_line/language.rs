@@ -37,10 +37,12 @@ fn a_scene_for_povray_makes_the_same_picture_under_any_name() {
     assert!(!run.stderr().contains("note: "), "{}", run.stderr());
     assert_eq!(place.read("x.ppm"), place.read("other.ppm"));
     // Nothing in it is POV-Ray's alone.
-    let text = &POV[POV.find("camera").expect("there")..];
+    let text = POV[POV.find("camera").expect("there")..].replace("-6>", "0 - 6>");
     let said = ["`standard input` as lucarne's own language; `--language pov`"];
-    with_input(&place, "- -o x.ppm --size 16x12", text).ends(0, &said);
-    with_input(&place, "- -o x.ppm --size 16x12 --language pov", text).ends(0, &[]);
+    with_input(&place, "- -o x.ppm --size 16x12", &text).ends(0, &said);
+    with_input(&place, "- -o x.ppm --size 16x12 --language pov", &text).ends(0, &[]);
+    place.write("a.pov", &text);
+    place.run("a.pov -o pov.ppm --size 16x12").ends(0, &[]);
     assert_eq!(place.read("x.ppm"), place.read("pov.ppm"));
 }
 

@@ -354,7 +354,7 @@ fn of_a_pattern_its_word_is_quoted_or_what_its_map_has_beside_one_colour() {
         ("checker rgb 1", "checker"),
         ("checker <1, 0, 0>, <0, 0, 1>", "checker <1, 0, 0>, <0, 0, 1>"),
         ("checker <1, 0, 0>, <1, 0, 0> blue 1", "blue 1"),
-        ("checker rgb 1, pigment { rgb 0 }", "checker rgb 1, pigment { rgb 0 }"),
+        ("checker rgb 1, pigment { rgb 0.5 }", "checker rgb 1, pigment { rgb 0.5 }"),
         ("gradient y scale 3", "gradient y"),
         ("gradient y color_map { [0 rgb 0] [1 rgb 1] }", "[1 rgb 1]"),
         ("gradient y color_map { [0 rgb 0] [0.5 rgb 1] [1 rgb 0] }", "[0.5 rgb 1]"),

@@ -115,3 +115,14 @@ fn what_was_taken_back_is_told_where_it_counts() {
     let told = told(&Nowhere::default(), Dialect::Scene, text);
     assert_eq!(told.iter().filter(|one| one.code == Code::DivisionByZero).count(), 1);
 }
+
+#[test]
+fn an_error_before_long_loops_says_that_not_all_of_them_was_run() {
+    let helps = |turns: u32| {
+        let text = format!("sphere {{ 0, Gone }} #for (I, 1, {turns}) #end");
+        let told = told(&Nowhere::default(), Dialect::Pov, &text);
+        let error = told.iter().find(|one| one.is_error()).expect("`Gone` is not declared");
+        error.help.iter().filter(|help| help.contains("there may be more errors")).count()
+    };
+    assert_eq!((helps(1_000), helps(1_000_000)), (0, 1));
+}

@@ -1,8 +1,9 @@
 //! What cannot be built is reported where it stands, and the rest is built.
 
+use super::super::{LowerOptions, lower};
 use super::build::*;
 use crate::color::Rgb;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Diagnostics};
 use crate::math::Vector;
 use crate::math::transform::Step;
 use crate::scene::*;
@@ -161,4 +162,19 @@ fn unions_that_double_for_ever_meet_a_limit() {
     }
     build.root(object);
     assert_eq!(build.codes(), [Code::ObjectLimit]);
+}
+
+#[test]
+fn a_solid_that_meets_the_limit_leaves_its_parts() {
+    let mut build = Build::new();
+    let mut ball = || build.object(sphere(0.0, 0.0, 0.0, 1.0), vec![]);
+    let children = vec![ball(), ball(), ball()];
+    let solid = ObjectKind::Csg { operation: Operation::Intersection, children };
+    let solid = build.object(solid, vec![]);
+    build.root(solid);
+    let mut told = Diagnostics::new(true);
+    let options = LowerOptions { objects: 3, ..LowerOptions::default() };
+    let (world, _) = lower(build.0, &options, &mut told);
+    assert!(told.iter().any(|one| one.code == Code::ObjectLimit));
+    assert_eq!(world.solids().count(), 2);
 }
