@@ -314,6 +314,8 @@ pub struct Interior {
     pub ior: f64,
     /// Each `ior`, as a piece that can be taken out of the text, and of those it replaces.
     pub sites: Vec<Site>,
+    /// `caustics` above zero, which is not simulated yet.
+    pub caustics: Option<Site>,
 }
 
 #[derive(Debug, Clone, PartialEq)]

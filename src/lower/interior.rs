@@ -6,6 +6,7 @@
 use std::collections::HashSet;
 
 use super::{Fault, Lowering};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ClassicFinish, Finish, FinishId, InteriorId};
 use crate::source::Site;
 use crate::world::{CameraKind, Interior, Object, World};
@@ -27,6 +28,12 @@ impl Lowering<'_, '_> {
             Finish::Classic(classic) => classic.ior,
             Finish::Seed { .. } => None,
         };
+        if let Some(site) = written.and_then(|interior| interior.caustics) {
+            let told = Diagnostic::new(Code::NotSupportedYet, "`caustics` is not simulated yet")
+                .at(site.span, "the scene is rendered without it")
+                .as_warning();
+            self.reporter.diagnostics.push(told.traced(site, self.reporter.expansions));
+        }
         let ior = old.or(written.map(|interior| interior.ior))?;
         let site = self.interior_sites((interior, finish)).first().copied().unwrap_or(object);
         if !ior.is_finite() {

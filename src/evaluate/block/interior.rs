@@ -12,7 +12,7 @@ use super::finish::list_once;
 impl Evaluator<'_> {
     /// `interior { [Name] ior … }`.
     pub(super) fn interior(&mut self, token: &Token) -> Outcome<InteriorId> {
-        let mut interior = Interior { ior: 1.0, sites: Vec::new() };
+        let mut interior = Interior { ior: 1.0, sites: Vec::new(), caustics: None };
         let interior = self.block(token, Word::Interior, |evaluator| {
             let mut failed = false;
             while let Some(token) = evaluator.next() {
@@ -36,7 +36,8 @@ impl Evaluator<'_> {
                 list_once(&mut interior.sites, self.whole(token));
             }
             TokenKind::Word(Word::Caustics) if self.options.dialect == Dialect::Pov => {
-                return self.not_simulated_number(token);
+                let given = self.number_after(token, "a number")?;
+                interior.caustics = (given.value != 0.0).then(|| token.here.site(token.span));
             }
             TokenKind::Expression(id) => match self.declared(token, id) {
                 Some(Value::Broken) => return Err(Reported),

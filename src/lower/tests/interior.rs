@@ -9,7 +9,11 @@ use crate::world::{self, World};
 
 impl Build {
     fn interior(&mut self, ior: f64) -> ModifierKind {
-        self.0.interiors.push(Interior { ior, sites: vec![site(700 + self.0.interiors.len())] });
+        self.0.interiors.push(Interior {
+            ior,
+            sites: vec![site(700 + self.0.interiors.len())],
+            caustics: None,
+        });
         ModifierKind::Interior(InteriorId(self.0.interiors.len() as u32 - 1))
     }
 

@@ -9,35 +9,19 @@ use super::super::super::{Evaluator, Outcome};
 use super::super::Place;
 
 impl Evaluator<'_> {
-    /// `caustics n`: light that is added; of strength 0 it is none.
-    pub(in super::super) fn not_simulated_number(&mut self, token: &Token) -> Outcome<()> {
-        let given = self.number_after(token, "a number")?;
-        if given.value != 0.0 {
-            self.not_simulated(token);
-        }
-        Ok(())
-    }
-
-    /// `crand`, `caustics` and `refraction` in a finish. The last is a factor of the light
+    /// `crand`, `caustics` (light that is added) and `refraction` in a finish. The last is a factor of the light
     /// that goes through, beside that of the pigment (measured).
     pub(in super::super) fn old_finish_word(&mut self, token: &Token, word: Word) -> Outcome<()> {
+        let value = self.number_after(token, "a number")?.value;
         match word {
-            Word::Caustics => self.not_simulated_number(token),
-            Word::Refraction => {
-                let given = self.number_after(token, "a number")?;
-                if given.value != 1.0 {
-                    self.not_simulated(token);
-                }
-                Ok(())
+            Word::Caustics if value != 0.0 => self.not_simulated(token),
+            Word::Refraction if value != 1.0 => self.not_simulated(token),
+            Word::Crand if value != 0.0 => {
+                self.set_poison(Poison::new(word, token.here.site(token.span)));
             }
-            _ => {
-                let given = self.number_after(token, "a number")?;
-                if given.value != 0.0 {
-                    self.set_poison(Poison::new(word, token.here.site(token.span)));
-                }
-                Ok(())
-            }
+            _ => {}
         }
+        Ok(())
     }
 
     /// `radiosity { importance n }` of an object: how many samples it is worth.
