@@ -1,12 +1,8 @@
 //! The program as it is used: real runs, in folders of their own.
 
-#[path = "command_line/language.rs"]
 mod language;
-#[path = "command_line/reading.rs"]
 mod reading;
-#[path = "command_line/words.rs"]
 mod words;
-#[path = "command_line/writing.rs"]
 mod writing;
 
 use std::fs;

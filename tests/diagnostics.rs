@@ -13,9 +13,7 @@ use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
 use lucarne::source::{FileError, Files, Found, Sources, Span};
 
-use corpus::{Case, Expected, Includes, assert_none, said, shown};
-
-mod corpus;
+use crate::corpus::{Case, Expected, Includes, assert_none, said, shown};
 
 /// Runs a scene as `lucarne check` does, with lints.
 fn messages(name: &str, bytes: Vec<u8>, files: &Includes) -> (Vec<Diagnostic>, Sources) {
@@ -31,7 +29,7 @@ fn messages(name: &str, bytes: Vec<u8>, files: &Includes) -> (Vec<Diagnostic>, S
 }
 
 fn corpus() -> Vec<Case> {
-    corpus::corpus("diagnostics")
+    crate::corpus::corpus("diagnostics")
 }
 
 fn name(case: &Case) -> &'static str {

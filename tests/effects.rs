@@ -16,9 +16,7 @@ use lucarne::standard::include;
 use lucarne::trace::{Counters, Evaluations, TraceOptions, Traced, Unwatched, trace};
 use lucarne::world::{Origins, World};
 
-#[path = "effects/dropped.rs"]
 mod dropped;
-#[path = "effects/quotes.rs"]
 mod quotes;
 
 const OPTIONS: PlanOptions = PlanOptions {

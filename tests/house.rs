@@ -7,9 +7,7 @@ use std::path::{Path, PathBuf};
 use lucarne::diagnostic::Code;
 use lucarne::vocabulary::{Family, Role, Word};
 
-#[path = "house/adding.rs"]
 mod adding;
-#[path = "house/numbers.rs"]
 mod numbers;
 
 /// Every room of `src/`, from the ground up, and the rooms it may use. A circle cannot be written.

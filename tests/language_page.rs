@@ -1,6 +1,6 @@
 //! `docs/language.md` lists the vocabulary: its second half is made from it.
 //!
-//! `LUCARNE_UPDATE=1 cargo test --test language_page` writes it anew.
+//! `LUCARNE_UPDATE=1 cargo test language_page` writes it anew.
 
 use std::fmt::Write;
 use std::fs;
@@ -103,6 +103,6 @@ fn the_page_of_the_language_lists_every_word_as_the_vocabulary_has_it() {
     }
     assert!(
         after == expected,
-        "docs/language.md is out of date: LUCARNE_UPDATE=1 cargo test --test language_page"
+        "docs/language.md is out of date: LUCARNE_UPDATE=1 cargo test language_page"
     );
 }

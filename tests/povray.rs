@@ -21,12 +21,8 @@ use lucarne::scene::Dialect;
 use lucarne::source::Sources;
 use lucarne::world::World;
 
-use corpus::{Case, Expected, Includes, assert_none, corpus, said};
-use programs::{SAME, Size, is_povray_there, mean_error, ours, theirs};
-
-mod corpus;
-#[path = "conformance/programs.rs"]
-mod programs;
+use crate::corpus::{Case, Expected, Includes, assert_none, corpus, said};
+use crate::programs::{SAME, Size, is_povray_there, mean_error, ours, theirs};
 
 /// What most cases begin with, in one line.
 const HEAD: &str = "#version 3.7; global_settings { assumed_gamma 1 } camera { location <0,2,-6> look_at 0 \

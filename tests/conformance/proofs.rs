@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::pictures::{SIZE, differing};
-use super::programs::{SAME, is_installed, is_povray_there, mean_error, ours, theirs};
 use super::silhouettes::plain;
 use super::{SCENES, files};
+use crate::programs::{SAME, is_installed, is_povray_there, mean_error, ours, theirs};
 
 /// Texts of a scene, and what stands in their place.
 type Changes = &'static [(&'static str, &'static str)];

@@ -11,8 +11,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::pictures::outcome;
-use super::programs::{is_installed, is_povray_there};
 use super::{SCENES, files};
+use crate::programs::{is_installed, is_povray_there};
 
 const LIST: &str = include_str!("silhouettes.list");
 const EXAMPLES: &str = include_str!("examples.list");

@@ -1,7 +1,7 @@
 //! Shapes in other words: spheres (row 30) and tori (row 29).
 
-use crate::held::{SIZE, Truth};
-use crate::scene::{Camera, Light, Scene, Step, Triple, WHITE, sphere, ten, torus};
+use super::held::{SIZE, Truth};
+use super::scene::{Camera, Light, Scene, Step, Triple, WHITE, sphere, ten, torus};
 
 const CLAY: Triple = [0.9, 0.5, 0.2];
 

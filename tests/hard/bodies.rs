@@ -3,10 +3,10 @@
 //! **Invariant:** a surface is where a polynomial of the place is 0. Along a line it is one of the distance;
 //! along an axis its slope is the normal. Nothing here comes from lucarne.
 
-use crate::held::{apart, rendered};
-use crate::scene::Triple;
-use crate::sturm::roots;
-use crate::wide::{Wide, WideMap, WideVector};
+use super::held::{apart, rendered};
+use super::scene::Triple;
+use super::sturm::roots;
+use super::wide::{Wide, WideMap, WideVector};
 
 /// A polynomial in t; the coefficient of 1 comes first.
 #[derive(Clone)]

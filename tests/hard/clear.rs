@@ -3,8 +3,8 @@
 //! That what is mirrored and what goes through come to all, and that equal indices change no bit
 //! (row 40), is tested beside the laws, in `trace/refraction.rs`.
 
-use crate::held::{hold, hold_sized, rendered};
-use crate::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
+use super::held::{hold, hold_sized, rendered};
+use super::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
 
 fn above() -> Camera {
     Camera::LookAt { location: [1.0, 3.0, 6.0], look_at: [0.0, 0.2, 0.0], angle: 40.0 }

@@ -6,12 +6,12 @@
 
 use std::fmt::Write;
 
-use crate::dice::Dice;
-use crate::held::Truth;
-use crate::scene::{
+use super::held::Truth;
+use super::scene::{
     Camera, Light, Object, Operation, Scene, Solid, Step, Triple, WHITE, cone, cuboid, plane,
     sphere, ten, torus, whole,
 };
+use crate::dice::Dice;
 
 /// Odd, so that some rays go along faces.
 const SIZE: (u32, u32) = (25, 19);

@@ -8,7 +8,7 @@ use lucarne::scene::Dialect;
 use lucarne::source::NoFiles;
 use lucarne::trace::{TraceOptions, Unwatched, trace};
 
-use crate::trees::processor_time;
+use super::trees::processor_time;
 
 const LEVELS: usize = 100_000;
 /// No more than this is on the call stack, whatever the depth.

@@ -6,8 +6,8 @@ use lucarne::math::placement::Placement;
 use lucarne::math::{Matrix, UnitVector, Vector};
 use lucarne::shape::{Body, Cone, Cylinder, Placed, Plane, Ray, SurfacePoint};
 
+use super::held::compiled;
 use crate::dice::{Dice, rays};
-use crate::held::compiled;
 
 /// One of each kind at least, of size about 1, around the origin; the last brace is missing.
 const BODIES: &str = include_str!("../bodies.txt");

@@ -7,9 +7,9 @@
 //! Two distances are one when they differ by less than 2⁻¹⁵⁰ of the sizes they come from: far
 //! below what the numbers of a scene can say, far above what 320 bits leave over.
 
-use crate::scene::{Camera, Light, Object, Paint, Scene, Triple};
-use crate::solids::{Crossing, Part, Ray, Thing};
-use crate::wide::{Wide, WideVector};
+use super::scene::{Camera, Light, Object, Paint, Scene, Triple};
+use super::solids::{Crossing, Part, Ray, Thing};
+use super::wide::{Wide, WideVector};
 
 pub struct Exact<'a> {
     scene: &'a Scene,

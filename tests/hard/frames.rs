@@ -7,9 +7,9 @@ use lucarne::math::elementary::sin_cos_degrees;
 use lucarne::plan::{Antialias, Frame, PlanOptions, plan};
 use lucarne::trace::{TraceOptions, Unwatched, trace};
 
+use super::held::{compiled, hold_sized, rendered};
+use super::scene::{Camera, Light, Scene, Triple, WHITE, cuboid, plane, sphere};
 use crate::dice::Dice;
-use crate::held::{compiled, hold_sized, rendered};
-use crate::scene::{Camera, Light, Scene, Triple, WHITE, cuboid, plane, sphere};
 
 fn sampled(text: &str, (width, height): (u32, u32), antialias: Antialias) -> Film {
     let (world, origins) = compiled(text);

@@ -1,7 +1,7 @@
 //! Planes to the horizon, and checkers on them: rows 9, 11, 12, 13, 15 and 69.
 
-use crate::held::{hold, hold_horizon};
-use crate::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
+use super::held::{hold, hold_horizon};
+use super::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
 
 const FLOOR: Triple = [0.0, 1.0, 0.0];
 
@@ -67,7 +67,7 @@ fn row_12_cells_beyond_any_number_are_some_colour() {
     for far in [4e9, 1e16, 1e300] {
         let location = [far, 3.0, -far];
         let scene = Scene::new(down(location), &[], vec![plane(FLOOR, 0.0).checker(&[])]);
-        let film = crate::held::rendered(&scene.text(), (8, 8));
+        let film = super::held::rendered(&scene.text(), (8, 8));
         assert!(film.radiance.iter().all(|c| c.is_finite()), "{far:e}");
     }
 }
@@ -116,7 +116,7 @@ fn row_13_a_seam_in_the_middle_of_pixels_is_one_colour_all_along() {
              plane {{ y, -1 pigment {{ {pigment} translate {nudge}*z rotate {turn}*y
                translate {away} }} finish {{ ambient 1 diffuse 0 }} }}"
         );
-        let film = crate::held::rendered(&text, (160, 120));
+        let film = super::held::rendered(&text, (160, 120));
         let first = film.index(0, 82);
         film.radiance[first..first + 160].iter().map(|c| c.red).collect::<Vec<f64>>()
     };
@@ -204,7 +204,7 @@ fn row_15_a_wall_of_boxes_has_no_holes() {
                     };
                     let text = scene.text();
                     for pixels in [5, 6, 12] {
-                        let film = crate::held::rendered(&text, (pixels, pixels));
+                        let film = super::held::rendered(&text, (pixels, pixels));
                         let holes = film.radiance.iter().filter(|c| c.red < 0.99).count();
                         assert_eq!(holes, 0, "{size} {lift:e} turned {turned}, {pixels} pixels");
                     }

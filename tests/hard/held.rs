@@ -9,8 +9,8 @@ use lucarne::source::NoFiles;
 use lucarne::trace::{TraceOptions, Unwatched, trace};
 use lucarne::world::{Origins, World};
 
-use crate::exact::Exact;
-use crate::scene::{Scene, Triple};
+use super::exact::Exact;
+use super::scene::{Scene, Triple};
 
 /// A pixel is off when a linear channel is farther than this from the exact one.
 const OFF: f64 = 0.03;

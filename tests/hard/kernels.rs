@@ -4,8 +4,8 @@ use lucarne::math::placement::Placement;
 use lucarne::math::{Matrix, UnitVector, Vector};
 use lucarne::shape::{Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Sphere, SurfacePoint};
 
+use super::wide::{Wide, WideVector};
 use crate::dice::{Dice, rays};
-use crate::wide::{Wide, WideVector};
 
 const EPS: f64 = f64::EPSILON;
 
@@ -184,7 +184,7 @@ fn row_4_a_ray_that_only_touches_is_answered_the_same_way_by_all() {
             let ray = Ray { origin: mirror(ray.origin), direction: mirror(ray.direction) };
             assert_eq!(there.chord(&ray), answer, "{sphere:?} {ray:?}");
         }
-        crate::trees::assert_all_agree(&sphere, &ray, answer.as_ref());
+        super::trees::assert_all_agree(&sphere, &ray, answer.as_ref());
     }
     assert!(exact > rays() / 3 && hits > rays() / 10, "{exact} exact, {hits} hits");
 }

@@ -6,10 +6,10 @@ use lucarne::scene::Dialect;
 use lucarne::source::NoFiles;
 use lucarne::world::World;
 
+use super::held::compiled;
+use super::scene::ten;
+use super::wide::{Wide, WideMap, WideVector};
 use crate::dice::Dice;
-use crate::held::compiled;
-use crate::scene::ten;
-use crate::wide::{Wide, WideMap, WideVector};
 
 /// What is said of a text that comes after a camera, a light and a sphere: severity, code and
 /// message of each.

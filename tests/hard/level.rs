@@ -1,7 +1,7 @@
 //! Cameras that look level along a face: their rays lie in it, as far as rounding tells.
 
+use super::held::rendered;
 use crate::dice::Dice;
-use crate::held::rendered;
 
 /// Solids on y = H, from above.
 const ABOVE: [&str; 9] = [

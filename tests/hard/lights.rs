@@ -3,8 +3,8 @@
 
 use std::time::Instant;
 
-use crate::held::{apart, hold, rendered};
-use crate::scene::{
+use super::held::{apart, hold, rendered};
+use super::scene::{
     BLACK, Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten,
 };
 
@@ -134,7 +134,7 @@ fn row_63_ten_thousand_spheres_in_one_place_are_one() {
     let start = Instant::now();
     let scene = Scene::new(above(), &[light([5.0, 8.0, 6.0])], vec![floor(), first, many(rest)]);
     // Few pixels: every ray at the place tries all.
-    crate::held::hold_sized("spheres in one place", &scene, (16, 12));
+    super::held::hold_sized("spheres in one place", &scene, (16, 12));
     let turned = |color: Triple, copies: u32| Object {
         copies,
         ..cuboid([-0.5; 3], [0.5; 3])
@@ -144,6 +144,6 @@ fn row_63_ten_thousand_spheres_in_one_place_are_one() {
     };
     let objects = vec![turned([0.9, 0.4, 0.2], 1), floor(), turned([0.1, 0.2, 0.9], 10_000)];
     let scene = Scene::new(above(), &[light([5.0, 8.0, 6.0])], objects);
-    crate::held::hold_sized("boxes in one place", &scene, (16, 12));
+    super::held::hold_sized("boxes in one place", &scene, (16, 12));
     assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
 }

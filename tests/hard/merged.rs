@@ -1,9 +1,9 @@
 //! Glass of several parts that touch, solids taken from one another forty times, balls that touch from
 //! inside: row 35.
 
-use crate::coinciding::text_moved;
-use crate::held::Truth;
-use crate::scene::{
+use super::coinciding::text_moved;
+use super::held::Truth;
+use super::scene::{
     Camera, Light, Object, Operation, Scene, Step, WHITE, cone, cuboid, sphere, ten, whole,
 };
 
@@ -38,7 +38,7 @@ fn seen(objects: Vec<Object>) -> Scene {
 
 fn glass(object: Object, ior: f64) -> Object {
     let solid = match object.solid {
-        crate::scene::Solid::Whole { operation, parts } => crate::scene::Solid::Whole {
+        super::scene::Solid::Whole { operation, parts } => super::scene::Solid::Whole {
             operation,
             parts: parts.into_iter().map(|part| glass(part, ior)).collect(),
         },

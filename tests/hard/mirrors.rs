@@ -1,7 +1,7 @@
 //! Light that goes many ways: rows 8, 41 and 42.
 
-use crate::held::{hold, hold_sized, rendered};
-use crate::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
+use super::held::{hold, hold_sized, rendered};
+use super::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
 
 fn ahead(location: Triple) -> Camera {
     Camera::Perspective {

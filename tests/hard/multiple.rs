@@ -1,6 +1,6 @@
 //! Surfaces whose functions have several roots in one: the gradient is 0 all over them.
 
-use crate::held::rendered;
+use super::held::rendered;
 
 const CUBED_PLANE: &str = "polynomial { 3, xyz(3,0,0): 1, xyz(0,3,0): 1, xyz(0,0,3): 1, xyz(2,1,0): 3,
     xyz(2,0,1): 3, xyz(1,2,0): 3, xyz(0,2,1): 3, xyz(1,0,2): 3, xyz(0,1,2): 3, xyz(1,1,1): 6, xyz(2,0,0): -1.5,

@@ -1,7 +1,7 @@
 //! One solid in the words of several shapes: what is left when one is taken from another is nothing, and
 //! merged they are one.
 
-use crate::held::rendered;
+use super::held::rendered;
 
 const PIXELS: (u32, u32) = (32, 24);
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::held::rendered;
+use super::held::rendered;
 
 const PIXELS: (u32, u32) = (41, 31);
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use lucarne::shape::Body;
 
-use crate::rows::{HEADER, ROWS};
+use super::rows::{HEADER, ROWS};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

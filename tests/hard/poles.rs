@@ -1,6 +1,6 @@
 //! Parametric surfaces where many u and v are one point, and where a ray only touches them.
 
-use crate::held::rendered;
+use super::held::rendered;
 
 /// A ball whose poles are on the y axis.
 const BALL: &str =

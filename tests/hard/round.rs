@@ -1,8 +1,8 @@
 //! Cylinders, cones, tori and quadrics, alone under a lamp: rows 3, 8, 22, 24, 25, 28 and 29.
 
-use crate::bodies::{Solid, View};
-use crate::scene::{Triple, ten};
-use crate::wide::{Wide, WideMap};
+use super::bodies::{Solid, View};
+use super::scene::{Triple, ten};
+use super::wide::{Wide, WideMap};
 
 fn triple([x, y, z]: Triple) -> String {
     format!("<{x:e}, {y:e}, {z:e}>")

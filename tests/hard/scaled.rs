@@ -8,8 +8,8 @@ use lucarne::picture::{Format, encode};
 use lucarne::plan::{Antialias, Frame, PlanOptions, Region, plan};
 use lucarne::trace::{TraceOptions, Unwatched, trace};
 
-use crate::held::{apart, compiled};
-use crate::things::{CAMERAS, SHAPES, THINGS};
+use super::held::{apart, compiled};
+use super::things::{CAMERAS, SHAPES, THINGS};
 
 const SIZE: (u32, u32) = (28, 21);
 

@@ -2,8 +2,8 @@
 //!
 //! The rays of the picture's middle column lie, but for rounding, in one plane with the edges.
 
+use super::held::rendered;
 use crate::dice::Dice;
-use crate::held::rendered;
 
 /// Triangles on both sides of edges that end on a line that the camera sees as its middle, near or far.
 fn strip(dice: &mut Dice, written: &str, moved: [f64; 3]) -> String {

@@ -1,8 +1,8 @@
 //! Things of all sizes, near and far: rows 1, 3, 7, 16, 46, 48 and 64.
 
-use crate::exact::Exact;
-use crate::held::{apart, changes_near, hold, rendered};
-use crate::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
+use super::exact::Exact;
+use super::held::{apart, changes_near, hold, rendered};
+use super::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
 
 const CLAY: Triple = [0.9, 0.5, 0.2];
 const SLATE: Triple = [0.3, 0.5, 0.8];

@@ -4,8 +4,8 @@
 //! is made of others is decided between its places: a part's crossings divide the line, and right before and
 //! right behind each place it is known what lies inside of what. Crossings that are one make one place.
 
-use crate::scene::{Object, Operation, Paint, Solid, Step, Triple};
-use crate::wide::{Wide, WideMap, WideVector};
+use super::scene::{Object, Operation, Paint, Solid, Step, Triple};
+use super::wide::{Wide, WideMap, WideVector};
 
 /// A solid where it stands.
 pub struct Thing<'a> {

@@ -1,6 +1,6 @@
 //! Solids that touch in a point at which a ray is aimed: what is seen there is what is seen around.
 
-use crate::held::rendered;
+use super::held::rendered;
 
 /// A first solid, and a second that touches it at the middle of the picture and is nearer all around.
 const PAIRS: &[[&str; 2]] = &[

@@ -1,7 +1,7 @@
 //! Isosurfaces of functions that count, go by steps, or ask a spline or a pattern: each is the solid that is written
 //! out beside it.
 
-use crate::held::rendered;
+use super::held::rendered;
 
 const BLOCKS: &str = "union {
     box { <-1.2, -1.2, -1.2>, <-1, 0, 1.2> } box { <-1, -1.2, -1.2>, <0, 0.5, 1.2> }

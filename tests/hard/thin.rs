@@ -2,7 +2,7 @@
 
 use lucarne::color::Rgb;
 
-use crate::held::rendered;
+use super::held::rendered;
 
 const CAMERA: &str = "#version 3.7; camera { location <2, 3, -6> look_at 0 angle 35 right x*4/3 }";
 

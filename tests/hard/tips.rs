@@ -2,7 +2,7 @@
 //!
 //! Every ray touches the surface at its start, and goes on inside, or outside.
 
-use crate::held::rendered;
+use super::held::rendered;
 
 const BALL: &str =
     "sphere { <0.05, 2, 0.03>, 0.25 pigment { rgb <0, 1, 0> } finish { emission 1 } }";

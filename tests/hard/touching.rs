@@ -1,6 +1,6 @@
 //! Solids that touch in a plane in which the camera looks: one of the two has the ray, and not both.
 
-use crate::held::rendered;
+use super::held::rendered;
 
 /// Solids below and above of y = 0, of the same width there.
 const PAIRS: &[[&str; 2]] = &[

@@ -10,8 +10,8 @@ use lucarne::math::{UnitVector, Vector};
 use lucarne::shape::{Chord, Ray, Shape, Sphere};
 use lucarne::world::{Object, World};
 
+use super::held::compiled;
 use crate::dice::{Dice, rays};
-use crate::held::compiled;
 
 /// A World of spheres.
 fn of_spheres(spheres: Vec<Sphere>) -> World {

@@ -1,7 +1,7 @@
 //! Solids under transformations: rows 50 and 51.
 
-use crate::held::hold;
-use crate::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, sphere, ten};
+use super::held::hold;
+use super::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, sphere, ten};
 
 fn shown(objects: Vec<Object>) -> Scene {
     let camera = Camera::LookAt { location: [2.0, 3.0, 7.0], look_at: [0.0; 3], angle: 35.0 };

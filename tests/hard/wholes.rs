@@ -3,7 +3,7 @@
 //! **In:** a scene of size 1, shown from above by parallel rays, at any size and turned by any angle.
 //! **Out:** no pixel but the one that is expected.
 
-use crate::held::rendered;
+use super::held::rendered;
 
 const PIXELS: u32 = 40;
 const SIZES: [i32; 5] = [-9, -3, 0, 4, 9];

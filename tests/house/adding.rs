@@ -6,7 +6,7 @@ use std::fs;
 use lucarne::diagnostic::Code;
 use lucarne::vocabulary::{Family, Word};
 
-use crate::{assert_none, root};
+use super::{assert_none, root};
 
 /// The page's parts, by their titles.
 fn sections(page: &str) -> Vec<(&str, &str)> {

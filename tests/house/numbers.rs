@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::{assert_none, files};
+use super::{assert_none, files};
 
 /// Numbers that look like an epsilon or a far limit, by file and by what stands on their line, and
 /// why each is neither: none is compared with a length of a scene. A reason is for one line.

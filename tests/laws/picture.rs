@@ -4,7 +4,7 @@
 
 use lucarne::plan::{Antialias, Region};
 
-use crate::text::{Shot, apart};
+use super::text::{Shot, apart};
 
 /// A scene of all shapes, some of them mirrors and some of glass, every length of it multiplied by
 /// `k`.

@@ -2,7 +2,7 @@
 
 use lucarne::world::World;
 
-use crate::text::compiled;
+use super::text::compiled;
 
 const FRAME: &str =
     "camera { location <0, 2, 8> look_at 0 angle 45 } light_source { <5, 8, 9>, rgb 1 }\n";

@@ -16,9 +16,9 @@ use lucarne::source::NoFiles;
 use lucarne::trace::{TraceOptions, Unwatched, trace};
 use lucarne::world::{Origins, World};
 
+use super::page::{Page, Source};
+use super::spent::assert_spent_as_the_page_says;
 use crate::dice::Dice;
-use crate::page::{Page, Source};
-use crate::spent::assert_spent_as_the_page_says;
 
 const TOLERANCE: f64 = 1e-9;
 

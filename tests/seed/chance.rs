@@ -5,8 +5,8 @@ use lucarne::math::Vector;
 use lucarne::math::transform::Step;
 use lucarne::scene::{LightKind, ObjectKind, Scene, Solid};
 
+use super::sketch::{Sketch, seed};
 use crate::dice::Dice;
-use crate::sketch::{Sketch, seed};
 
 impl Dice {
     fn vector(&mut self, low: f64, high: f64) -> Vector {

@@ -5,9 +5,9 @@ use lucarne::math::Vector;
 use lucarne::math::transform::Step;
 use lucarne::scene::{LightKind, ObjectKind, Solid};
 
-use crate::forms::{Faces, Form, Pair, Plane, Ray, Sphere, rotate};
-use crate::page::Page;
-use crate::sketch::{Sketch, seed};
+use super::forms::{Faces, Form, Pair, Plane, Ray, Sphere, rotate};
+use super::page::Page;
+use super::sketch::{Sketch, seed};
 
 fn v(x: f64, y: f64, z: f64) -> Vector {
     Vector::new(x, y, z)

@@ -7,9 +7,9 @@ use lucarne::scene::Scene;
 use lucarne::shape::Shape;
 use lucarne::world::World;
 
+use super::forms::{Faces, Form, Pair, Plane, Sphere};
+use super::page::Page;
 use crate::dice::Dice;
-use crate::forms::{Faces, Form, Pair, Plane, Sphere};
-use crate::page::Page;
 
 /// The canonical forms of a World, in the page's terms and in written order.
 fn forms(world: &World) -> Vec<Form> {

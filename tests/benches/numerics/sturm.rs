@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::wide::Wide;
+use super::wide::Wide;
 
 /// By Horner's rule; the coefficient of 1 comes first.
 fn value(polynomial: &[Wide], t: &Wide) -> Wide {

@@ -6,11 +6,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use programs::is_installed;
+use crate::programs::is_installed;
 
 mod examples;
 mod pictures;
-mod programs;
 mod proofs;
 mod silhouettes;
 mod syntax;

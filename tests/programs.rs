@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use image::RgbImage;
-use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageFloat, FlipImageRgb8, FlipPool, flip};
+
+use crate::flip;
 
 /// The mean of FLIP's errors up to which two pictures are the same.
 pub const SAME: f32 = 0.05;
@@ -64,13 +65,5 @@ pub fn theirs(scene: &Path, folder: &Path, [width, height]: Size) -> Result<RgbI
 
 /// The mean of FLIP's errors.
 pub fn mean_error(pictures: &[RgbImage; 2]) -> f32 {
-    FlipPool::from_image(&errors(pictures)).mean()
-}
-
-/// FLIP's errors, of pictures of one size.
-pub fn errors(pictures: &[RgbImage; 2]) -> FlipImageFloat {
-    let [ours, theirs] = pictures.each_ref().map(|picture| {
-        FlipImageRgb8::with_data(picture.width(), picture.height(), picture.as_raw())
-    });
-    flip(theirs, ours, DEFAULT_PIXELS_PER_DEGREE)
+    flip::mean(&flip::errors(pictures))
 }
