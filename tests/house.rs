@@ -8,7 +8,6 @@ use lucarne::diagnostic::Code;
 use lucarne::vocabulary::{Family, Role, Word};
 
 mod adding;
-mod numbers;
 
 /// Every room of `src/`, from the ground up, and the rooms it may use. A circle cannot be written.
 const ROOMS: &[(&str, &[&str])] = &[
@@ -516,4 +515,54 @@ fn every_built_word_has_an_example_among_the_scenes() {
         }
     }
     assert_none(faults);
+}
+
+/// What may round otherwise on another processor. A fused operation that is written out rounds alike
+/// on all, but is slow on some: only numbers of twice the digits are made so.
+const FUSED: &[&str] = &[
+    "mul_add",
+    "fma(",
+    "fmaf(",
+    "algebraic_",
+    "fadd_fast",
+    "fmul_fast",
+    "target_feature",
+    "target_arch",
+    "::arch::",
+];
+
+#[test]
+fn row_72_nothing_is_fused_nor_left_to_a_processor() {
+    let mut faults = Vec::new();
+    for (file, text) in files("src", &["rs"]) {
+        let code = code(&text);
+        let allowed = |word: &str| file == "math/double.rs" && word == "mul_add";
+        let fused = FUSED.iter().filter(|word| code.contains(*word) && !allowed(word));
+        faults.extend(fused.map(|word| format!("{file}: `{word}`")));
+    }
+    assert_none(faults);
+    assert!(code("let a = b.mul_add(c, d);").contains(FUSED[0]));
+}
+
+/// The case of a snapshot: what stands behind the `@` of its name, or else the name of its test.
+fn case_of(snapshot: &str) -> &str {
+    let name = snapshot.rsplit('/').next().unwrap_or(snapshot).trim_end_matches(".snap");
+    name.rsplit_once('@').or_else(|| name.rsplit_once("__")).map_or(name, |(_, case)| case)
+}
+
+#[test]
+fn every_snapshot_is_of_a_test() {
+    let is_case = |name: &str| root().join("tests/cases").join(name).exists();
+    let tests: String = files("src", &["rs"]).into_iter().map(|(_, text)| text).collect();
+    let snapshots = ["src", "tests"].map(|folder| files(folder, &["snap", "new"]));
+    let is_lone = |(file, _): &(String, String)| {
+        let case = case_of(file);
+        !is_case(case)
+            && !tests.contains(&format!("{case}:"))
+            && !tests.contains(&format!("fn {case}("))
+    };
+    let lone = snapshots.into_iter().flatten().filter(is_lone);
+    assert_none(lone.map(|(file, _)| format!("{file}: no test makes it")).collect());
+    assert_eq!(case_of("a/b__tests__some_case.snap"), "some_case");
+    assert_eq!(case_of("a/b__tests__each@some.scene.snap"), "some.scene");
 }

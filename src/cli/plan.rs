@@ -219,11 +219,7 @@ impl<'a> Report<'a> {
             root_tolerance: plan.root_tolerance,
             julia_iterations: plan.julia_iterations,
             kernel: plan.kernel.name(),
-            kernels_compiled: Kernel::ALL
-                .into_iter()
-                .filter(|kernel| kernel.is_compiled())
-                .map(Kernel::name)
-                .collect(),
+            kernels_compiled: Kernel::ALL.map(Kernel::name).to_vec(),
             effects,
             dropped: plan
                 .dropped

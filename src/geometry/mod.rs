@@ -32,7 +32,6 @@ pub use surface::{shading_normal, spread, surface};
 pub use work::Work;
 
 use crate::shape::body::Local;
-use crate::shape::compiled::compiled;
 use crate::shape::{
     Bounds, Box_, Crossing, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere, sphere,
 };
@@ -115,19 +114,6 @@ impl Solid {
         match self {
             Self::Sphere(_) | Self::Plane(_) | Self::Box(_) => true,
             Self::Ellipsoid(_) | Self::Placed(_) | Self::Whole(_) => false,
-        }
-    }
-
-    /// See [`compiled`](crate::shape::compiled).
-    #[inline(always)]
-    fn compiled(&self) {
-        match self {
-            Self::Sphere(_) => compiled!("sphere"),
-            Self::Plane(_) => compiled!("plane"),
-            Self::Box(_) => compiled!("box"),
-            Self::Ellipsoid(_) => compiled!("ellipsoid"),
-            Self::Placed(_) => compiled!("body"),
-            Self::Whole(_) => compiled!("csg"),
         }
     }
 }
@@ -325,7 +311,6 @@ impl Geometry {
         ray: &Ray,
         limit: f64,
     ) -> Option<(Crossing, bool)> {
-        entry.solid.compiled();
         if KINDS == PLAIN && !entry.solid.is_plain() {
             not_plain();
         }

@@ -112,7 +112,6 @@ impl Geometry {
     #[inline(always)]
     fn met(&self, entry: &Entry, rounded: &Rounded, limit: f64) -> Option<(Crossing, bool)> {
         let zero = Narrow::from_vector(Vector::ZERO);
-        entry.solid.compiled();
         let chord = match &entry.solid {
             Solid::Sphere(ball) => {
                 sphere::chord(zero, ball.radius as f32, &rounded.from(ball.centre))?

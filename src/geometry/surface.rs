@@ -13,7 +13,6 @@ use crate::world::World;
 pub fn surface<const KINDS: bool>(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
     let Hit { object, t, leaving, .. } = *hit;
     let shape = world.objects[object as usize].shape;
-    shape.compiled();
     if KINDS == PLAIN && !shape.is_plain() {
         not_plain();
     }
@@ -37,7 +36,6 @@ pub fn shading_normal<const KINDS: bool>(
         return None;
     }
     let shape = world.objects[hit.object as usize].shape;
-    shape.compiled();
     match shape {
         Shape::Placed(i) => world.placed[i as usize].shading_normal(surface),
         Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) | Shape::Ellipsoid(_) => None,
@@ -49,7 +47,6 @@ pub fn shading_normal<const KINDS: bool>(
 #[inline(never)]
 pub fn spread(world: &World, ray: &Ray, hit: &Hit, surface: &SurfacePoint) -> Vector {
     let shape = world.objects[hit.object as usize].shape;
-    shape.compiled();
     let (chord, is_flat) = match shape {
         Shape::Sphere(i) => (world.spheres[i as usize].chord(ray), false),
         Shape::Plane(i) => (world.planes[i as usize].chord(ray), true),

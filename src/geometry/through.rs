@@ -124,7 +124,6 @@ impl Geometry {
         tally: &mut impl Tally,
     ) -> Seen {
         tally.root_solve(|| self.price(entry));
-        entry.solid.compiled();
         let chord = match &entry.solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
             Solid::Plane(plane) => plane.chord(ray),

@@ -245,7 +245,6 @@ impl Geometry {
     /// Where the ray's line crosses the surface of a solid; at −∞ where it comes from inside.
     pub(super) fn crossings(&self, solid: &Solid, ray: &Ray) -> Crossings {
         if let Solid::Placed(i) = solid {
-            solid.compiled();
             let placed = &self.placed[*i as usize];
             let mut all = placed.crossings_of_part(ray);
             let inside = match all.first() {
@@ -264,7 +263,6 @@ impl Geometry {
     /// Where the ray's line enters and leaves what is no body.
     #[inline(always)]
     pub(super) fn chord(&self, solid: &Solid, ray: &Ray) -> Option<Chord> {
-        solid.compiled();
         match solid {
             Solid::Sphere(sphere) => sphere.chord(ray),
             Solid::Plane(plane) => plane.chord_of_part(ray),

@@ -39,35 +39,6 @@ impl Kernel {
             (true, true, true) => "shadows+secondary+bodies",
         }
     }
-
-    /// Whether this program has it. All are there but in a build for measurements, with
-    /// `--cfg lucarne_only_kernel="shadows"` and the like, which has that one alone.
-    pub const fn is_compiled(self) -> bool {
-        match (self.shadows, self.secondary, self.bodies) {
-            _ if !only_one() => true,
-            (false, false, false) => cfg!(lucarne_only_kernel = "bare"),
-            (true, false, false) => cfg!(lucarne_only_kernel = "shadows"),
-            (false, true, false) => cfg!(lucarne_only_kernel = "secondary"),
-            (true, true, false) => cfg!(lucarne_only_kernel = "shadows+secondary"),
-            (false, false, true) => cfg!(lucarne_only_kernel = "bodies"),
-            (true, false, true) => cfg!(lucarne_only_kernel = "shadows+bodies"),
-            (false, true, true) => cfg!(lucarne_only_kernel = "secondary+bodies"),
-            (true, true, true) => cfg!(lucarne_only_kernel = "shadows+secondary+bodies"),
-        }
-    }
-}
-
-const fn only_one() -> bool {
-    cfg!(any(
-        lucarne_only_kernel = "bare",
-        lucarne_only_kernel = "shadows",
-        lucarne_only_kernel = "secondary",
-        lucarne_only_kernel = "shadows+secondary",
-        lucarne_only_kernel = "bodies",
-        lucarne_only_kernel = "shadows+bodies",
-        lucarne_only_kernel = "secondary+bodies",
-        lucarne_only_kernel = "shadows+secondary+bodies"
-    ))
 }
 
 #[cfg(test)]
@@ -75,11 +46,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_combination_is_a_kernel_of_its_own_and_is_compiled() {
+    fn every_combination_is_a_kernel_of_its_own() {
         assert!(Kernel::ALL.len() <= 16, "so many at most");
         for (i, kernel) in Kernel::ALL.iter().enumerate() {
             assert_eq!(Kernel::ALL.iter().position(|other| other.name() == kernel.name()), Some(i));
-            assert!(kernel.is_compiled());
         }
     }
 }

@@ -9,7 +9,6 @@ use smallvec::SmallVec;
 use super::algebraic::Algebraic;
 use super::bicubic_patch::BicubicPatch;
 use super::blob::Blob;
-use super::compiled::compiled;
 use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
@@ -240,18 +239,10 @@ macro_rules! bodies {
                 }
             }
 
-            /// See [`compiled`](super::compiled).
-            #[inline(always)]
-            fn compiled(&self) {
-                match self {
-                    $(Self::$kind(_) => compiled!($word),)*
-                }
-            }
         }
 
         impl Local for Body {
             fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-                self.compiled();
                 match self {
                     $(Self::$kind(body) => body.crossings(ray, found),)*
                 }
@@ -263,21 +254,18 @@ macro_rules! bodies {
                 between: (f64, f64),
                 found: &mut Crossings,
             ) {
-                self.compiled();
                 match self {
                     $(Self::$kind(body) => body.first_crossings(ray, between, found),)*
                 }
             }
 
             fn part_at(&self, ray: &LocalRay, s: f64, leaving: bool) -> Option<u32> {
-                self.compiled();
                 match self {
                     $(Self::$kind(body) => body.part_at(ray, s, leaving),)*
                 }
             }
 
             fn height(&self, part: u32, point: Vector) -> Height {
-                self.compiled();
                 match self {
                     $(Self::$kind(body) => body.height(part, point),)*
                 }
@@ -338,7 +326,6 @@ macro_rules! bodies {
             }
 
             fn shading_normal(&self, part: u32, point: Vector) -> Option<Vector> {
-                self.compiled();
                 match self {
                     $(Self::$kind(body) => body.shading_normal(part, point),)*
                 }

@@ -9,7 +9,6 @@ pub mod blob;
 pub mod body;
 mod bounds;
 pub mod box_;
-pub(crate) mod compiled;
 pub mod cone;
 pub mod csg;
 pub mod curve;
@@ -67,7 +66,6 @@ pub use superellipsoid::Superellipsoid;
 pub use text::Text;
 pub use torus::Torus;
 
-use self::compiled::compiled;
 use crate::math::{Real, Vector, Vector3};
 
 /// Names one shape of the World: its kind, and its place in that kind's list.
@@ -87,18 +85,6 @@ impl Shape {
         match self {
             Self::Sphere(_) | Self::Plane(_) | Self::Box(_) => true,
             Self::Ellipsoid(_) | Self::Placed(_) => false,
-        }
-    }
-
-    /// See [`compiled`].
-    #[inline(always)]
-    pub(crate) fn compiled(self) {
-        match self {
-            Self::Sphere(_) => compiled!("sphere"),
-            Self::Plane(_) => compiled!("plane"),
-            Self::Box(_) => compiled!("box"),
-            Self::Ellipsoid(_) => compiled!("ellipsoid"),
-            Self::Placed(_) => compiled!("body"),
         }
     }
 }

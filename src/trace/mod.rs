@@ -152,8 +152,6 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool, const KINDS: bool, const CO
     plan: &Plan,
     crew: &Crew,
 ) -> Traced {
-    let kernel = plan.kernel;
-    assert!(kernel.is_compiled(), "built for measuring another kernel than {}", kernel.name());
     let Frame { width, height, .. } = plan.frame;
     let lens = Lens::new(&tracer.world.camera, width, height);
     // Inlined into each pass: as a closure of its own it would be called for each pixel.

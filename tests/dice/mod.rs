@@ -64,8 +64,8 @@ impl Dice {
     }
 }
 
-/// How many rays a property is tried on: 100,000, or so many times as many as `LUCARNE_LONG` says
-/// (100 for ten millions).
+/// How many rays a property is tried on: 10,000, or so many times as many as `LUCARNE_LONG` says
+/// (1000 for ten millions).
 pub fn rays() -> usize {
-    100_000 * std::env::var("LUCARNE_LONG").ok().and_then(|n| n.parse().ok()).unwrap_or(1)
+    10_000 * std::env::var("LUCARNE_LONG").ok().and_then(|n| n.parse().ok()).unwrap_or(1)
 }

@@ -44,10 +44,10 @@ impl Random {
     }
 }
 
-/// How many rays, places or maps a property is tried on: 100,000, and ten millions in
-/// `LUCARNE_LONG=100 cargo test --release`.
+/// How many rays, places or maps a property is tried on: 10,000, and ten millions in
+/// `LUCARNE_LONG=1000 cargo test --release`.
 pub(crate) fn tries() -> usize {
-    100_000 * long()
+    10_000 * long()
 }
 
 /// How many in each of so many worlds.
