@@ -84,7 +84,8 @@ fn noise_is_continuous_across_cells() {
 
 #[test]
 fn noise_fills_its_range_around_its_middle() {
-    let count = tries();
+    // The greatest of fewer is too often smaller.
+    let count = 10 * tries();
     let mut random = Random(3);
     let points: Vec<Vector> = (0..count).map(|_| random.point(2000.0)).collect();
     for (generator, spread) in GENERATORS.into_iter().zip([0.24, 0.12, 0.15]) {
