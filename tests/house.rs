@@ -553,15 +553,14 @@ fn case_of(snapshot: &str) -> &str {
 #[test]
 fn every_snapshot_is_of_a_test() {
     let is_case = |name: &str| root().join("tests/cases").join(name).exists();
-    let tests: String = files("src", &["rs"]).into_iter().map(|(_, text)| text).collect();
-    let snapshots = ["src", "tests"].map(|folder| files(folder, &["snap", "new"]));
-    let is_lone = |(file, _): &(String, String)| {
-        let case = case_of(file);
-        !is_case(case)
-            && !tests.contains(&format!("{case}:"))
-            && !tests.contains(&format!("fn {case}("))
+    let is_named = |(file, _): &(String, String)| {
+        let tests = root().join("src").join(file.split("/snapshots/").next().unwrap_or(file));
+        fs::read_to_string(tests.join("tests.rs")).is_ok_and(|text| text.contains(case_of(file)))
     };
-    let lone = snapshots.into_iter().flatten().filter(is_lone);
+    let of_src = files("src", &["snap", "new"]).into_iter().filter(|one| !is_named(one));
+    let of_tests =
+        files("tests", &["snap", "new"]).into_iter().filter(|(f, _)| !is_case(case_of(f)));
+    let lone = of_src.chain(of_tests);
     assert_none(lone.map(|(file, _)| format!("{file}: no test makes it")).collect());
     assert_eq!(case_of("a/b__tests__some_case.snap"), "some_case");
     assert_eq!(case_of("a/b__tests__each@some.scene.snap"), "some.scene");
