@@ -18,7 +18,7 @@ pub mod text;
 
 use std::sync::Arc;
 
-use crate::color::{Color, Gamma, Rgb};
+use crate::color::{Clearness, Color, Gamma, Rgb};
 use crate::math::Vector;
 use crate::math::transform::Step;
 pub use crate::math::transform::TransformId;
@@ -213,6 +213,18 @@ pub enum PigmentKind {
     Faces(Arc<[Color]>),
 }
 
+impl PigmentKind {
+    /// Its colours, without their places.
+    pub fn colors(&self) -> impl Iterator<Item = Color> {
+        let (some, map) = match self {
+            Self::Color(color) => (std::slice::from_ref(color), &[][..]),
+            Self::Patterned { map, .. } => (&[][..], map.0.as_slice()),
+            Self::Faces(colors) => (&colors[..], &[][..]),
+        };
+        some.iter().copied().chain(map.iter().map(|(_, color)| *color))
+    }
+}
+
 /// Colours over pattern values; entries sorted by value, at least one. Between two entries the
 /// colour is interpolated, outside it is that of the nearest.
 #[derive(Debug, Clone, PartialEq)]
@@ -338,6 +350,8 @@ pub struct Settings {
     pub ambient_light: Rgb,
     /// What turns the scene's colours into linear light.
     pub assumed_gamma: Gamma,
+    /// How clear colours are, the background's too.
+    pub clearness: Clearness,
     pub max_trace_level: u32,
     pub adc_bailout: f64,
     /// Where `max_trace_level` was written.
@@ -349,6 +363,7 @@ impl Default for Settings {
         Self {
             ambient_light: Rgb::WHITE,
             assumed_gamma: Gamma::LINEAR,
+            clearness: Clearness::Current,
             max_trace_level: 5,
             adc_bailout: 1.0 / 255.0,
             max_trace_level_site: None,

@@ -17,7 +17,7 @@ const SORTED_SINCE: f64 = 3.5;
 impl Evaluator<'_> {
     pub(super) fn camera(&mut self, token: &Token) -> Outcome<Value> {
         let site = token.here.site(token.span);
-        let is_in_order = self.options.dialect == Dialect::Pov && self.version < SORTED_SINCE;
+        let is_in_order = self.options.dialect == Dialect::Pov && self.is_before(SORTED_SINCE);
         let (kind, items) = (CameraKind::Perspective, Vec::new());
         let mut camera = Camera { kind, items, is_in_order, site };
         let outer = self.poison.take();
