@@ -372,7 +372,7 @@ impl Default for Settings {
 }
 
 /// The camera's words in written order, without the defaults. As in POV-Ray 3.7 (measured) the order
-/// only matters among equal words, where the last counts, and among transforms.
+/// only matters among equal words, where the last counts, and among transforms, unless `is_in_order`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     pub kind: CameraKind,
@@ -380,6 +380,19 @@ pub struct Camera {
     /// Each word changes what those before it came to, as in scenes for POV-Ray 3.1 and older.
     pub is_in_order: bool,
     pub site: Site,
+}
+
+impl Camera {
+    /// Whether its words in written order may come to another camera than the same words sorted.
+    pub fn order_matters(&self) -> bool {
+        let step = |item: &CameraItem| match item.kind {
+            CameraItemKind::Angle(_) | CameraItemKind::LookAt(_) => 1,
+            CameraItemKind::Transform(_) => 2,
+            _ => 0,
+        };
+        let is_sorted = self.items.is_sorted_by_key(step);
+        self.is_in_order && !(is_sorted && self.kind == CameraKind::Perspective)
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -411,4 +424,7 @@ pub enum CameraItemKind {
         y: f64,
     },
     Transform(TransformId),
+    /// Where a camera whose words act in order becomes orthographic: it goes on to see what it would see
+    /// there, at `look_at`.
+    Orthographic,
 }

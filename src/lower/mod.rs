@@ -72,6 +72,7 @@ pub fn lower(
     let mut lowering = Lowering {
         is_sound,
         is_blind: false,
+        sees_nothing: false,
         world: World::default(),
         origins: Origins::default(),
         reporter: Reporter::new(&scene, diagnostics),
@@ -96,6 +97,9 @@ pub fn lower(
     lowering.camera();
     lowering.sky();
     lowering.objects();
+    if lowering.sees_nothing {
+        lowering.world.objects.iter_mut().for_each(|object| object.in_image = false);
+    }
     lowering.clearness();
     lowering.unused();
     lowering.near_singular();
@@ -116,6 +120,8 @@ struct Lowering<'s, 'd> {
     is_sound: bool,
     /// The camera could not be built.
     is_blind: bool,
+    /// The camera's rays meet no object.
+    sees_nothing: bool,
     world: World,
     origins: Origins,
     reporter: Reporter<'s, 'd>,

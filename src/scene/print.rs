@@ -92,6 +92,7 @@ impl Printer<'_> {
                     CameraItemKind::Direction(v) => writeln!(out, "  direction {}", vector(v))?,
                     CameraItemKind::Angle(degrees) => writeln!(out, "  angle {degrees}")?,
                     CameraItemKind::Shift { x, y } => writeln!(out, "  shift <{x}, {y}>")?,
+                    CameraItemKind::Orthographic => writeln!(out, "  orthographic, by `look_at`")?,
                     CameraItemKind::Transform(id) => self.transform(out, id, "  ")?,
                 }
             }

@@ -3,7 +3,7 @@
 use crate::color::{Clearness, Color, Gamma};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::{Evaluator, Unit};
-use crate::scene::Dialect;
+use crate::scene::{Camera, Dialect};
 use crate::source::Span;
 use crate::syntax::ast::{Ast, DirectiveKind, ExpressionKind, ItemKind};
 use crate::vocabulary::{Word, is_standard_source};
@@ -60,6 +60,7 @@ impl Evaluator<'_> {
         let filters = |color: Color| color.filter != 0.0;
         self.scene.settings.clearness == Clearness::Old
             && (self.scene.background.as_ref().is_some_and(|back| back.color.transmit != 0.0)
+                || self.scene.cameras.last().is_some_and(Camera::order_matters)
                 || self.scene.pigments.iter().any(|pigment| pigment.kind.colors().any(filters)))
     }
 
