@@ -18,7 +18,7 @@ pub mod text;
 
 use std::sync::Arc;
 
-use crate::color::{Color, Gamma, Rgb};
+use crate::color::{Clearness, Color, Gamma, Rgb};
 use crate::math::Vector;
 use crate::math::transform::Step;
 pub use crate::math::transform::TransformId;
@@ -213,6 +213,18 @@ pub enum PigmentKind {
     Faces(Arc<[Color]>),
 }
 
+impl PigmentKind {
+    /// Its colours, without their places.
+    pub fn colors(&self) -> impl Iterator<Item = Color> {
+        let (some, map) = match self {
+            Self::Color(color) => (std::slice::from_ref(color), &[][..]),
+            Self::Patterned { map, .. } => (&[][..], map.0.as_slice()),
+            Self::Faces(colors) => (&colors[..], &[][..]),
+        };
+        some.iter().copied().chain(map.iter().map(|(_, color)| *color))
+    }
+}
+
 /// Colours over pattern values; entries sorted by value, at least one. Between two entries the
 /// colour is interpolated, outside it is that of the nearest.
 #[derive(Debug, Clone, PartialEq)]
@@ -340,6 +352,8 @@ pub struct Settings {
     pub ambient_light: Rgb,
     /// What turns the scene's colours into linear light.
     pub assumed_gamma: Gamma,
+    /// How clear colours are, the background's too.
+    pub clearness: Clearness,
     pub max_trace_level: u32,
     pub adc_bailout: f64,
     /// Where `max_trace_level` was written.
@@ -351,6 +365,7 @@ impl Default for Settings {
         Self {
             ambient_light: Rgb::WHITE,
             assumed_gamma: Gamma::LINEAR,
+            clearness: Clearness::Current,
             max_trace_level: 5,
             adc_bailout: 1.0 / 255.0,
             max_trace_level_site: None,
@@ -359,7 +374,7 @@ impl Default for Settings {
 }
 
 /// The camera's words in written order, without the defaults. As in POV-Ray 3.7 (measured) the order
-/// only matters among equal words, where the last counts, and among transforms.
+/// only matters among equal words, where the last counts, and among transforms, unless `is_in_order`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     pub kind: CameraKind,
@@ -367,6 +382,19 @@ pub struct Camera {
     /// Each word changes what those before it came to, as in scenes for POV-Ray 3.1 and older.
     pub is_in_order: bool,
     pub site: Site,
+}
+
+impl Camera {
+    /// Whether its words in written order may come to another camera than the same words sorted.
+    pub fn order_matters(&self) -> bool {
+        let step = |item: &CameraItem| match item.kind {
+            CameraItemKind::Angle(_) | CameraItemKind::LookAt(_) => 1,
+            CameraItemKind::Transform(_) => 2,
+            _ => 0,
+        };
+        let is_sorted = self.items.is_sorted_by_key(step);
+        self.is_in_order && !(is_sorted && self.kind == CameraKind::Perspective)
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -398,4 +426,7 @@ pub enum CameraItemKind {
         y: f64,
     },
     Transform(TransformId),
+    /// Where a camera whose words act in order becomes orthographic: it goes on to see what it would see
+    /// there, at `look_at`.
+    Orthographic,
 }

@@ -10,7 +10,7 @@ mod solid;
 
 use std::sync::Arc;
 
-use crate::color::{Color, Gamma, Rgb};
+use crate::color::{Clearness, Color, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};
 use crate::pattern::Pattern;
@@ -265,7 +265,7 @@ impl Pigment {
 /// The radiance toward the viewer is, with C the pigment's colour, f and t its filter and
 /// transmit, and the sum over the lights that are visible:
 /// `(1 − f − t)·C·(glow + Σ I·diffuse·(N·L)^brilliance) + Σ I·Σ lobes + reflection +
-/// (f·C + t)·what is seen through it`.
+/// (f·C + t)·what is seen through it`; see [`Clearness`] for the first factor in old scenes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finish {
     /// Light without a light source: `ambient · ambient_light + emission`, or the seed's kd·Ia.
@@ -409,10 +409,17 @@ pub struct Settings {
     pub adc_bailout: f64,
     /// What turns the film's colours into linear light.
     pub assumed_gamma: Gamma,
+    /// `Old` only where that changes the picture.
+    pub clearness: Clearness,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { max_trace_level: 5, adc_bailout: 1.0 / 255.0, assumed_gamma: Gamma::LINEAR }
+        Self {
+            max_trace_level: 5,
+            adc_bailout: 1.0 / 255.0,
+            assumed_gamma: Gamma::LINEAR,
+            clearness: Clearness::Current,
+        }
     }
 }

@@ -360,7 +360,7 @@ impl<'a> Evaluator<'a> {
         let here = Here { unit, expansion: ExpansionId::MAIN };
         self.inside(&here, root, Self::scene_items);
         self.scene.skipped = self.skipped(&here.unit.ast);
-        self.assume_old_gamma();
+        self.note_old_version();
         self.warn_of_unread(&here.unit);
         if self.run_since_fault > MOST_RUN_SINCE_FAULT {
             self.diagnostics.help_first_error(format!(

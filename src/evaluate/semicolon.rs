@@ -46,7 +46,7 @@ impl Evaluator<'_> {
             self.peek_on().map(|token| &token.kind),
             None | Some(TokenKind::Word(_) | TokenKind::Block(_))
         );
-        let needed = self.options.dialect == Dialect::Pov && self.version >= SINCE;
+        let needed = self.options.dialect == Dialect::Pov && !self.is_before(SINCE);
         // The last word of a macro stands elsewhere.
         let is_here = |last: &Site| last.span.file == head.file && last.span.start >= head.start;
         let wanted = numeric && ends && needed;
@@ -113,7 +113,7 @@ impl Evaluator<'_> {
         let span = here.unit.expression(version).span;
         let behind = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
         let ends = behind.trim_start_matches([' ', '\t']).starts_with(['\n', '\r']);
-        if !ends || self.version < SINCE || !self.in_main() || self.options.dialect != Dialect::Pov
+        if !ends || self.is_before(SINCE) || !self.in_main() || self.options.dialect != Dialect::Pov
         {
             return;
         }

@@ -2,7 +2,8 @@
 //!
 //! As in POV-Ray 3.7 (measured) the order of the words does not matter and the last of a kind
 //! counts: `angle` sets the length of `direction` from that of `right` (but for `angle 0`), then
-//! `look_at` turns the three vectors, then the transforms move everything, in order.
+//! `look_at` turns the three vectors, then the transforms move everything, in order. In scenes for
+//! version 3.1 and older each word acts at once on what those before it came to.
 //!
 //! **Invariant:** forward, right and up span space, or there is a message.
 //! **Source:** POV-Ray manual, section 3.4.2 "Camera"; formulas in `docs/world.md`.
@@ -64,7 +65,7 @@ impl Lowering<'_, '_> {
     fn spend_camera(&mut self, camera: &scene::Camera) -> Result<Camera, (Fault, Site)> {
         let dialect = self.scene.dialect;
         let mut words = match camera.is_in_order {
-            true => Words::in_order(camera, dialect)?,
+            true => self.words_in_order(camera)?,
             false => Words::sort(camera, dialect),
         };
         let mut map = Affine::IDENTITY;
@@ -74,12 +75,10 @@ impl Lowering<'_, '_> {
         words.check(camera.site, dialect)?;
         if !camera.is_in_order {
             words.widen()?;
-        }
-        if camera.kind == CameraKind::Orthographic {
-            words.fit_to_look_at(dialect);
-        }
-        if !camera.is_in_order {
-            words.turn(dialect, camera.site)?;
+            if camera.kind == CameraKind::Orthographic && !words.is_sized() {
+                words.fit_to_look_at(dialect);
+            }
+            words.turn(dialect, camera)?;
         }
         let location = map.point(words.location);
         let [forward, right, up] =
@@ -109,29 +108,40 @@ impl Lowering<'_, '_> {
         let [location, forward, right, up] = [location, forward, right, up].map(|v| v.round());
         Ok(Camera { kind, location, forward, right, up })
     }
-}
 
-impl Words {
     /// As POV-Ray 3.7 reads a scene of version 3.1 or older (measured): each word changes what those before it
-    /// came to, so that a `direction` behind `look_at` is not turned.
-    fn in_order(camera: &scene::Camera, dialect: Dialect) -> Result<Self, (Fault, Site)> {
-        let mut words = Self::unwritten(dialect);
+    /// came to, so that a `direction` behind `look_at` is not turned, nor a `location` behind `translate` moved. `angle 0`
+    /// makes `direction` endless: nothing is met along it.
+    fn words_in_order(&mut self, camera: &scene::Camera) -> Result<Words, (Fault, Site)> {
+        let dialect = self.scene.dialect;
+        let is_perspective = camera.kind == CameraKind::Perspective;
+        let mut words = Words::unwritten(dialect);
         for item in &camera.items {
-            if let CameraItemKind::Location(_) = item.kind {
-                words.take(item);
+            if let CameraItemKind::Transform(id) = item.kind {
+                words.go_through(&self.transforms.get(id).map_err(|fault| (fault, item.site))?);
+                continue;
             }
-        }
-        for item in &camera.items {
             words.take(item);
             match item.kind {
+                CameraItemKind::Angle(0.0) => self.sees_nothing |= is_perspective,
                 CameraItemKind::Angle(_) => words.widen()?,
-                CameraItemKind::LookAt(_) => words.turn(dialect, camera.site)?,
+                CameraItemKind::Direction(_) => self.sees_nothing = false,
+                CameraItemKind::LookAt(_) => {
+                    words.fill();
+                    words.turn(dialect, camera)?;
+                }
+                CameraItemKind::Orthographic => {
+                    words.fill();
+                    words.fit_to_look_at(dialect);
+                }
                 _ => {}
             }
         }
         Ok(words)
     }
+}
 
+impl Words {
     fn sort(camera: &scene::Camera, dialect: Dialect) -> Self {
         let mut words = Self::unwritten(dialect);
         camera.items.iter().for_each(|item| words.take(item));
@@ -168,6 +178,15 @@ impl Words {
             CameraItemKind::Angle(degrees) => self.angle = Some((degrees, item.site)),
             CameraItemKind::Shift { x, y } => self.shift = (x, y),
             CameraItemKind::Transform(id) => self.transforms.push((id, item.site)),
+            CameraItemKind::Orthographic => {}
+        }
+    }
+
+    /// Moves the camera where it has come to; where it looked before does not matter.
+    fn go_through(&mut self, map: &Affine) {
+        self.location = map.point(self.location);
+        for word in [&mut self.direction, &mut self.right, &mut self.up] {
+            word.vector = map.direction(word.vector);
         }
     }
 
@@ -219,14 +238,15 @@ impl Words {
         Ok(())
     }
 
+    /// Whether it is written how much an orthographic camera sees.
+    fn is_sized(&self) -> bool {
+        (self.right.site.is_some() || self.up.site.is_some()) && self.angle.is_none()
+    }
+
     /// An orthographic camera with `angle`, or with neither `right` nor `up`, sees at `look_at` what
     /// a perspective one would see there. `look_at` is then by default one default direction from
     /// the origin, wherever the camera stands.
     fn fit_to_look_at(&mut self, dialect: Dialect) {
-        let sized = self.right.site.is_some() || self.up.site.is_some();
-        if sized && self.angle.is_none() {
-            return;
-        }
         let target = self.look_at.map_or_else(|| exact(defaults(dialect).0), |(v, _)| v);
         let factor = (target - self.location).length() / self.direction.vector.length();
         self.right.vector = self.right.vector * factor;
@@ -235,15 +255,21 @@ impl Words {
 
     /// `look_at`: turns the three vectors, keeping their lengths and their handedness, so that `sky`
     /// stands upright in the picture. Where the camera looks along `sky`, it keeps its `right`.
-    fn turn(&mut self, dialect: Dialect, camera: Site) -> Result<(), (Fault, Site)> {
+    fn turn(&mut self, dialect: Dialect, camera: &scene::Camera) -> Result<(), (Fault, Site)> {
         let Some((target, site)) = self.look_at else { return Ok(()) };
         let Some(forward) = (target - self.location).normalized() else {
+            if !self.placed && camera.is_in_order {
+                let message =
+                    "this camera looks at <0, 0, 0>, where it stands before its `location`";
+                let label = "in a scene for this version it belongs behind `location`";
+                return Err((degenerate(message, label), site));
+            }
             if !self.placed {
                 let message =
                     "this camera has no `location`, and stands where it looks: at <0, 0, 0>";
                 return Err((
                     degenerate(message, "expected `location <0, 1, -5>`, or the like"),
-                    camera,
+                    camera.site,
                 ));
             }
             let fault = degenerate(

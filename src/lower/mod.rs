@@ -35,13 +35,13 @@ mod view;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-use crate::color::Color;
+use crate::color::{Clearness, Color};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::scene::mesh::Triangles;
 use crate::scene::{Dialect, ObjectId, Scene, TextureId, TransformId, Unused};
 use crate::shape::Body;
 use crate::source::{Expansions, Site, Span};
-use crate::world::{Dropped, NearSingular, Origins, Settings, World};
+use crate::world::{Dropped, NearSingular, Origins, Pigment, Settings, World};
 
 /// What the caller sets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,6 +72,7 @@ pub fn lower(
     let mut lowering = Lowering {
         is_sound,
         is_blind: false,
+        sees_nothing: false,
         world: World::default(),
         origins: Origins::default(),
         reporter: Reporter::new(&scene, diagnostics),
@@ -96,6 +97,10 @@ pub fn lower(
     lowering.camera();
     lowering.sky();
     lowering.objects();
+    if lowering.sees_nothing {
+        lowering.world.objects.iter_mut().for_each(|object| object.in_image = false);
+    }
+    lowering.clearness();
     lowering.unused();
     lowering.near_singular();
     lowering.coinciding();
@@ -115,6 +120,8 @@ struct Lowering<'s, 'd> {
     is_sound: bool,
     /// The camera could not be built.
     is_blind: bool,
+    /// The camera's rays meet no object.
+    sees_nothing: bool,
     world: World,
     origins: Origins,
     reporter: Reporter<'s, 'd>,
@@ -199,13 +206,31 @@ impl Lowering<'_, '_> {
             max_trace_level: settings.max_trace_level.max(1),
             adc_bailout: settings.adc_bailout,
             assumed_gamma: settings.assumed_gamma,
+            clearness: Clearness::Current,
         };
         self.origins.max_trace_level = settings.max_trace_level_site;
         if let Some(background) = &self.scene.background {
             let Color { rgb, transmit, .. } = background.color;
-            let rgb = (rgb * (1.0 - transmit)).bounded();
+            let rgb = match settings.clearness {
+                Clearness::Current => rgb * (1.0 - transmit),
+                Clearness::Old => rgb,
+            };
+            let rgb = rgb.bounded();
             let rgb = rgb.is_finite().then_some(rgb).ok_or(Fault::not_finite("the background"));
             self.world.background = self.reporter.made(rgb, background.site).unwrap_or_default();
+        }
+    }
+
+    /// Clear colours are those of old versions only where a colour has a `filter` to tell the two kinds
+    /// apart, or one part of the sky is seen through another.
+    fn clearness(&mut self) {
+        let world = &self.world;
+        let filters = world.materials.iter().flat_map(|material| material.pigment.colors());
+        let sky = world.sky.iter().flat_map(|sky| sky.pigments.iter().skip(1));
+        if filters.into_iter().any(|color| color.filter != 0.0)
+            || sky.into_iter().any(Pigment::is_clear)
+        {
+            self.world.settings.clearness = self.scene.settings.clearness;
         }
     }
 }

@@ -10,6 +10,7 @@ use super::{
     Beam, CameraItemKind, CameraKind, Fade, Finish, LightKind, LightSource, Modifier, ModifierKind,
     ObjectId, ObjectKind, PigmentId, PigmentKind, Scene, TextureId, TransformId,
 };
+use crate::color::Clearness;
 use crate::math::transform::Step;
 use crate::math::vector::written as vector;
 use crate::pattern::Pattern;
@@ -42,6 +43,9 @@ impl Printer<'_> {
         writeln!(out, "global_settings")?;
         writeln!(out, "  ambient_light {}", settings.ambient_light)?;
         writeln!(out, "  assumed_gamma {}", settings.assumed_gamma)?;
+        if settings.clearness == Clearness::Old {
+            writeln!(out, "  clear colours of versions below 3.7")?;
+        }
         writeln!(out, "  max_trace_level {}", settings.max_trace_level)?;
         writeln!(out, "  adc_bailout {}", settings.adc_bailout)?;
         self.cameras(out)?;
@@ -88,6 +92,7 @@ impl Printer<'_> {
                     CameraItemKind::Direction(v) => writeln!(out, "  direction {}", vector(v))?,
                     CameraItemKind::Angle(degrees) => writeln!(out, "  angle {degrees}")?,
                     CameraItemKind::Shift { x, y } => writeln!(out, "  shift <{x}, {y}>")?,
+                    CameraItemKind::Orthographic => writeln!(out, "  orthographic, by `look_at`")?,
                     CameraItemKind::Transform(id) => self.transform(out, id, "  ")?,
                 }
             }

@@ -235,7 +235,7 @@ impl<'a> Tracer<'a> {
         let place = Place {
             finish,
             color: paint.rgb,
-            body: paint.body(),
+            body: paint.body(self.world.settings.clearness),
             point: surface.point,
             origin,
             normal,

@@ -1,7 +1,7 @@
 //! What a ray sees that leaves the scene.
 
 use super::sharpness::{ROUNDED, Sharpness};
-use crate::color::Rgb;
+use crate::color::{Clearness, Color, Rgb};
 use crate::math::Vector;
 use crate::world::World;
 use crate::world::pigment::at;
@@ -10,12 +10,33 @@ use crate::world::pigment::at;
 /// shows its colour where it is opaque, and what lies below untinted through its `transmit` and
 /// tinted through its `filter`.
 ///
+/// In old scenes the pigments do not tint each other but all of them the background, and what is tinted once
+/// is not let through untinted further down.
+///
 /// **Source:** POV-Ray 3.7's behaviour, measured for each kind of colour, alone and layered.
 #[inline(never)]
 pub(super) fn seen(world: &World, sharpness: &Sharpness, direction: Vector) -> Rgb {
-    let pigments = world.sky.iter().flat_map(|sky| &sky.pigments);
-    pigments.zip(&sharpness.sky).fold(world.background, |below, (pigment, &is_sharp)| {
-        let top = at(pigment, direction, is_sharp, || Vector::splat(ROUNDED));
+    let pigments = world.sky.as_ref().map_or(&[][..], |sky| &sky.pigments);
+    let pigments = pigments.iter().zip(&sharpness.sky);
+    let pigments = pigments
+        .map(|(pigment, &is_sharp)| at(pigment, direction, is_sharp, || Vector::splat(ROUNDED)));
+    if world.settings.clearness == Clearness::Old {
+        let all = Color { rgb: Rgb::WHITE, filter: 1.0, transmit: 1.0 };
+        let (mut sum, mut above) = (Rgb::BLACK, None::<Color>);
+        for top in pigments.rev() {
+            let weight = above.map_or(1.0, |above| above.filter + above.transmit);
+            sum += top.rgb * ((1.0 - top.filter - top.transmit) * weight);
+            let Color { rgb, filter, transmit } = above.unwrap_or(all);
+            above = Some(Color {
+                rgb: rgb * top.rgb,
+                filter: filter * top.filter,
+                transmit: transmit * top.transmit,
+            });
+        }
+        let seen = above.map_or(Rgb::WHITE, Color::transmittance);
+        return sum + world.background * seen;
+    }
+    pigments.fold(world.background, |below, top| {
         if top.filter == 0.0 && top.transmit == 0.0 {
             return top.rgb;
         }
@@ -27,7 +48,6 @@ pub(super) fn seen(world: &World, sharpness: &Sharpness, direction: Vector) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::Color;
     use crate::world::{Pigment, Sky};
 
     #[test]

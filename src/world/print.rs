@@ -9,6 +9,7 @@ use super::{
     Attenuation, Beam, CameraKind, Fade, Finish, LightKind, LobeKind, Object, Origins, Pigment,
     Whole, World,
 };
+use crate::color::Clearness;
 use crate::math::placement::{Map, Placement};
 use crate::math::vector::written as vector;
 use crate::math::{Matrix, UnitVector};
@@ -41,6 +42,9 @@ impl Printer<'_> {
         writeln!(out, "  max_trace_level {}", settings.max_trace_level)?;
         writeln!(out, "  adc_bailout {}", settings.adc_bailout)?;
         writeln!(out, "  assumed_gamma {}", settings.assumed_gamma)?;
+        if settings.clearness == Clearness::Old {
+            writeln!(out, "  clear colours of versions below 3.7")?;
+        }
         writeln!(out, "background {}", self.world.background)?;
         if let Some(sky) = &self.world.sky {
             writeln!(out, "sky{}", self.at(self.origins.sky.as_ref().map(|sky| sky.site)))?;

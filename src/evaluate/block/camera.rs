@@ -17,7 +17,7 @@ const SORTED_SINCE: f64 = 3.5;
 impl Evaluator<'_> {
     pub(super) fn camera(&mut self, token: &Token) -> Outcome<Value> {
         let site = token.here.site(token.span);
-        let is_in_order = self.options.dialect == Dialect::Pov && self.version < SORTED_SINCE;
+        let is_in_order = self.options.dialect == Dialect::Pov && self.is_before(SORTED_SINCE);
         let (kind, items) = (CameraKind::Perspective, Vec::new());
         let mut camera = Camera { kind, items, is_in_order, site };
         let outer = self.poison.take();
@@ -76,7 +76,10 @@ impl Evaluator<'_> {
             }
             Word::Orthographic => {
                 camera.kind = CameraKind::Orthographic;
-                return Ok(());
+                if !camera.is_in_order {
+                    return Ok(());
+                }
+                CameraItemKind::Orthographic
             }
             Word::Location => CameraItemKind::Location(self.vector_after(token, "a point")?.value),
             Word::LookAt => CameraItemKind::LookAt(self.vector_after(token, "a point")?.value),
@@ -96,7 +99,7 @@ impl Evaluator<'_> {
             Word::Direction => {
                 CameraItemKind::Direction(self.any_direction_after(token, "the lens's axis")?.value)
             }
-            Word::Angle => self.angle(token, camera.kind)?,
+            Word::Angle => self.angle(token, camera)?,
             Word::Shift => self.shift(token)?,
             _ => {
                 if let Some(outcome) = self.inert(token, Place::CAMERA) {
@@ -110,13 +113,16 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    fn angle(&mut self, token: &Token, kind: CameraKind) -> Outcome<CameraItemKind> {
+    fn angle(&mut self, token: &Token, camera: &Camera) -> Outcome<CameraItemKind> {
         let given = self.number_after(token, "degrees")?;
         if given.value < 0.0 {
             return Err(self.out_of_range(&given, Word::Angle, "more than 0"));
         }
         if given.value == 0.0 {
-            let read = "`direction` alone says how much the camera sees";
+            let read = match camera.is_in_order && camera.kind == CameraKind::Perspective {
+                true => "in a scene for this version the camera sees no object",
+                false => "`direction` alone says how much the camera sees",
+            };
             self.out_of_range_but_read(&given, Word::Angle, "more than 0", read)?;
         }
         // A spherical camera has one across, and one from top to bottom.
@@ -125,7 +131,7 @@ impl Evaluator<'_> {
         {
             self.number_after(token, "degrees from top to bottom")?;
         }
-        if given.value >= 180.0 && kind == CameraKind::Perspective && self.poison.is_none() {
+        if given.value >= 180.0 && camera.kind == CameraKind::Perspective && self.poison.is_none() {
             return Err(self.out_of_range(
                 &given,
                 Word::Angle,

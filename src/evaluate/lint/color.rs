@@ -195,7 +195,8 @@ impl Evaluator<'_> {
             let place = one.primary().filter(|_| one.code == Code::ExtraComponent);
             place.is_some_and(|place| self.taken.is_some_and(|taken| taken.span == place.span))
         });
-        if rgb.is_black() || transmit <= 0.0 || is_told {
+        // In a scene for an older version a background is never clear.
+        if rgb.is_black() || transmit <= 0.0 || is_told || self.is_old() {
             return;
         }
         let end = self.taken.map_or(given.span, |taken| taken.span);

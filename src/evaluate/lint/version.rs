@@ -1,17 +1,20 @@
 //! What a `.pov` file says it is written for, and what it lacks.
 
-use crate::color::Gamma;
+use crate::color::{Clearness, Color, Gamma};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::{Evaluator, Unit};
-use crate::scene::Dialect;
+use crate::scene::{Camera, Dialect};
 use crate::source::Span;
 use crate::syntax::ast::{Ast, DirectiveKind, ExpressionKind, ItemKind};
 use crate::vocabulary::{Word, is_standard_source};
 
 const VERSION: &str = "#version";
 
-/// The version from which on a scene without `assumed_gamma` has linear colours.
-const LINEAR_SINCE: f64 = 3.7;
+/// The version from which on a scene without `assumed_gamma` has linear colours, and clear colours are as today.
+const TODAY: f64 = 3.7;
+
+/// What is as old as a scene without `#version`.
+const YESTERDAY: &str = "3.6";
 
 impl Evaluator<'_> {
     /// Whether a file is not there that may say more.
@@ -43,13 +46,30 @@ impl Evaluator<'_> {
 
     /// Whether POV-Ray 3.7 takes the scene for one of an older version: the language's version, where the
     /// text ends, is below 3.7, or no file has a `#version` (measured).
-    fn is_old(&self) -> bool {
-        self.options.dialect == Dialect::Pov && (!self.has_version || self.version < LINEAR_SINCE)
+    pub(in crate::evaluate) fn is_old(&self) -> bool {
+        self.options.dialect == Dialect::Pov && (!self.has_version || self.is_before(TODAY))
     }
 
-    /// An old `.pov` scene without `assumed_gamma` is shown without gamma correction, as by POV-Ray 3.7:
-    /// pixel for pixel `assumed_gamma srgb` (measured).
-    pub(in crate::evaluate) fn assume_old_gamma(&mut self) {
+    /// Whether the language's version is below this one: its hundredths count, rounded (measured).
+    pub(in crate::evaluate) fn is_before(&self, version: f64) -> bool {
+        (self.version * 100.0).round() < (version * 100.0).round()
+    }
+
+    /// Whether the scene has what older versions show otherwise, so that another `#version` changes its picture.
+    fn looks_old(&self) -> bool {
+        let filters = |color: Color| color.filter != 0.0;
+        self.scene.settings.clearness == Clearness::Old
+            && (self.scene.background.as_ref().is_some_and(|back| back.color.transmit != 0.0)
+                || self.scene.cameras.last().is_some_and(Camera::order_matters)
+                || self.scene.pigments.iter().any(|pigment| pigment.kind.colors().any(filters)))
+    }
+
+    /// An old `.pov` scene has clear colours of its own kind. One without `assumed_gamma` is shown without
+    /// gamma correction, as by POV-Ray 3.7: pixel for pixel `assumed_gamma srgb` (measured).
+    pub(in crate::evaluate) fn note_old_version(&mut self) {
+        if self.is_old() {
+            self.scene.settings.clearness = Clearness::Old;
+        }
         // A colour in sRGB before `assumed_gamma`, which POV-Ray refuses, has been made linear.
         if self.is_old() && !self.says_gamma && self.srgb_before_gamma.is_none() {
             self.scene.settings.assumed_gamma = Gamma::Srgb;
@@ -74,6 +94,8 @@ impl Evaluator<'_> {
         };
         let preamble = Preamble::of(&main.ast);
         let old = preamble.old.filter(|_| says.0);
+        let looks_old = self.looks_old();
+        let version = if looks_old { YESTERDAY } else { "3.7" };
         let read = gamma.read;
         let message = match old {
             Some(old) => format!(
@@ -86,10 +108,10 @@ impl Evaluator<'_> {
         };
         let help = match (old.is_none() && says.0, says.1) {
             (true, _) => format!("write `global_settings {{ {} }}`", gamma.written()),
-            (false, true) => "write `#version 3.7;` first".to_owned(),
+            (false, true) => format!("write `#version {version};` first"),
             (false, false) => {
                 let settings = format!("`global_settings {{ {} }}`", gamma.written());
-                format!("write `#version 3.7;` first, and {settings}")
+                format!("write `#version {version};` first, and {settings}")
             }
         };
         let label = match self.is_old() {
@@ -105,8 +127,9 @@ impl Evaluator<'_> {
         let mut diagnostic = Diagnostic::new(Code::OldVersion, message).at(place, label).help(help);
         // What is included is not a scene, and says nothing for itself.
         if !self.sources.get(file).name.to_lowercase().ends_with(".inc") {
+            let old = old.filter(|_| !looks_old);
             diagnostic = old.into_iter().fold(diagnostic, |told, old| told.fix(old, "3.7"));
-            for (at, text) in preamble.completed(says, &gamma) {
+            for (at, text) in preamble.completed(says, version, &gamma) {
                 diagnostic = diagnostic.fix(Span::new(file, at, at), text);
             }
         }
@@ -142,6 +165,7 @@ impl Preamble {
     fn completed(
         &self,
         (says_version, says_gamma): (bool, bool),
+        version: &str,
         gamma: &AssumedGamma,
     ) -> Vec<(usize, String)> {
         let written = gamma.written();
@@ -152,11 +176,11 @@ impl Preamble {
             (None, Some(at)) => Some((at as usize, format!("\n{block}"))),
             (None, None) => Some((0, format!("{block}\n"))),
         };
-        let version = (!says_version).then(|| (0, "#version 3.7;\n".to_owned()));
+        let directive = (!says_version).then(|| (0, format!("#version {version};\n")));
         match gamma {
             // Two insertions at one place are one.
-            Some((0, _)) if !says_version => vec![(0, format!("#version 3.7; {block}\n"))],
-            gamma => version.into_iter().chain(gamma).collect(),
+            Some((0, _)) if !says_version => vec![(0, format!("#version {version}; {block}\n"))],
+            gamma => directive.into_iter().chain(gamma).collect(),
         }
     }
 
