@@ -6,7 +6,9 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
-use crate::syntax::ast::{Argument, BinaryOperator, Callee, ExpressionId, ExpressionKind};
+use crate::syntax::ast::{
+    Argument, BinaryOperator, Callee, ExpressionId, ExpressionKind, UnaryOperator,
+};
 use crate::vocabulary::Dialect;
 
 use super::stream::{Token, TokenKind};
@@ -94,8 +96,14 @@ impl Evaluator<'_> {
         if self.options.dialect == Dialect::Scene {
             return None;
         }
+        // `box { -S (S) }`.
+        let (call, sign) = match here.unit.expression(id).kind {
+            ExpressionKind::Unary(UnaryOperator::Minus, call) => (call, -1.0),
+            ExpressionKind::Unary(UnaryOperator::Plus, call) => (call, 1.0),
+            _ => (id, 1.0),
+        };
         let ExpressionKind::Call(Callee::Name(name, span), arguments) =
-            here.unit.expression(id).kind
+            here.unit.expression(call).kind
         else {
             return None;
         };
@@ -103,8 +111,13 @@ impl Evaluator<'_> {
             return None;
         };
         let value = self.scopes.look(here.symbol(name))?;
-        let is_plain = matches!(value, Value::Number(_) | Value::Vector(_) | Value::Color(_));
-        let kind = TokenKind::Literal(Box::new(value.clone()));
-        is_plain.then(|| (Token { kind, span, here: here.clone() }, group))
+        let value = match value {
+            Value::Number(number) => Value::Number(sign * number),
+            Value::Vector(numbers) => Value::Vector(numbers.map(|number| sign * number)),
+            Value::Color(_) if sign > 0.0 => value.clone(),
+            _ => return None,
+        };
+        let kind = TokenKind::Literal(Box::new(value));
+        Some((Token { kind, span, here: here.clone() }, group))
     }
 }

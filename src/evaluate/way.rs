@@ -185,6 +185,7 @@ impl Evaluator<'_> {
         let options = ParseOptions {
             dialect: self.options.dialect,
             nesting_limit: self.options.limits.nesting as usize,
+            loose: self.options.loose,
             defers,
             ..ParseOptions::default()
         };
