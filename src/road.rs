@@ -3,6 +3,7 @@
 //! **In:** a main file's text and a way to its includes. **Out:** each noun in turn; texts and
 //! messages gather beside. **Invariant:** every stage yields its noun, also from a broken input.
 
+mod again;
 mod dark;
 mod echo;
 mod unread;
@@ -79,11 +80,7 @@ impl<'a> Road<'a> {
             let before = &bytes[..error.valid_up_to()];
             error.valid_up_to() + before.iter().filter(|byte| !byte.is_ascii()).count()
         });
-        let (text, _) = decode(bytes);
-        if dark::is_whole(&text) {
-            self.diagnostics.of_whole_scene();
-        }
-        let file = self.sources.add(Source::new(name, text));
+        let file = self.take_in(Source::decoded(name, decode(bytes)));
         if let Some(at) = wrong {
             let end =
                 self.sources.get(file).text[at..].chars().next().map_or(at, |c| at + c.len_utf8());
@@ -103,12 +100,20 @@ impl<'a> Road<'a> {
         file
     }
 
+    fn take_in(&mut self, main: Source) -> FileId {
+        if dark::is_whole(&main.text) {
+            self.diagnostics.of_whole_scene();
+        }
+        self.sources.add(main)
+    }
+
     pub fn parse(&mut self, file: FileId) -> Ast {
-        let EvaluateOptions { dialect, limits, ref declares, .. } = self.options.evaluate;
+        let EvaluateOptions { dialect, limits, loose, ref declares, .. } = self.options.evaluate;
         let options = ParseOptions {
             dialect,
             nesting_limit: limits.nesting as usize,
             alone: declares.is_empty(),
+            loose,
             ..ParseOptions::default()
         };
         let ast = parse(self.sources.get(file), file, &options, &mut self.diagnostics);
@@ -149,7 +154,7 @@ impl<'a> Road<'a> {
             self.drop_twice_told();
         }
         self.silence(before);
-        scene
+        self.with_loose_braces().unwrap_or(scene)
     }
 
     /// Beyond a limit nothing is lowered: the scene is not whole, and its message was given.

@@ -157,6 +157,8 @@ pub struct Source {
     /// How the author knows it: the path as given or as included.
     pub name: String,
     pub text: String,
+    /// It was no UTF-8: each character is one byte of the file.
+    pub is_latin: bool,
     line_starts: Vec<u32>,
     /// How many characters begin before each block of [`BLOCK`] bytes: a line may be as long as the text.
     blocks: Vec<u32>,
@@ -189,7 +191,13 @@ impl Source {
             *before += characters(block) as u32;
             Some(start)
         });
-        Self { name: name.into(), line_starts, blocks: blocks.collect(), text }
+        let (name, blocks) = (name.into(), blocks.collect());
+        Self { name, line_starts, blocks, text, is_latin: false }
+    }
+
+    /// As [`Self::new`], of what [`decode`] gave.
+    pub fn decoded(name: impl Into<String>, (text, is_latin): (String, bool)) -> Self {
+        Self { is_latin, ..Self::new(name, text) }
     }
 
     pub fn position(&self, offset: usize) -> Position {

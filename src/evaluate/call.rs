@@ -229,13 +229,19 @@ impl Evaluator<'_> {
             let left = match *argument {
                 Argument::Expression(id) => match self.left_by_macro(here, id) {
                     Some(left) => left,
-                    None => match self.operand(here, id) {
-                        Ok(value) => {
-                            values.push(value);
-                            continue;
+                    None => {
+                        match self.argument_of_call(
+                            here,
+                            id,
+                            builtin::wants_vector(word, values.len()),
+                        ) {
+                            Ok(value) => {
+                                values.push(value);
+                                continue;
+                            }
+                            Err(reported) => Err(reported),
                         }
-                        Err(reported) => Err(reported),
-                    },
+                    }
                 },
                 Argument::Items(items) => {
                     self.inside(here, items, |evaluator| evaluator.values(here, span))

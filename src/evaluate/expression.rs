@@ -227,6 +227,9 @@ impl Evaluator<'_> {
 
     fn string_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
         match builtin::escape::decode_escapes(self.quoted(span)) {
+            Ok(_) if self.is_ascii && !self.quoted(span).is_ascii() => {
+                self.string_of_bytes(here, span)
+            }
             Ok(text) => Ok(Value::string(text)),
             Err((offset, message)) => {
                 let start = span.start as usize + 1 + offset;
@@ -235,6 +238,26 @@ impl Evaluator<'_> {
                 Err(self.report(here, diagnostic))
             }
         }
+    }
+
+    /// Without `charset utf8` POV-Ray 3.7 reads each byte beyond ASCII as a blank (measured).
+    fn string_of_bytes(&mut self, here: &Here, span: Span) -> Outcome<Value> {
+        let is_latin = self.sources.get(span.file).is_latin;
+        let mut bytes = String::new();
+        for character in self.quoted(span).chars() {
+            match character.len_utf8() {
+                1 => bytes.push(character),
+                _ if is_latin => bytes.push(' '),
+                count => bytes.extend(std::iter::repeat_n(' ', count)),
+            }
+        }
+        let message = "this string holds characters beyond ASCII, which are blanks in POV-Ray";
+        let diagnostic = Diagnostic::new(Code::OutOfRange, message)
+            .at(span, "a blank for each byte of them")
+            .help("write `global_settings { charset utf8 }` before it, in a file of UTF-8");
+        self.opinion(here, diagnostic)?;
+        let text = builtin::escape::decode_escapes(&bytes);
+        Ok(text.map_or(Value::Broken, Value::string))
     }
 
     /// As [`Self::raw_string`]; `None` when the string was never closed, which has been told.

@@ -169,11 +169,13 @@ impl Evaluator<'_> {
         name: &str,
         bytes: Vec<u8>,
     ) -> Rc<Unit> {
-        let (text, foreign) = decode(bytes);
-        let id = self.sources.add(Source::new(name, text));
+        let source = Source::decoded(name, decode(bytes));
+        let foreign = source.is_latin;
+        let id = self.sources.add(source);
         let options = ParseOptions {
             dialect: self.options.dialect,
             nesting_limit: self.options.limits.nesting as usize,
+            loose: self.options.loose,
             ..ParseOptions::default()
         };
         let mut told = Diagnostics::new(true);

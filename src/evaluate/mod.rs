@@ -66,7 +66,7 @@ use crate::scene::{
 use crate::source::{ExpansionId, FileId, Files, Site, Sources, Span};
 use crate::syntax::ast::{Ast, DirectiveId};
 
-use crate::vocabulary::PREDECLARED;
+use crate::vocabulary::{Dialect, PREDECLARED};
 
 pub use options::{EvaluateOptions, Interrupt, Limits};
 
@@ -161,6 +161,8 @@ struct Evaluator<'a> {
     /// The names of the files that include each other now.
     including: Vec<String>,
     default_texture: TextureId,
+    /// Strings hold nothing beyond ASCII: a `.pov` has not said `charset utf8` yet.
+    is_ascii: bool,
     version: f64,
     /// Whether any file said `#version`; whether the scene did, and `assumed_gamma`.
     has_version: bool,
@@ -310,6 +312,7 @@ impl<'a> Evaluator<'a> {
             fonts: block::Fonts::new(),
             including: Vec::new(),
             default_texture: TextureId(0),
+            is_ascii: options.dialect == Dialect::Pov,
             version: 3.7,
             has_version: false,
             says_version: false,

@@ -19,6 +19,8 @@ pub struct EvaluateOptions {
     pub now: f64,
     pub frame_number: f64,
     pub limits: Limits,
+    /// Every brace without a partner where it is written pairs as it is run.
+    pub loose: bool,
     pub interrupt: Interrupt,
 }
 
@@ -52,6 +54,7 @@ impl Default for EvaluateOptions {
             now: 0.0,
             frame_number: 0.0,
             limits: Limits::default(),
+            loose: false,
             interrupt: Interrupt::default(),
         }
     }

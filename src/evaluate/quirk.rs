@@ -6,7 +6,9 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
-use crate::syntax::ast::{Argument, BinaryOperator, Callee, ExpressionId, ExpressionKind};
+use crate::syntax::ast::{
+    Argument, BinaryOperator, Callee, ExpressionId, ExpressionKind, UnaryOperator,
+};
 use crate::vocabulary::Dialect;
 
 use super::stream::{Token, TokenKind};
@@ -41,13 +43,26 @@ impl Evaluator<'_> {
         Some(Ok(vector))
     }
 
-    /// The name whose component an expression begins with, and its vector.
-    fn picked_from(&self, here: &Here, id: ExpressionId) -> Option<(String, Vector)> {
+    /// The value of an argument, which may have to be a vector.
+    pub(super) fn argument_of_call(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+        wants_vector: bool,
+    ) -> Outcome<Value> {
+        match wants_vector.then(|| self.vector_of_component(here, id)).flatten() {
+            Some(vector) => vector.map(Value::vector3),
+            None => self.operand(here, id),
+        }
+    }
+
+    /// What an expression begins with a component of, as it is written, and its vector.
+    fn picked_from(&mut self, here: &Here, id: ExpressionId) -> Option<(String, Vector)> {
         if self.options.dialect == Dialect::Scene {
             return None;
         }
         let mut leftmost = id;
-        let name = loop {
+        let whole = loop {
             match here.unit.expression(leftmost).kind {
                 ExpressionKind::Binary(
                     BinaryOperator::Add
@@ -58,20 +73,26 @@ impl Evaluator<'_> {
                     _,
                 ) => leftmost = left,
                 ExpressionKind::Unary(_, operand) => leftmost = operand,
-                ExpressionKind::Component(of, _) => match here.unit.expression(of).kind {
-                    ExpressionKind::Name(name) => break name,
-                    _ => return None,
-                },
+                ExpressionKind::Component(of, _) => break of,
                 _ => return None,
             }
         };
-        let symbol = here.symbol(name);
-        let numbers = match self.scopes.look(symbol)? {
+        let expression = here.unit.expression(whole);
+        let value = match expression.kind {
+            ExpressionKind::Name(name) => self.scopes.look(here.symbol(name))?.clone(),
+            ExpressionKind::Index(..) | ExpressionKind::Vector(_) => {
+                self.expression(here, whole).ok()?
+            }
+            // Calling it twice may do something else the second time.
+            _ => return None,
+        };
+        let numbers = match value {
             Value::Color(color) => color.rgb.components().to_vec(),
             value => value.numbers()?.as_slice().to_vec(),
         };
         let part = |place: usize| numbers.get(place).copied().unwrap_or(0.0);
-        Some((self.scopes.name(symbol).to_owned(), Vector::new(part(0), part(1), part(2))))
+        let name = self.sources.text(expression.span).to_owned();
+        Some((name, Vector::new(part(0), part(1), part(2))))
     }
 
     /// The values of a call: two where [`Self::value_before_group`] finds two.
@@ -94,8 +115,14 @@ impl Evaluator<'_> {
         if self.options.dialect == Dialect::Scene {
             return None;
         }
+        // `box { -S (S) }`.
+        let (call, sign) = match here.unit.expression(id).kind {
+            ExpressionKind::Unary(UnaryOperator::Minus, call) => (call, -1.0),
+            ExpressionKind::Unary(UnaryOperator::Plus, call) => (call, 1.0),
+            _ => (id, 1.0),
+        };
         let ExpressionKind::Call(Callee::Name(name, span), arguments) =
-            here.unit.expression(id).kind
+            here.unit.expression(call).kind
         else {
             return None;
         };
@@ -103,8 +130,13 @@ impl Evaluator<'_> {
             return None;
         };
         let value = self.scopes.look(here.symbol(name))?;
-        let is_plain = matches!(value, Value::Number(_) | Value::Vector(_) | Value::Color(_));
-        let kind = TokenKind::Literal(Box::new(value.clone()));
-        is_plain.then(|| (Token { kind, span, here: here.clone() }, group))
+        let value = match value {
+            Value::Number(number) => Value::Number(sign * number),
+            Value::Vector(numbers) => Value::Vector(numbers.map(|number| sign * number)),
+            Value::Color(_) if sign > 0.0 => value.clone(),
+            _ => return None,
+        };
+        let kind = TokenKind::Literal(Box::new(value));
+        Some((Token { kind, span, here: here.clone() }, group))
     }
 }

@@ -35,6 +35,9 @@ impl Evaluator<'_> {
 
     /// The values that the current items leave, between commas.
     pub(super) fn values(&mut self, here: &Here, span: Span) -> Outcome<Vec<Value>> {
+        if self.options.dialect == Dialect::Pov && self.peek().is_some() {
+            return self.values_side_by_side(here, span);
+        }
         let mut values = vec![self.value_or(here, span)?];
         loop {
             match self.next() {
@@ -54,7 +57,9 @@ impl Evaluator<'_> {
         let mut values = Vec::new();
         while self.peek().is_some() {
             values.push(self.value_or(here, span)?);
-            self.skip_comma();
+            let is_between =
+                |kind: &TokenKind| matches!(kind, TokenKind::Comma | TokenKind::Semicolon);
+            while self.next_if(is_between).is_some() {}
         }
         Ok(values)
     }
@@ -112,9 +117,16 @@ impl Evaluator<'_> {
         else {
             return Ok(None);
         };
-        let ExpressionKind::Call(Callee::Name(..), _) = here.unit.expression(first).kind else {
-            return Ok(None);
+        let is_object = match here.unit.expression(first).kind {
+            ExpressionKind::Call(Callee::Name(..), _) => true,
+            ExpressionKind::Name(name) => {
+                matches!(self.scopes.look(here.symbol(name)), Some(Value::Object(_)))
+            }
+            _ => false,
         };
+        if !is_object {
+            return Ok(None);
+        }
         let first = self.expression(here, first)?;
         let (Value::Object(_) | Value::Poison(_)) = first else { return Ok(None) };
         let second = self.expression(here, second)?;

@@ -405,7 +405,7 @@ fn taken_as_it_is(ast: &Ast, kind: ItemKind) -> Option<TokenKind> {
         ItemKind::Comma => TokenKind::Comma,
         ItemKind::Semicolon => TokenKind::Semicolon,
         ItemKind::Expression(id) => match ast.expression(id).kind {
-            ExpressionKind::Call(..) => return None,
+            ExpressionKind::Call(..) | ExpressionKind::Unary(..) => return None,
             _ => TokenKind::Expression(id),
         },
         ItemKind::Close | ItemKind::Numbers { .. } | ItemKind::Directive(_) => return None,

@@ -59,7 +59,7 @@ impl Components {
         (self.len <= 3).then_some(Vector::new(x, y, z))
     }
 
-    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+    pub(super) fn map(self, f: impl Fn(f64) -> f64) -> Self {
         let mut result = self;
         result.values[..self.len()].iter_mut().for_each(|c| *c = f(*c));
         result

@@ -258,6 +258,13 @@ impl Evaluator<'_> {
                     self.inside(here, items, |evaluator| evaluator.components(here, span, most))
                 }
                 Argument::Expression(id) => match self.left_by_macro(here, id) {
+                    None if self.value_before_group(here, id).is_some() => {
+                        self.values_of_call(here, id).and_then(|values| {
+                            let at = here.unit.expression(id).span;
+                            let number = |value| self.as_number(here, at, value, "a number");
+                            values.iter().map(number).collect()
+                        })
+                    }
                     None => self.number(here, id).map(|number| vec![number]),
                     Some(left) => left.and_then(|values| {
                         let at = here.unit.expression(id).span;

@@ -114,7 +114,16 @@ impl Evaluator<'_> {
             };
         }
         let text = alone(&self.sources.get(span.file).text, span);
-        let (ast, of_part) = self.mistakes_of(text, span, true);
+        let (mut ast, mut of_part) = self.mistakes_of(text.clone(), span, true);
+        // `#macro IsEven(N) mod(N, 2) = 0 #end`: a comparison is read where it is called, in parentheses.
+        if of_part.iter().any(Diagnostic::is_error)
+            && let Some(grouped) = in_parentheses(&text, span)
+        {
+            let (group, of_group) = self.mistakes_of(grouped, span, true);
+            if !of_group.iter().any(Diagnostic::is_error) {
+                (ast, of_part) = (group, of_group);
+            }
+        }
         let unit = self.unit(ast);
         let body = (unit.clone(), unit.ast.root);
         self.read.bodies.insert(key, body.clone());
@@ -189,6 +198,7 @@ impl Evaluator<'_> {
         let options = ParseOptions {
             dialect: self.options.dialect,
             nesting_limit: self.options.limits.nesting as usize,
+            loose: self.options.loose,
             defers,
             ..ParseOptions::default()
         };
@@ -201,4 +211,15 @@ impl Evaluator<'_> {
 /// Where the first label of a message begins in its file.
 fn start_of(one: &Diagnostic) -> u32 {
     one.primary().map_or(0, |label| label.span.start)
+}
+
+/// A text of which nothing but `span` is left, with this in parentheses, where there is room for them.
+fn in_parentheses(text: &str, span: Span) -> Option<String> {
+    let (open, close) = ((span.start as usize).checked_sub(1)?, span.end as usize);
+    let mut text = text.to_owned();
+    for (at, sign) in [(open, "("), (close, ")")] {
+        text.get(at..=at).filter(|place| matches!(*place, " " | "\n"))?;
+        text.replace_range(at..=at, sign);
+    }
+    Some(text)
 }

@@ -16,6 +16,9 @@ impl Surface {
     /// As the surface of a mesh, of which it is seen where a face has no texture itself.
     fn of_faces(&self, scene: &scene::Scene, triangles: &Arc<Triangles>) -> Self {
         let Some(first) = triangles.textures.first() else { return self.clone() };
+        if triangles.faces.iter().all(|face| face.paint.is_none()) {
+            return self.clone();
+        }
         let faces = Some(triangles.clone());
         if triangles.faces.iter().any(|face| face.paint.is_none()) {
             return Self { faces, ..self.clone() };

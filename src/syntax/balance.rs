@@ -72,7 +72,7 @@ pub(super) fn balance(
     if is_right(&tokens) {
         return (tokens, false);
     }
-    let tokens = loose::loosen(tokens, text);
+    let tokens = loose::loosen(tokens, text, options.loose);
     if is_right(&tokens) {
         return (tokens, false);
     }

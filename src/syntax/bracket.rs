@@ -262,7 +262,8 @@ impl<'a> Nest<'a> {
                 TokenKind::Directive(head) if head.divides() && directives > 0 => {}
                 TokenKind::Directive(Head::Break) if directives > 0 => {}
                 TokenKind::Directive(Head::Declare | Head::Local) => declares = true,
-                TokenKind::Directive(Head::Debug | Head::Warning | Head::Undef) => {}
+                TokenKind::Directive(Head::Debug | Head::Warning | Head::Undef | Head::Include) => {
+                }
                 TokenKind::Mark(Mark::Semicolon) if std::mem::take(&mut declares) => {}
                 TokenKind::Mark(Mark::Open(Bracket::Round)) => parentheses += 1,
                 TokenKind::Mark(Mark::Close(Bracket::Round)) => {

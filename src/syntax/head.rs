@@ -89,9 +89,10 @@ impl<'a> Nest<'a> {
                     Mark::Open(Bracket::Round) | Mark::Not => holding,
                     Mark::Less => holding && !full,
                     Mark::Open(Bracket::Square) => {
-                        // What stands behind a macro's parameters is its body.
                         head == Head::Macro || state != State::Holding { indexable: true }
                     }
+                    // What stands behind a macro's parameters is its body.
+                    _ if head == Head::Macro && holding => true,
                     Mark::Plus | Mark::Minus => false,
                     Mark::Star | Mark::Slash | Mark::Dot => !holding && state != State::Wanting,
                     Mark::Open(Bracket::Brace) | Mark::Close(_) | Mark::Comma | Mark::Semicolon => {

@@ -5,7 +5,8 @@
 //! text is evaluated.
 //! **Invariant:** braces are loose only where the text pairs as it would run: a macro's own braces do on
 //! some way through its `#if`s, or the file's do with the calls of its macros expanded, or what its
-//! macros open others of them close. So a forgotten brace is still told. Linear, but for macros in macros.
+//! macros open others of them close. So a forgotten brace is still told. Where that refuses a scene
+//! of POV-Ray's, it is read again with all of them loose (`road/again.rs`). Linear, but for macros in macros.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -17,8 +18,8 @@ const OPEN: TokenKind = TokenKind::Mark(Mark::Open(Bracket::Brace));
 const CLOSE: TokenKind = TokenKind::Mark(Mark::Close(Bracket::Brace));
 
 /// Loosens what pairs only after expansion. The body of a macro whose other brackets do so, too, becomes
-/// [`TokenKind::Raw`].
-pub(super) fn loosen(mut tokens: Vec<Token>, text: &str) -> Vec<Token> {
+/// [`TokenKind::Raw`]. `all`: so does every brace that has no partner where it is written.
+pub(super) fn loosen(mut tokens: Vec<Token>, text: &str, all: bool) -> Vec<Token> {
     let macros = macros(&tokens);
     let mut raw: Vec<Range<usize>> = Vec::new();
     let mut done = 0;
@@ -43,7 +44,7 @@ pub(super) fn loosen(mut tokens: Vec<Token>, text: &str) -> Vec<Token> {
     if !pairs(&tokens)
         && !loosen_across(&mut tokens, text, false)
         && !loosen_across(&mut tokens, text, true)
-        && pairs_on_both_paths(&tokens)
+        && (all || pairs_on_both_paths(&tokens))
         && let Some(loose) = loose_braces(&tokens)
     {
         mark(&mut tokens, &loose);

@@ -115,7 +115,8 @@ impl<'a> Nest<'a> {
         self.before_operator(span);
         if !in_sums && !full {
             // `==` and `&&` have been told.
-            self.top().level_told |= span.end - span.start > 1;
+            let is_foreign = self.slice(span) != operator.symbol();
+            self.top().level_told |= is_foreign;
             self.only_in_parentheses(span);
         }
         self.operator(OperatorKind::Binary(operator), span);

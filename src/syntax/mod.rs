@@ -70,6 +70,8 @@ pub struct ParseOptions {
     pub skips: bool,
     /// In a `.pov`, bodies that cannot be read stay text until they are run.
     pub defers: bool,
+    /// Every brace without a partner where it is written pairs as it is run.
+    pub loose: bool,
 }
 
 impl Default for ParseOptions {
@@ -80,6 +82,7 @@ impl Default for ParseOptions {
             alone: false,
             skips: true,
             defers: true,
+            loose: false,
         }
     }
 }

@@ -34,12 +34,18 @@ pub(super) fn bodies_around_mistakes(
     let mut unread: Vec<Range<usize>> = Vec::new();
     let mut found = first.clone();
     for _ in 0..MOST_READINGS {
-        let mut more = Vec::new();
-        for mistake in found.iter().filter(|one| one.is_error()) {
-            more.push(innermost_around(mistake, &bodies, &unread)?);
-        }
-        if more.is_empty() {
+        let mistakes: Vec<&Diagnostic> = found.iter().filter(|one| one.is_error()).collect();
+        if mistakes.is_empty() {
             return Some(unread);
+        }
+        if mistakes.iter().any(|mistake| swallows(mistake)) {
+            return None;
+        }
+        // One outside of all may come of those inside: `#esle` makes an `#else` behind it one too many.
+        let around = |mistake: &&Diagnostic| innermost_around(mistake, &bodies, &unread);
+        let more: Vec<Range<usize>> = mistakes.iter().filter_map(around).collect();
+        if more.is_empty() {
+            return None;
         }
         for body in more {
             if unread.iter().any(|known| known.start <= body.start && body.end <= known.end) {
@@ -54,16 +60,17 @@ pub(super) fn bodies_around_mistakes(
     None
 }
 
+/// Whether a mistake takes in what stands behind it, so that a body there is none.
+fn swallows(mistake: &Diagnostic) -> bool {
+    matches!(mistake.code, Code::UnclosedString | Code::UnclosedComment | Code::NestingLimit)
+}
+
 /// The smallest body around a mistake that is not left out already.
 fn innermost_around(
     mistake: &Diagnostic,
     bodies: &[Range<usize>],
     unread: &[Range<usize>],
 ) -> Option<Range<usize>> {
-    // What such a mistake swallows is no body.
-    if matches!(mistake.code, Code::UnclosedString | Code::UnclosedComment | Code::NestingLimit) {
-        return None;
-    }
     let place = mistake.primary()?.span.range();
     let holds = |body: &&Range<usize>| {
         body.start <= place.start && place.end <= body.end && !unread.contains(body)
@@ -94,7 +101,8 @@ pub(super) fn stand_in(tokens: &mut Vec<Token>, unread: &[Range<usize>]) {
 
 /// The bodies of all directives, without the blanks around them.
 fn bodies(tokens: &[Token], text: &str) -> Vec<Range<usize>> {
-    let (mut open, mut bodies): (Vec<Option<usize>>, _) = (Vec::new(), Vec::new());
+    // Where each body begins, and what its directive was last: a second `#else` is passed over with the first.
+    let (mut open, mut bodies): (Vec<(Option<usize>, Head)>, _) = (Vec::new(), Vec::new());
     let mut close = |begun: Option<usize>, end: usize| {
         let Some(first) = begun.filter(|first| *first < end) else { return };
         bodies.push(tokens[first].start as usize..tokens[end - 1].end as usize);
@@ -102,16 +110,18 @@ fn bodies(tokens: &[Token], text: &str) -> Vec<Range<usize>> {
     for (at, token) in tokens.iter().enumerate() {
         match (turn(token.kind), token.kind) {
             (Some(Turn::Open(Opener::Directive)), TokenKind::Directive(head)) => {
-                open.push(behind_head(tokens, at, head));
+                open.push((behind_head(tokens, at, head), head));
             }
             (Some(Turn::Divide), TokenKind::Directive(head)) => {
-                if let Some(begun) = open.last_mut() {
+                if let Some((begun, last)) =
+                    open.last_mut().filter(|(_, last)| divides(*last, head))
+                {
                     close(begun.take(), at);
-                    *begun = behind_head(tokens, at, head);
+                    (*begun, *last) = (behind_head(tokens, at, head), head);
                 }
             }
             (Some(Turn::Close(Opener::Directive)), _) => {
-                if let Some(begun) = open.pop() {
+                if let Some((begun, _)) = open.pop() {
                     close(begun, at);
                 }
             }
@@ -120,6 +130,19 @@ fn bodies(tokens: &[Token], text: &str) -> Vec<Range<usize>> {
     }
     debug_assert!(bodies.iter().all(|body| body.end <= text.len()));
     bodies
+}
+
+/// Whether `head` begins another body of the directive whose present body `last` began.
+fn divides(last: Head, head: Head) -> bool {
+    match last {
+        Head::If | Head::Ifdef | Head::Ifndef | Head::Elseif => {
+            matches!(head, Head::Else | Head::Elseif)
+        }
+        Head::Switch | Head::Case | Head::Range => {
+            matches!(head, Head::Case | Head::Range | Head::Else)
+        }
+        _ => false,
+    }
 }
 
 /// The first token behind the head of a directive, with what it asks in parentheses.

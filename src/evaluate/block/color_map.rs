@@ -22,6 +22,40 @@ type Entries = Vec<(f64, WrittenColor)>;
 /// Entries of one map: more are a mistake, and soon more than memory holds.
 const MOST_ENTRIES: usize = 1 << 20;
 
+/// Entries in rising order that show what POV-Ray 3.7 shows of these, which are not.
+///
+/// **Source:** measured on it: from the value of the last entry on, its colour; below, what lies on the way from
+/// the entry before to the first whose value is larger.
+fn rising(entries: &[(f64, Color)]) -> Vec<(f64, Color)> {
+    let Some(&(end, last)) = entries.last() else { return Vec::new() };
+    let mut rising = Vec::with_capacity(2 * entries.len());
+    let (mut highest, mut before) = (f64::NEG_INFINITY, None);
+    for (place, &(value, color)) in
+        entries.iter().enumerate().filter(|(_, entry)| !entry.0.is_nan())
+    {
+        if value <= highest {
+            continue;
+        }
+        let from = place.checked_sub(1).map(|before| entries[before]);
+        let at = |at: f64| match from {
+            Some((start, first)) => first.lerp(color, (at - start) / (value - start)),
+            None => color,
+        };
+        // What lies between goes down.
+        if before != place.checked_sub(1) {
+            rising.push((highest, at(highest)));
+        }
+        if value >= end {
+            rising.push((end, at(end)));
+            break;
+        }
+        rising.push((value, color));
+        (highest, before) = (value, Some(place));
+    }
+    rising.push((end, last));
+    rising
+}
+
 impl Evaluator<'_> {
     /// `color_map { [value color] … }` or `color_map { Name }`.
     pub(super) fn color_map(&mut self, token: &Token) -> Outcome<Value> {
@@ -114,8 +148,14 @@ impl Evaluator<'_> {
                 return Err(evaluator.report(&opener.here, diagnostic));
             }
             evaluator.lint_map(rise);
-            // Stable: of two entries with one value, the first ends the part below, the second begins the part above.
-            entries.sort_by(|a, b| a.0.total_cmp(&b.0));
+            if !entries.is_sorted_by(|a, b| a.0 <= b.0) {
+                match evaluator.options.dialect {
+                    // Stable: of two entries with one value, the first ends the part below, the second begins
+                    // the part above.
+                    Dialect::Scene => entries.sort_by(|a, b| a.0.total_cmp(&b.0)),
+                    Dialect::Pov => entries = rising(&entries),
+                }
+            }
             let clear = pieces::without_clear(&parts);
             let pattern = pieces::without_pattern(&parts);
             Ok(Value::ColorMap(Arc::new(WrittenMap { map: ColorMap(entries), clear, pattern })))

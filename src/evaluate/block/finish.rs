@@ -294,9 +294,11 @@ impl Evaluator<'_> {
         Ok(given)
     }
 
-    /// `diffuse front, back`: light from behind is not built yet, but for none.
+    /// `diffuse front, back`: light from behind is not built yet, but for none. POV-Ray 3.7 does without the
+    /// comma (measured).
     fn back_side(&mut self, token: &Token) -> Outcome<()> {
-        if !matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. })) {
+        let is_pov = self.options.dialect == Dialect::Pov;
+        if !is_pov && !matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. })) {
             return Ok(());
         }
         self.skip_commas();

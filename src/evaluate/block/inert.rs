@@ -38,7 +38,9 @@ impl Evaluator<'_> {
             }
             Word::Charset => {
                 let known = [Word::Ascii, Word::Utf8, Word::Sys];
-                if known.into_iter().any(|word| self.take_word(word).is_some()) {
+                let given = known.into_iter().find(|word| self.take_word(*word).is_some());
+                if let Some(word) = given {
+                    self.is_ascii = word == Word::Ascii;
                     return Ok(());
                 }
                 let is_value =

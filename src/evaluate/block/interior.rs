@@ -1,5 +1,6 @@
 //! `interior` and `material`: what a solid is filled with, and what it is made of.
 
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Interior, InteriorId};
 use crate::vocabulary::{Dialect, Word};
 
@@ -38,6 +39,15 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::Caustics) if self.options.dialect == Dialect::Pov => {
                 let given = self.number_after(token, "a number")?;
                 interior.caustics = (given.value != 0.0).then(|| token.here.site(token.span));
+            }
+            // POV-Ray 3.7 has no use for it (measured).
+            TokenKind::Word(Word::Refraction) if self.options.dialect == Dialect::Pov => {
+                let given = self.number_after(token, "a number")?;
+                let message = "`refraction` has no effect in an `interior`";
+                let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+                    .at(self.whole(token).span, "leave this out")
+                    .help("`ior` alone bends light; it is weakened by `fade_power` and `fade_distance`");
+                return self.opinion(&given.here, diagnostic);
             }
             TokenKind::Expression(id) => match self.declared(token, id) {
                 Some(Value::Broken) => return Err(Reported),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::function::Closed;
 use crate::math::Vector;
-use crate::scene::{Container, Solid};
+use crate::scene::{Container, Dialect, Solid};
 use crate::vocabulary::Word;
 
 use super::super::lint::Compared;
@@ -54,7 +54,9 @@ impl Evaluator<'_> {
                 Word::Accuracy => {
                     self.positive_after(&item, accuracy).map(|value| accuracy = value)
                 }
-                Word::ContainedBy => self.contained_by(&item).map(|held| container = Some(held)),
+                Word::ContainedBy => self
+                    .contained_by(&item, container.unwrap_or(Container::DEFAULT))
+                    .map(|held| container = Some(held)),
                 Word::MaxGradient => self.positive_after(&item, MAX_GRADIENT).map(drop),
                 Word::Open => {
                     open = true;
@@ -173,7 +175,9 @@ impl Evaluator<'_> {
         let mut failed = false;
         while let Some((item, word)) = self.next_part(Word::Parametric, OF_PARAMETRIC) {
             let outcome = match word {
-                Word::ContainedBy => self.contained_by(&item).map(|held| container = held),
+                Word::ContainedBy => {
+                    self.contained_by(&item, container).map(|held| container = held)
+                }
                 // Every crossing is found as exactly as rounding allows.
                 Word::Accuracy => self.positive_after(&item, ACCURACY).map(drop),
                 _ => self.inert(&item, Place::shape(Word::Parametric)).unwrap_or(Ok(())),
@@ -201,6 +205,8 @@ impl Evaluator<'_> {
         let given = self.given(token, wanted)?;
         match given.value.numbers().map(|numbers| numbers.as_slice().to_vec()).as_deref() {
             Some([u, v]) => Ok(given.with([*u, *v])),
+            // POV-Ray 3.7 takes it for both (measured).
+            Some(&[both]) if self.options.dialect == Dialect::Pov => Ok(given.with([both; 2])),
             Some([_, _, ..]) => {
                 Err(self.too_wide(&given, Word::Parametric, "a corner of u and v", 2))
             }
@@ -223,8 +229,9 @@ impl Evaluator<'_> {
         Ok(otherwise)
     }
 
-    /// `contained_by { sphere { … } }` or `contained_by { box { … } }`.
-    pub(super) fn contained_by(&mut self, token: &Token) -> Outcome<Container> {
+    /// `contained_by { sphere { … } }` or `contained_by { box { … } }`. With nothing in it POV-Ray 3.7 keeps the
+    /// container from `before` (measured).
+    pub(super) fn contained_by(&mut self, token: &Token, before: Container) -> Outcome<Container> {
         let fits = |word| matches!(word, Word::Sphere | Word::Box);
         if let Some(reported) = self.unbraced(token, Word::ContainedBy, fits) {
             return Err(reported);
@@ -234,6 +241,13 @@ impl Evaluator<'_> {
             let Some((inner, word)) = evaluator.next_part(Word::ContainedBy, &shapes) else {
                 let (other, at) = (evaluator.next(), (&token.here, token.span));
                 let wanted = "`sphere { … }` or `box { … }`";
+                if other.is_none() && evaluator.options.dialect == Dialect::Pov {
+                    let message = format!("expected {wanted}, found nothing");
+                    let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                        .at(token.span, "it changes nothing");
+                    evaluator.opinion(&token.here, diagnostic)?;
+                    return Ok(before);
+                }
                 return Err(evaluator.expected(wanted, other.as_ref(), at));
             };
             let solid = evaluator.block(&inner, word, |evaluator| match word {

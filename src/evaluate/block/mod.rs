@@ -117,6 +117,11 @@ impl Evaluator<'_> {
                 self.global_settings(token)?;
                 self.needs_poison()
             }
+            TokenKind::Word(Word::MaxTraceLevel | Word::MaxIntersections)
+                if self.options.dialect == Dialect::Pov =>
+            {
+                self.lone_setting(token)
+            }
             TokenKind::Word(word) if opens_object(word) => {
                 match self.object(token, word)? {
                     Value::Object(object) => self.place(object, token),

@@ -391,6 +391,8 @@ impl Evaluator<'_> {
                 Value::Vector(numbers) if numbers.as_slice().len() == 2 => {
                     [numbers.as_slice()[0], numbers.as_slice()[1]]
                 }
+                // POV-Ray 3.7 takes it for both (measured).
+                &Value::Number(both) if self.options.dialect == Dialect::Pov => [both; 2],
                 Value::Vector(_) => {
                     let what = format!("a point of a {}", word.name());
                     return Err(self.too_wide(&given, word, &what, 2));

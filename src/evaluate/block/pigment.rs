@@ -10,7 +10,7 @@ use crate::pattern::Pattern;
 use crate::scene::{ColorMap, Pigment, PigmentId, PigmentKind};
 use crate::source::Site;
 use crate::source::Span;
-use crate::vocabulary::{Family, Word};
+use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
@@ -27,6 +27,8 @@ struct Written {
     pattern: Option<(Site, Vec<Site>)>,
     map: Option<(Arc<WrittenMap>, Token, Site)>,
     first: Option<First>,
+    /// It began as a declared pigment.
+    named: bool,
 }
 
 /// What gave a pigment its pattern, if that has more than one colour.
@@ -70,8 +72,9 @@ impl Evaluator<'_> {
             if let Some((given, token, item)) = written.map
                 && !failed
             {
+                let is_new = start == PigmentId(0) && written.first.is_none() && !written.named;
                 evaluator.note_map(&mut pigment, &given, item, written.pattern);
-                let painted = evaluator.paint(&mut pigment, given.map.clone(), &token);
+                let painted = evaluator.paint(&mut pigment, given.map.clone(), &token, is_new);
                 failed |= painted == Err(Reported);
             }
             if failed { Err(Reported) } else { Ok(pigment) }
@@ -79,8 +82,14 @@ impl Evaluator<'_> {
         Ok(self.add_pigment(pigment))
     }
 
-    /// Puts the colours of a map over the values of the pigment's pattern.
-    fn paint(&mut self, pigment: &mut Pigment, given: ColorMap, token: &Token) -> Outcome<()> {
+    /// Puts the colours of a map over the values of the pigment's pattern. `is_new`: nothing else gave it any.
+    fn paint(
+        &mut self,
+        pigment: &mut Pigment,
+        given: ColorMap,
+        token: &Token,
+        is_new: bool,
+    ) -> Outcome<()> {
         match &mut pigment.kind {
             PigmentKind::Patterned { pattern: Pattern::Checker, .. } => {
                 let message = "`checker` takes two colours, and no `color_map`";
@@ -102,7 +111,11 @@ impl Evaluator<'_> {
                 )
                 .at(token.span, "colours over the values of which pattern?")
                 .help("name one: `gradient y color_map { … }`");
-                Err(self.report(&token.here, diagnostic))
+                match is_new {
+                    // It stays black in POV-Ray 3.7, which refuses the map over any other colour (measured).
+                    true => self.opinion(&token.here, diagnostic),
+                    false => Err(self.report(&token.here, diagnostic)),
+                }
             }
         }
     }
@@ -201,10 +214,20 @@ impl Evaluator<'_> {
                 let direction = self.any_direction_after(token, "the gradient's direction")?.value;
                 self.alone_in_pigment(token, Some(Word::Gradient), written)?;
                 self.pattern_of(pigment, written, token, None);
-                let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
-                pigment.kind =
-                    PigmentKind::Patterned { pattern: Pattern::Gradient { direction }, map };
-                pigment.clear.clear();
+                let pattern = Pattern::Gradient { direction };
+                match &mut pigment.kind {
+                    // In POV-Ray 3.7 the colours stay, those of `checker` too (measured).
+                    PigmentKind::Patterned { pattern: before, .. }
+                        if self.options.dialect == Dialect::Pov =>
+                    {
+                        *before = pattern;
+                    }
+                    kind => {
+                        let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
+                        *kind = PigmentKind::Patterned { pattern, map };
+                        pigment.clear.clear();
+                    }
+                }
             }
             TokenKind::Word(Word::ColorMap) => {
                 let Value::ColorMap(given) = self.color_map(token)? else { return Err(Reported) };
@@ -236,9 +259,12 @@ impl Evaluator<'_> {
                         *pigment = self.scene.pigments[id.index()].clone();
                         pigment.site = site;
                         written.pattern = None;
+                        written.named = true;
                     }
                     value @ (Value::Color(_) | Value::Vector(_)) => {
-                        if matches!(value, Value::Vector(_)) {
+                        if matches!(value, Value::Vector(_))
+                            && !self.is_kept_as_color(token, &value)
+                        {
                             self.bare_color(token);
                         }
                         let (span, here) = (token.span, token.here.clone());
@@ -283,6 +309,13 @@ impl Evaluator<'_> {
             }
         }
         Ok(())
+    }
+
+    /// `pigment { Glass }` of five numbers: POV-Ray 3.7 keeps such a vector as a colour (measured).
+    fn is_kept_as_color(&self, token: &Token, value: &Value) -> bool {
+        let is_written = self.sources.text(token.span).starts_with('<');
+        let has_five = matches!(value, Value::Vector(numbers) if numbers.as_slice().len() == 5);
+        self.options.dialect == Dialect::Pov && has_five && !is_written
     }
 
     /// `pigment { <1, 0, 0> }`, which POV-Ray refuses, too.

@@ -103,6 +103,17 @@ impl Evaluator<'_> {
         Ok(())
     }
 
+    /// `max_trace_level 9` outside of `global_settings`, as in old files; POV-Ray 3.7 reads it (measured).
+    pub(super) fn lone_setting(&mut self, token: &Token) -> Outcome<()> {
+        let name = self.sources.text(token.span).to_owned();
+        let message = format!("`{name}` stands outside of `global_settings`");
+        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+            .at(token.span, "it belongs in `global_settings { … }`")
+            .help(format!("write `global_settings {{ {name} … }}`"));
+        self.opinion(&token.here, diagnostic)?;
+        self.setting(token)
+    }
+
     pub(super) fn background(&mut self, token: &Token) -> Outcome<()> {
         let site = token.here.site(token.span);
         let opener = token.clone();

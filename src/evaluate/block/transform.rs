@@ -290,14 +290,17 @@ impl Evaluator<'_> {
             };
             return Ok(id);
         }
+        // In POV-Ray 3.7 it inverts all of the block, wherever it stands and however often (measured).
+        let inverts_all = self.options.dialect == Dialect::Pov;
         let steps = self.block(token, Word::TransformWord, |evaluator| {
-            let mut steps = Vec::new();
+            let (mut steps, mut inverse) = (Vec::new(), None);
             let mut failed = false;
             while let Some(token) = evaluator.next() {
                 match evaluator.step_from(&token) {
                     Some(Ok(step)) => steps.push(step),
                     Some(Err(Reported)) => failed = true,
                     None => match token.kind {
+                        TokenKind::Word(Word::Inverse) if inverts_all => inverse = Some(token),
                         TokenKind::Word(Word::Inverse) => {
                             let all = evaluator.add_transform(std::mem::take(&mut steps), &token);
                             steps.push(Step::InverseOf(all));
@@ -313,6 +316,10 @@ impl Evaluator<'_> {
                         _ => evaluator.unexpected(&token, Place::TRANSFORM),
                     },
                 }
+            }
+            if let Some(token) = inverse {
+                let all = evaluator.add_transform(std::mem::take(&mut steps), &token);
+                steps.push(Step::InverseOf(all));
             }
             if failed { Err(Reported) } else { Ok(steps) }
         })?;

@@ -84,6 +84,17 @@ pub fn arity(word: Word) -> Option<RangeInclusive<usize>> {
     function(word).map(|function| function.arity)
 }
 
+/// Whether the argument of this place, from 0, is a vector.
+pub fn wants_vector(word: Word, place: usize) -> bool {
+    match word {
+        Word::Vlength | Word::Vnormalize => place == 0,
+        Word::Vdot | Word::Vcross | Word::Vrotate | Word::VaxisRotate => place < 2,
+        Word::Vstr => place == 1,
+        Word::Vturbulence => place == 3,
+        _ => false,
+    }
+}
+
 /// The value of `word(arguments…)`.
 ///
 /// Anything done with a poison or broken value is that value again. No string becomes longer than

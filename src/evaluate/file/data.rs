@@ -31,11 +31,11 @@ pub struct Datum {
     pub ends: bool,
 }
 
-/// The value at `at`; `None` at the end of the text.
+/// The value at `at`; `None` at the end of the text. `commas` are the signs that may stand behind a value.
 ///
 /// # Errors
 /// Where no value stands.
-pub fn datum(text: &str, at: usize) -> Result<Option<Datum>, Fault> {
+pub fn datum(text: &str, at: usize, commas: &[char]) -> Result<Option<Datum>, Fault> {
     let at = skip_blanks(text, at)?;
     let (value, end) = match text[at..].chars().next() {
         None => return Ok(None),
@@ -47,7 +47,7 @@ pub fn datum(text: &str, at: usize) -> Result<Option<Datum>, Fault> {
         },
     };
     let next = skip_blanks(text, end)?;
-    Ok(Some(match text[next..].starts_with(',') {
+    Ok(Some(match text[next..].starts_with(commas) {
         true => Datum { value, next: next + 1, ends: false },
         false => Datum { value, next, ends: next == text.len() },
     }))
@@ -192,7 +192,7 @@ mod tests {
     /// All values of a text, and whether another `#read` would be asked for.
     fn values(text: &str) -> (Vec<String>, bool) {
         let (mut at, mut values) = (0, Vec::new());
-        while let Some(Datum { value, next, ends }) = datum(text, at).expect("values") {
+        while let Some(Datum { value, next, ends }) = datum(text, at, &[',']).expect("values") {
             values.push(match value {
                 Value::String(text) => format!("{text:?}"),
                 value => format!("{:?}", value.numbers().expect("numbers").as_slice()),
@@ -212,7 +212,7 @@ mod tests {
     fn fault(text: &str) -> (&str, String) {
         let mut at = 0;
         loop {
-            match datum(text, at) {
+            match datum(text, at, &[',']) {
                 Ok(Some(Datum { next, .. })) => at = next,
                 Ok(None) => panic!("no fault in {text}"),
                 Err(fault) => return (&text[fault.at.clone()], fault.message),
@@ -256,11 +256,11 @@ mod tests {
         #[test]
         fn any_text_ends_in_values_or_a_fault(text in "[-+0-9.,<>\"\\\\e/* né\n]{0,40}") {
             let mut at = 0;
-            while let Ok(Some(Datum { next, .. })) = datum(&text, at) {
+            while let Ok(Some(Datum { next, .. })) = datum(&text, at, &[',', ';']) {
                 prop_assert!(next > at && text.is_char_boundary(next));
                 at = next;
             }
-            if let Err(Fault { at, .. }) = datum(&text, at) {
+            if let Err(Fault { at, .. }) = datum(&text, at, &[',', ';']) {
                 prop_assert!(text.get(at.clone()).is_some_and(|part| !part.is_empty()));
             }
         }

@@ -3,6 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{NameId, Target};
+use crate::vocabulary::Dialect;
 
 use super::super::scope::Owner;
 use super::super::value::Value;
@@ -43,7 +44,12 @@ impl Evaluator<'_> {
                     return Err(self.other_way(here, handle, name.1, "write", "read"));
                 }
             };
-            let read = datum(&self.sources.get(file).text, at);
+            // POV-Ray 3.7 passes over any sign behind a value (measured).
+            let commas = match self.options.dialect {
+                Dialect::Scene => &[','][..],
+                Dialect::Pov => &[',', ';'],
+            };
+            let read = datum(&self.sources.get(file).text, at, commas);
             let Datum { value, next, ends } = match read {
                 Ok(Some(datum)) => datum,
                 Ok(None) => {
