@@ -1,4 +1,4 @@
-//! The README and the pages below docs say what is true: their broken scene, their links.
+//! Checks what the README and the pages in `docs` quote: scenes, messages, output, tables and links.
 
 use std::path::Path;
 
@@ -9,30 +9,40 @@ use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
 use lucarne::source::NoFiles;
 
-fn block<'a>(page: &'a str, kind: &str) -> &'a str {
+/// Returns the contents of the fenced blocks of `kind` on `page`, in order.
+fn blocks<'a>(page: &'a str, kind: &str) -> Vec<&'a str> {
     let start = format!("```{kind}\n");
-    let from = page.find(&start).expect("the block is there") + start.len();
-    let length = page[from..].find("```").expect("the block ends");
-    &page[from..from + length]
+    let rests = page.split(start.as_str()).skip(1);
+    rests.map(|rest| rest.split_once("```").expect("the block ends").0).collect()
+}
+
+/// Compiles a scene of the README and returns its messages as the command prints them.
+fn messages(name: &str, scene: &str) -> Vec<String> {
+    let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
+    road.compile(name, scene.as_bytes().to_vec());
+    let messages = road.diagnostics.iter();
+    messages.map(|message| human(message, &road.sources, Style::PLAIN)).collect()
+}
+
+#[test]
+fn the_readmes_first_scene_has_no_mistakes() {
+    let scene = blocks(include_str!("../README.md"), "scene")[0];
+    assert_eq!(scene.lines().count(), 10);
+    let messages = messages("ring.scene", scene);
+    assert!(messages.is_empty(), "{}", messages.join("\n"));
 }
 
 #[test]
 fn the_readmes_broken_scene_is_told_what_the_readme_says() {
     let page = include_str!("../README.md");
-    let (scene, said) = (block(page, "scene"), block(page, "text"));
-    let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
-    road.compile("ball.scene", scene.as_bytes().to_vec());
-    let messages: Vec<String> = road
-        .diagnostics
-        .iter()
-        .map(|message| human(message, &road.sources, Style::PLAIN))
-        .collect();
+    let (scene, said) = (blocks(page, "scene")[1], blocks(page, "text")[0]);
+    let messages = messages("ball.scene", scene);
     assert_eq!(messages.len(), 2, "{}", messages.join("\n"));
     assert_eq!(messages[0].trim(), said.trim());
 }
 
 #[test]
-fn the_plan_of_the_first_picture_is_what_the_readme_says() {
+fn the_plan_of_the_first_picture_is_what_the_pages_say() {
     let name = "scenes/gallery/first.scene";
     let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
     let bytes = std::fs::read(name).expect("the scene is there");
@@ -41,7 +51,21 @@ fn the_plan_of_the_first_picture_is_what_the_readme_says() {
     let mut plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
     pilot(&world, &mut plan);
     let said = print::dump(&plan, &road.sources);
-    assert!(include_str!("../README.md").contains(&format!("```text\n{said}```\n")), "{said}");
+    let page = include_str!("../docs/effects.md");
+    assert!(page.contains(&format!("```text\n{said}```\n")), "{said}");
+    // The README quotes some lines of it, as they follow each other.
+    let excerpt = blocks(include_str!("../README.md"), "text")[1];
+    assert!(excerpt.lines().count() >= 5, "{excerpt}");
+    assert!(said.contains(&format!("\n{excerpt}")), "{said}");
+}
+
+#[test]
+fn the_readmes_row_of_numbers_is_one_of_the_page_on_numerics() {
+    let row = "\n| sphere | 1e6 | ";
+    let page = include_str!("../README.md");
+    let from = page.find(row).expect("the row is there") + 1;
+    let row = page[from..].lines().next().expect("a line");
+    assert!(include_str!("../docs/numerics.md").lines().any(|line| line == row), "{row}");
 }
 
 #[test]
@@ -56,8 +80,9 @@ fn every_link_of_a_page_leads_somewhere() {
         // A scene has no links.
         let text: Vec<&str> = text.split("```").step_by(2).collect();
         let text = text.concat();
-        for (at, _) in text.match_indices("](") {
-            let link = text[at + 2..].split(')').next().unwrap_or("");
+        let markdown = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        let html = text.split(" src=\"").skip(1).filter_map(|rest| rest.split('"').next());
+        for link in markdown.chain(html) {
             let path = link.split('#').next().unwrap_or("");
             let folder = page.parent().expect("a folder");
             if !link.contains("://") && !path.is_empty() && !folder.join(path).exists() {
@@ -76,9 +101,9 @@ fn accuracy_table(page: &str) -> &str {
 }
 
 #[test]
-fn the_tables_of_accuracy_and_the_diagram_are_of_one_run() {
-    let table = accuracy_table(include_str!("../README.md"));
-    assert_eq!(table, accuracy_table(include_str!("../docs/accuracy.md")));
+fn the_table_of_accuracy_and_the_diagram_are_of_one_run() {
+    let table = accuracy_table(include_str!("../docs/accuracy.md"));
+    assert!(include_str!("../README.md").contains("](docs/images/first-accuracy.svg)"));
     let svg = include_str!("../docs/images/first-accuracy.svg");
     let mut knob = "";
     let mut settings = 0;
