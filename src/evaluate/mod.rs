@@ -168,6 +168,8 @@ struct Evaluator<'a> {
     has_version: bool,
     says_version: bool,
     warned_of_version: bool,
+    /// Words of pigments and finishes stand in textures, as before version 3.0.
+    has_bare_textures: bool,
     says_gamma: bool,
     /// The first colour that was converted before `assumed_gamma` was said.
     srgb_before_gamma: Option<Site>,
@@ -317,6 +319,7 @@ impl<'a> Evaluator<'a> {
             has_version: false,
             says_version: false,
             warned_of_version: false,
+            has_bare_textures: false,
             says_gamma: false,
             srgb_before_gamma: None,
             poison: None,

@@ -20,6 +20,16 @@ use whole::Written;
 /// What POV-Ray does with a negative power.
 const AS_A_POWER: &str = "light is taken to this negative power";
 
+/// A finish under way.
+pub(super) struct OpenFinish {
+    opener: Token,
+    finish: Finish,
+    written: Written,
+    failed: bool,
+    /// How many messages there were before.
+    told: usize,
+}
+
 /// A loop may go through one place again and again.
 pub(super) fn list_once(sites: &mut Vec<Site>, item: Site) {
     if sites.iter().all(|site| site.span != item.span) {
@@ -35,50 +45,70 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn finish_from(&mut self, token: &Token, start: FinishId) -> Outcome<FinishId> {
-        let mut finish = self.scene.finishes[start.index()].clone();
-        let opener = token.clone();
+        self.block(token, Word::Finish, |evaluator| {
+            let mut open = evaluator.open_finish(token, start);
+            while let Some(token) = evaluator.next() {
+                evaluator.item_of_finish(&token, &mut open);
+            }
+            evaluator.close_finish(open)
+        })
+    }
+
+    /// A finish that items are read into, and that `token` began.
+    pub(super) fn open_finish(&self, token: &Token, start: FinishId) -> OpenFinish {
         let origin = self.finish_origin(start);
         // The default's words make way for those of the other vocabulary.
         let origin = match start == self.scene.textures[self.default_texture.index()].finish {
             true => FinishOrigin { seed: None, classic: None, ..origin },
             false => origin,
         };
-        let (finish, origin) = self.block(token, Word::Finish, |evaluator| {
-            let mut written = Written { origin, ..Written::default() };
-            let (mut failed, told) = (false, evaluator.diagnostics.len());
-            while let Some(token) = evaluator.next() {
-                if evaluator.finish_item(&token, &mut finish, &mut written) == Err(Reported) {
-                    failed = true;
-                    evaluator.skip_values();
-                }
-            }
-            // What failed may be what is missing.
-            if failed && written.classic.is_none() {
-                return Err(Reported);
-            }
-            let before = match finish {
-                Finish::Seed { ks, .. } => Some(ks),
-                Finish::Classic(_) => None,
-            };
-            evaluator.whole_finish(&opener, &mut finish, &written)?;
-            if let Some(ambient) = &written.ambient {
-                evaluator.lint_ambient(ambient, &finish);
-            }
-            // A word that is not known may be the one that is missing.
-            if evaluator.diagnostics.len() == told {
-                evaluator.lint_unlit_highlight(&finish, &written.highlights);
-            }
-            if let Finish::Classic(classic) = &mut finish {
-                written.albedo.spend(classic);
-            }
-            if let Finish::Seed { ks, .. } = finish {
-                written.weigh_seed(ks, before);
-            }
-            let here = |word: (Word, Span)| (word.0, opener.here.site(word.1));
-            written.origin.seed = written.origin.seed.or(written.seed.map(here));
-            written.origin.classic = written.origin.classic.or(written.classic.map(here));
-            if failed { Err(Reported) } else { Ok((finish, written.origin)) }
-        })?;
+        OpenFinish {
+            opener: token.clone(),
+            finish: self.scene.finishes[start.index()].clone(),
+            written: Written { origin, ..Written::default() },
+            failed: false,
+            told: self.diagnostics.len(),
+        }
+    }
+
+    pub(super) fn item_of_finish(&mut self, token: &Token, open: &mut OpenFinish) {
+        if self.finish_item(token, &mut open.finish, &mut open.written) == Err(Reported) {
+            open.failed = true;
+            self.skip_values();
+        }
+    }
+
+    pub(super) fn close_finish(&mut self, open: OpenFinish) -> Outcome<FinishId> {
+        let OpenFinish { opener, mut finish, mut written, failed, told } = open;
+        // What failed may be what is missing.
+        if failed && written.classic.is_none() {
+            return Err(Reported);
+        }
+        let before = match finish {
+            Finish::Seed { ks, .. } => Some(ks),
+            Finish::Classic(_) => None,
+        };
+        self.whole_finish(&opener, &mut finish, &written)?;
+        if let Some(ambient) = &written.ambient {
+            self.lint_ambient(ambient, &finish);
+        }
+        // A word that is not known may be the one that is missing.
+        if self.diagnostics.len() == told {
+            self.lint_unlit_highlight(&finish, &written.highlights);
+        }
+        if let Finish::Classic(classic) = &mut finish {
+            written.albedo.spend(classic);
+        }
+        if let Finish::Seed { ks, .. } = finish {
+            written.weigh_seed(ks, before);
+        }
+        if failed {
+            return Err(Reported);
+        }
+        let here = |word: (Word, Span)| (word.0, opener.here.site(word.1));
+        let mut origin = written.origin;
+        origin.seed = origin.seed.or(written.seed.map(here));
+        origin.classic = origin.classic.or(written.classic.map(here));
         let site = Some(opener.here.site(opener.span));
         let sites = (origin.highlights.len() + origin.reflection.len()) * size_of::<Site>();
         self.scene.finish_origins.resize(self.scene.finishes.len(), FinishOrigin::default());

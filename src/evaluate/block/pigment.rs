@@ -31,6 +31,22 @@ struct Written {
     named: bool,
 }
 
+/// A pigment under way.
+pub(super) struct OpenPigment {
+    pigment: Pigment,
+    /// It began as the default.
+    is_default: bool,
+    written: Written,
+    failed: bool,
+}
+
+impl OpenPigment {
+    /// What comes next may replace the colour or the pattern that was written.
+    pub(super) fn begin_anew(&mut self) {
+        self.written.first = None;
+    }
+}
+
 /// What gave a pigment its pattern, if that has more than one colour.
 fn called_pattern(pigment: &mut Pigment) -> Vec<Site> {
     match &pigment.kind {
@@ -56,30 +72,43 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn pigment_from(&mut self, token: &Token, start: PigmentId) -> Outcome<PigmentId> {
-        let mut pigment = self.scene.pigments[start.index()].clone();
-        pigment.site = token.here.site(token.span);
-        let pigment = self.block(token, Word::Pigment, |evaluator| {
-            let mut failed = false;
-            // A map may stand before its pattern.
-            let mut written = Written::default();
+        self.block(token, Word::Pigment, |evaluator| {
+            let mut open = evaluator.open_pigment(token, start);
             while let Some(token) = evaluator.next() {
-                if evaluator.pigment_item(&token, &mut pigment, &mut written) == Err(Reported) {
-                    failed = true;
-                    written.mistaken(&token);
-                    evaluator.skip_values();
-                }
+                evaluator.item_of_pigment(&token, &mut open);
             }
-            if let Some((given, token, item)) = written.map
-                && !failed
-            {
-                let is_new = start == PigmentId(0) && written.first.is_none() && !written.named;
-                evaluator.note_map(&mut pigment, &given, item, written.pattern);
-                let painted = evaluator.paint(&mut pigment, given.map.clone(), &token, is_new);
-                failed |= painted == Err(Reported);
-            }
-            if failed { Err(Reported) } else { Ok(pigment) }
-        })?;
-        Ok(self.add_pigment(pigment))
+            evaluator.close_pigment(open)
+        })
+    }
+
+    /// A pigment that items are read into, and that `token` began.
+    pub(super) fn open_pigment(&self, token: &Token, start: PigmentId) -> OpenPigment {
+        let site = token.here.site(token.span);
+        let pigment = Pigment { site, ..self.scene.pigments[start.index()].clone() };
+        let is_default = start == PigmentId(0);
+        OpenPigment { pigment, is_default, written: Written::default(), failed: false }
+    }
+
+    pub(super) fn item_of_pigment(&mut self, token: &Token, open: &mut OpenPigment) {
+        if self.pigment_item(token, &mut open.pigment, &mut open.written) == Err(Reported) {
+            open.failed = true;
+            open.written.mistaken(token);
+            self.skip_values();
+        }
+    }
+
+    pub(super) fn close_pigment(&mut self, open: OpenPigment) -> Outcome<PigmentId> {
+        let OpenPigment { mut pigment, is_default, written, mut failed } = open;
+        // A map may stand before its pattern.
+        if let Some((given, token, item)) = written.map
+            && !failed
+        {
+            let is_new = is_default && written.first.is_none() && !written.named;
+            self.note_map(&mut pigment, &given, item, written.pattern);
+            let painted = self.paint(&mut pigment, given.map.clone(), &token, is_new);
+            failed |= painted == Err(Reported);
+        }
+        if failed { Err(Reported) } else { Ok(self.add_pigment(pigment)) }
     }
 
     /// Puts the colours of a map over the values of the pigment's pattern. `is_new`: nothing else gave it any.

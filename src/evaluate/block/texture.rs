@@ -1,5 +1,6 @@
 //! `texture` and `#default`.
 
+mod bare;
 mod pattern;
 
 use crate::scene::{Texture, TextureId};
@@ -9,6 +10,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use bare::Bare;
 use pattern::Written;
 
 impl Evaluator<'_> {
@@ -33,11 +35,12 @@ impl Evaluator<'_> {
         let mut texture = self.scene.textures[self.default_texture.index()].clone();
         self.block(token, Word::Texture, |evaluator| {
             let mut failed = false;
-            let mut written = Written::default();
+            let (mut written, mut bare) = (Written::default(), Bare::default());
             while let Some(token) = evaluator.next() {
-                let item = evaluator.texture_item(&token, &mut texture, &mut written);
+                let item = evaluator.texture_item(&token, &mut texture, (&mut written, &mut bare));
                 failed |= item == Err(Reported);
             }
+            failed |= evaluator.close_bare(&mut texture, &mut bare) == Err(Reported);
             failed |= evaluator.whole_texture(&written) == Err(Reported);
             if failed { Err(Reported) } else { Ok(texture) }
         })
@@ -54,12 +57,16 @@ impl Evaluator<'_> {
         &mut self,
         token: &Token,
         texture: &mut Texture,
-        written: &mut Written,
+        (written, bare): (&mut Written, &mut Bare),
     ) -> Outcome<()> {
         if let Some(transform) = self.transform_from(token) {
             texture.transforms.push(transform?);
             return Ok(());
         }
+        if self.bare_item(token, texture, bare).is_some() {
+            return Ok(());
+        }
+        self.close_bare(texture, bare)?;
         if let TokenKind::Word(word) = token.kind
             && let Some(outcome) = self.patterned_item(token, word, written)
         {

@@ -55,11 +55,13 @@ impl Evaluator<'_> {
         (self.version * 100.0).round() < (version * 100.0).round()
     }
 
-    /// Whether the scene has what older versions show otherwise, so that another `#version` changes its picture.
+    /// Whether the scene has what older versions read or show otherwise, so that another `#version` changes its
+    /// picture.
     fn looks_old(&self) -> bool {
         let filters = |color: Color| color.filter != 0.0;
         self.scene.settings.clearness == Clearness::Old
-            && (self.scene.background.as_ref().is_some_and(|back| back.color.transmit != 0.0)
+            && (self.has_bare_textures
+                || self.scene.background.as_ref().is_some_and(|back| back.color.transmit != 0.0)
                 || self.scene.cameras.last().is_some_and(Camera::order_matters)
                 || self.scene.pigments.iter().any(|pigment| pigment.kind.colors().any(filters)))
     }

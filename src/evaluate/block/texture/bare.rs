@@ -1,0 +1,120 @@
+//! Textures of versions below 3.0: the words of their pigment, normal and finish stand in them without blocks.
+//!
+//! **In:** an item of a `texture`, in a `.pov` of such a version. **Out:** the pigment and the finish that such words
+//! make up; a normal is not built yet.
+//!
+//! **Source:** what POV-Ray 3.7 renders, measured against the same words in their blocks.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::block::finish::OpenFinish;
+use crate::evaluate::block::pigment::OpenPigment;
+use crate::evaluate::stream::{Token, TokenKind};
+use crate::evaluate::value::{Poison, Value};
+use crate::evaluate::{Evaluator, Outcome};
+use crate::scene::Texture;
+use crate::syntax::ast::ExpressionKind;
+use crate::vocabulary::{Dialect, Family, Word};
+
+/// The version from which on a texture has blocks only.
+const BLOCKS_SINCE: f64 = 3.0;
+
+/// The parts of a texture whose words stand in it, under way.
+#[derive(Default)]
+pub(super) struct Bare {
+    pigment: Option<OpenPigment>,
+    finish: Option<OpenFinish>,
+}
+
+impl Evaluator<'_> {
+    /// Reads an item that a later version has in a block of the texture; `None` where it is no such item.
+    pub(super) fn bare_item(
+        &mut self,
+        token: &Token,
+        texture: &Texture,
+        bare: &mut Bare,
+    ) -> Option<()> {
+        if self.options.dialect != Dialect::Pov || !self.is_before(BLOCKS_SINCE) {
+            return None;
+        }
+        let block = self.block_of(token)?;
+        // A scene of that time is full of them: the first is told.
+        if !std::mem::replace(&mut self.has_bare_textures, true) {
+            let name = self.sources.text(token.span);
+            let message = format!("`{name}` has no meaning in `texture` since version 3.0");
+            let read = match block {
+                Word::Crand => "it is read as a finish's `crand`".to_owned(),
+                _ => format!("it is read as in `{} {{ … }}`", block.name()),
+            };
+            let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+                .at(token.span, read)
+                .help("write the words of a texture in `pigment`, `normal` and `finish`");
+            let _: Outcome<()> = self.opinion(&token.here, diagnostic);
+        }
+        match block {
+            Word::Pigment => {
+                let open = bare.pigment.take();
+                let mut open = open.unwrap_or_else(|| self.open_pigment(token, texture.pigment));
+                open.begin_anew();
+                self.item_of_pigment(token, &mut open);
+                bare.pigment = Some(open);
+            }
+            Word::Finish => {
+                let open = bare.finish.take();
+                let mut open = open.unwrap_or_else(|| self.open_finish(token, texture.finish));
+                self.item_of_finish(token, &mut open);
+                bare.finish = Some(open);
+            }
+            _ => {
+                if let TokenKind::Word(word) = token.kind {
+                    self.pass_not_built(token, word);
+                    self.skip_values();
+                }
+                self.set_poison(Poison::new(block, token.here.site(token.span)));
+            }
+        }
+        Some(())
+    }
+
+    /// Gives the texture what the words before have come to.
+    pub(super) fn close_bare(&mut self, texture: &mut Texture, bare: &mut Bare) -> Outcome<()> {
+        let pigment = bare.pigment.take().map(|open| self.close_pigment(open)).transpose();
+        let finish = bare.finish.take().map(|open| self.close_finish(open)).transpose();
+        texture.pigment = pigment?.unwrap_or(texture.pigment);
+        texture.finish = finish?.unwrap_or(texture.finish);
+        Ok(())
+    }
+
+    /// The block of a texture that an item belongs in; `crand` for a number, which is its value.
+    fn block_of(&mut self, token: &Token) -> Option<Word> {
+        match token.kind {
+            TokenKind::Word(word) => match word {
+                Word::Bumps | Word::Dents | Word::Ripples | Word::Waves | Word::Wrinkles => {
+                    Some(Word::Normal)
+                }
+                Word::BumpMap | Word::NormalMap => Some(Word::Normal),
+                Word::ColorMap | Word::ImageMap | Word::QuickColor => Some(Word::Pigment),
+                Word::Ior => Some(Word::Finish),
+                // Of whole textures.
+                Word::Tiles | Word::Tile2 => None,
+                Word::Checker if self.is_before_texture() => None,
+                _ => match word.family() {
+                    Family::Color | Family::Pattern | Family::PatternItem => Some(Word::Pigment),
+                    Family::FinishItem => Some(Word::Finish),
+                    _ => None,
+                },
+            },
+            TokenKind::Expression(id) => {
+                if let ExpressionKind::Number(number) = token.here.unit.expression(id).kind {
+                    return (number != 0.0).then_some(Word::Crand);
+                }
+                let value = self.named(&token.here, id)?;
+                matches!(value, Value::Color(_) | Value::Vector(_)).then_some(Word::Pigment)
+            }
+            _ => None,
+        }
+    }
+
+    fn is_before_texture(&mut self) -> bool {
+        matches!(self.peek(), Some(Token { kind: TokenKind::Word(Word::Texture), .. }))
+    }
+}
