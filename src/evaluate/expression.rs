@@ -4,7 +4,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::source::Span;
 use crate::syntax::ast::{ExpressionId, ExpressionKind};
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::comparison::Comparison;
 use super::lint::Side;
@@ -122,6 +122,9 @@ impl Evaluator<'_> {
 
     /// Operations lean to the left as deep as they are long: from the leftmost operand on, one by one.
     fn sum(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        if self.options.dialect == Dialect::Pov && self.holds_bare_operation(here, id) {
+            return self.spliced_value(here, id);
+        }
         let mut first = id;
         while let ExpressionKind::Binary(_, left, _) = here.unit.expression(first).kind {
             first = left;

@@ -33,6 +33,10 @@ struct Calculation<T> {
 /// What a calculation is of.
 trait Arithmetic<T> {
     fn evaluate(&mut self, here: &Here, id: ExpressionId) -> Outcome<T>;
+    /// Goes on with what a called macro leaves; `false` where that is one operand.
+    fn splice(&mut self, _: &mut Calculation<T>, _: &Here, _: ExpressionId) -> Outcome<bool> {
+        Ok(false)
+    }
     fn apply(&mut self, operation: Pending<T>, right: T) -> Outcome<T>;
 }
 
@@ -110,6 +114,7 @@ impl<T> Calculation<T> {
             ExpressionKind::Binary(..) => self.read(of, here, id),
             // What comes next.
             ExpressionKind::Joint => Ok(()),
+            ExpressionKind::Call(..) if of.splice(self, here, id)? => Ok(()),
             _ => {
                 self.last = Some(of.evaluate(here, id)?);
                 Ok(())
@@ -149,6 +154,22 @@ impl<T> Calculation<T> {
 impl Arithmetic<Value> for Evaluator<'_> {
     fn evaluate(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         self.operand(here, id)
+    }
+
+    fn splice(
+        &mut self,
+        calculation: &mut Calculation<Value>,
+        here: &Here,
+        id: ExpressionId,
+    ) -> Outcome<bool> {
+        let Some(called) = self.leaves_operation(here, id) else { return Ok(false) };
+        let expression = here.unit.expression(id);
+        let ExpressionKind::Call(_, arguments) = expression.kind else { return Ok(false) };
+        let span = expression.span;
+        let read = self.read_macro(here, called, arguments, span, |evaluator| {
+            evaluator.go_on_with_items(calculation, here, span)
+        });
+        read.map_or(Ok(false), |read| read.map(|()| true))
     }
 
     fn apply(&mut self, operation: Pending<Value>, right: Value) -> Outcome<Value> {
@@ -212,6 +233,40 @@ impl Evaluator<'_> {
         match calculation.result(self, None)? {
             Some(value) => Ok(value),
             None => Err(self.lacks_operand(&calculation, &token.here, token.span)),
+        }
+    }
+
+    /// A calculation in which a macro leaves an operation: in a `.pov` its text stands in the place of the call.
+    pub(super) fn spliced_value(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
+        let mut calculation = Calculation::EMPTY;
+        calculation.read(self, here, id)?;
+        calculation.result(self, None)?.ok_or(Reported)
+    }
+
+    fn go_on_with_items(
+        &mut self,
+        calculation: &mut Calculation<Value>,
+        here: &Here,
+        span: Span,
+    ) -> Outcome<()> {
+        while let Some(token) = self.next() {
+            match token.kind {
+                TokenKind::Semicolon => {}
+                TokenKind::Expression(id) if calculation.last.is_none() => {
+                    calculation.read(self, &token.here, id)?;
+                }
+                TokenKind::Expression(id) if goes_on(&token.here, id) => {
+                    calculation.read(self, &token.here, id)?;
+                }
+                _ if calculation.last.is_none() => {
+                    calculation.last = Some(self.value_of(&token)?);
+                }
+                _ => return Err(self.more_than_one(&token)),
+            }
+        }
+        match calculation.last {
+            Some(_) => Ok(()),
+            None => Err(self.expected("a value", None, (here, span.after()))),
         }
     }
 

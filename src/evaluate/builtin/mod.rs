@@ -29,6 +29,7 @@ mod vector;
 
 pub use random::RandomStreams;
 pub use rendered::{beyond_32_bits, rendered};
+pub use vector::wants_vector;
 
 /// Why a call has no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,17 +83,6 @@ pub struct CallError {
 /// function of this table.
 pub fn arity(word: Word) -> Option<RangeInclusive<usize>> {
     function(word).map(|function| function.arity)
-}
-
-/// Whether the argument of this place, from 0, is a vector.
-pub fn wants_vector(word: Word, place: usize) -> bool {
-    match word {
-        Word::Vlength | Word::Vnormalize => place == 0,
-        Word::Vdot | Word::Vcross | Word::Vrotate | Word::VaxisRotate => place < 2,
-        Word::Vstr => place == 1,
-        Word::Vturbulence => place == 3,
-        _ => false,
-    }
 }
 
 /// The value of `word(arguments…)`.

@@ -67,6 +67,17 @@ fn axis_rotated(v: Vector, axis: UnitVector, degrees: f64) -> Vector {
     v * c + k.cross(v) * s + k * (k.dot(v) * (1.0 - c))
 }
 
+/// Whether the argument of this place, from 0, is a vector.
+pub fn wants_vector(word: Word, place: usize) -> bool {
+    match word {
+        Word::Vlength | Word::Vnormalize => place == 0,
+        Word::Vdot | Word::Vcross | Word::Vrotate | Word::VaxisRotate => place < 2,
+        Word::Vstr => place == 1,
+        Word::Vturbulence => place == 3,
+        _ => false,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;

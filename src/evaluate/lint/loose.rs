@@ -1,7 +1,7 @@
 //! What a macro leaves beside an operator that would take but a part of it: `2*Next(3)` of `a+1`.
 //!
-//! POV-Ray reads the text of the macro in the place of its call, so that this is `2*a + 1` there. Here a call is
-//! one value, as if in parentheses.
+//! POV-Ray reads the text of the macro in the place of its call, so that this is `2*a + 1` there and in a `.pov`
+//! (`joint.rs`). In a `.scene` a call is one value, as if in parentheses.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -9,6 +9,9 @@ use crate::syntax::ast::{
     BinaryOperator, Callee, ExpressionId, ExpressionKind, ItemKind, Rank, UnaryOperator,
 };
 
+use crate::vocabulary::Dialect;
+
+use super::super::scope::MacroId;
 use super::super::value::Value;
 use super::super::{Evaluator, Here};
 
@@ -61,6 +64,49 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Whether an operand of a calculation is a macro that may leave an operation; tells where that is parted.
+    pub(in crate::evaluate) fn holds_bare_operation(
+        &mut self,
+        here: &Here,
+        id: ExpressionId,
+    ) -> bool {
+        let (mut first, mut holds) = (id, false);
+        while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {
+            for (side, operand) in [(Side::Left, left), (Side::Right, right)] {
+                if self.leaves_operation(here, operand).is_some() {
+                    holds = true;
+                    self.lint_loose_operand(here, operator, side, operand);
+                }
+            }
+            // As deep as there are ranks.
+            holds |= self.holds_bare_operation(here, right);
+            first = left;
+        }
+        holds
+    }
+
+    /// The macro that is called, where in a `.pov` what it leaves need not be one operand.
+    pub(in crate::evaluate) fn leaves_operation(
+        &self,
+        here: &Here,
+        id: ExpressionId,
+    ) -> Option<MacroId> {
+        let ExpressionKind::Call(Callee::Name(name, _), _) = here.unit.expression(id).kind else {
+            return None;
+        };
+        let Some(Value::Macro(called)) = self.scopes.look(here.symbol(name)) else { return None };
+        let (unit, body) = self.macros[called.0 as usize].parts()?;
+        let leaves = match unit.ast.items(body).last()?.kind {
+            ItemKind::Expression(left) => {
+                matches!(unit.expression(left).kind, ExpressionKind::Binary(..))
+            }
+            // What a branch leaves.
+            ItemKind::Directive(_) => true,
+            _ => false,
+        };
+        (leaves && self.options.dialect == Dialect::Pov).then_some(*called)
+    }
+
     /// The operation that a called macro leaves without parentheses, and where it stands.
     fn left_bare(&self, here: &Here, id: ExpressionId) -> Option<(BinaryOperator, Span)> {
         let ExpressionKind::Call(Callee::Name(name, _), _) = here.unit.expression(id).kind else {
@@ -80,8 +126,14 @@ impl Evaluator<'_> {
         let call = here.unit.expression(call).span;
         let text = self.sources.text(left).to_owned();
         let message = format!("`{symbol}` stands beside a macro that leaves an operation");
+        let label = match self.options.dialect {
+            Dialect::Scene => {
+                format!("taken as one value, where POV-Ray puts the text `{text}` here")
+            }
+            Dialect::Pov => format!("the text `{text}` is read here, as in POV-Ray"),
+        };
         let diagnostic = Diagnostic::new(Code::LooseOperation, message)
-            .at(call, format!("taken as one value, where POV-Ray puts the text `{text}` here"))
+            .at(call, label)
             .also(left, "what the macro leaves")
             .help(format!("say which is meant: write `({text})` in the macro"))
             .fix(left, format!("({text})"));
