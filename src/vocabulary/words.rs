@@ -259,7 +259,7 @@ vocabulary! {
         Albedo "albedo" statement built "`diffuse albedo 0.7`: the fraction of all incident light, not the value in the brightest direction; also for `phong` and `specular`";
         Ambient "ambient" statement built "light that the surface emits without any source, a number or a colour; default 0.1";
         Brilliance "brilliance" statement built "how fast diffuse light falls off with the angle; default 1";
-        ConserveEnergy "conserve_energy" statement built "reflected light is subtracted from transmitted light";
+        ConserveEnergy "conserve_energy" statement built "reflected light is not transmitted as well";
         Crand "crand" statement later "old grain in the colour";
         Diffuse "diffuse" statement built "the fraction of light that is scattered, 0 to 1; default 0.6";
         Emission "emission" statement built "light that the surface emits, a number or a colour; default 0";
