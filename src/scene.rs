@@ -5,6 +5,7 @@
 //! is an index, shared and never copied, and stands before its parents.
 
 pub mod blob;
+pub mod camera;
 pub mod height_field;
 pub mod julia_fractal;
 pub mod light;
@@ -19,13 +20,13 @@ pub mod text;
 use std::sync::Arc;
 
 use crate::color::{Clearness, Color, Gamma, Rgb};
-use crate::math::Vector;
 use crate::math::transform::Step;
 pub use crate::math::transform::TransformId;
 use crate::pattern::Pattern;
 use crate::source::{Expansions, Site, Span};
 pub use crate::vocabulary::Dialect;
 use crate::vocabulary::Word;
+pub use camera::{Camera, CameraItem, CameraItemKind, CameraKind};
 pub use julia_fractal::JuliaFractal;
 pub use light::{Beam, Fade, LightKind, LightSource};
 pub use solid::{Container, Solid};
@@ -371,62 +372,4 @@ impl Default for Settings {
             max_trace_level_site: None,
         }
     }
-}
-
-/// The camera's words in written order, without the defaults. As in POV-Ray 3.7 (measured) the order
-/// only matters among equal words, where the last counts, and among transforms, unless `is_in_order`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Camera {
-    pub kind: CameraKind,
-    pub items: Vec<CameraItem>,
-    /// Each word changes what those before it came to, as in scenes for POV-Ray 3.1 and older.
-    pub is_in_order: bool,
-    pub site: Site,
-}
-
-impl Camera {
-    /// Whether its words in written order may come to another camera than the same words sorted.
-    pub fn order_matters(&self) -> bool {
-        let step = |item: &CameraItem| match item.kind {
-            CameraItemKind::Angle(_) | CameraItemKind::LookAt(_) => 1,
-            CameraItemKind::Transform(_) => 2,
-            _ => 0,
-        };
-        let is_sorted = self.items.is_sorted_by_key(step);
-        self.is_in_order && !(is_sorted && self.kind == CameraKind::Perspective)
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum CameraKind {
-    #[default]
-    Perspective,
-    Orthographic,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub struct CameraItem {
-    pub kind: CameraItemKind,
-    pub site: Site,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum CameraItemKind {
-    Location(Vector),
-    LookAt(Vector),
-    Sky(Vector),
-    Up(Vector),
-    Right(Vector),
-    Direction(Vector),
-    /// Horizontal field of view in degrees.
-    Angle(f64),
-    /// The seed's lens shift, in widths and heights of the screen.
-    Shift {
-        x: f64,
-        y: f64,
-    },
-    Transform(TransformId),
-    /// Where a camera whose words act in order becomes orthographic: it goes on to see what it would see
-    /// there, at `look_at`.
-    Orthographic,
 }

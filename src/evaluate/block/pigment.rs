@@ -1,5 +1,6 @@
 //! `pigment`.
 
+mod open;
 mod second;
 
 use std::sync::Arc;
@@ -18,6 +19,7 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::finish::list_once;
 use super::pieces::{WrittenColor, WrittenMap};
 use super::{Given, Place};
+pub(super) use open::OpenPigment;
 use second::First;
 pub(super) use second::colors_of;
 
@@ -29,22 +31,6 @@ struct Written {
     first: Option<First>,
     /// It began as a declared pigment.
     named: bool,
-}
-
-/// A pigment under way.
-pub(super) struct OpenPigment {
-    pigment: Pigment,
-    /// It began as the default.
-    is_default: bool,
-    written: Written,
-    failed: bool,
-}
-
-impl OpenPigment {
-    /// What comes next may replace the colour or the pattern that was written.
-    pub(super) fn begin_anew(&mut self) {
-        self.written.first = None;
-    }
 }
 
 /// What gave a pigment its pattern, if that has more than one colour.
@@ -79,36 +65,6 @@ impl Evaluator<'_> {
             }
             evaluator.close_pigment(open)
         })
-    }
-
-    /// A pigment that items are read into, and that `token` began.
-    pub(super) fn open_pigment(&self, token: &Token, start: PigmentId) -> OpenPigment {
-        let site = token.here.site(token.span);
-        let pigment = Pigment { site, ..self.scene.pigments[start.index()].clone() };
-        let is_default = start == PigmentId(0);
-        OpenPigment { pigment, is_default, written: Written::default(), failed: false }
-    }
-
-    pub(super) fn item_of_pigment(&mut self, token: &Token, open: &mut OpenPigment) {
-        if self.pigment_item(token, &mut open.pigment, &mut open.written) == Err(Reported) {
-            open.failed = true;
-            open.written.mistaken(token);
-            self.skip_values();
-        }
-    }
-
-    pub(super) fn close_pigment(&mut self, open: OpenPigment) -> Outcome<PigmentId> {
-        let OpenPigment { mut pigment, is_default, written, mut failed } = open;
-        // A map may stand before its pattern.
-        if let Some((given, token, item)) = written.map
-            && !failed
-        {
-            let is_new = is_default && written.first.is_none() && !written.named;
-            self.note_map(&mut pigment, &given, item, written.pattern);
-            let painted = self.paint(&mut pigment, given.map.clone(), &token, is_new);
-            failed |= painted == Err(Reported);
-        }
-        if failed { Err(Reported) } else { Ok(self.add_pigment(pigment)) }
     }
 
     /// Puts the colours of a map over the values of the pigment's pattern. `is_new`: nothing else gave it any.
