@@ -98,8 +98,8 @@ pub struct Rise {
     pub up: f64,
     /// Rise per unit length of the ray.
     pub speed: f64,
-    /// Upper bound on the terms of `up`, along the plane's normal: the start, and the plane's distance from
-    /// 0. It is the same for all bodies that share the plane.
+    /// Upper bound on the terms of `up`, along the plane's normal: the start, and the distance of the plane
+    /// from 0. It is the same for all bodies that share the plane.
     pub up_size: f64,
     /// The same for `speed`.
     pub speed_size: f64,

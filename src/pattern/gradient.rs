@@ -4,8 +4,8 @@ use super::{Measured, NEAR, settled};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
-/// Returns the fractional part of `direction · point`, 0 … 1; it is 0 at every integer except 1, where it is
-/// 1. `direction` has length 1. So the top of a box as high as its gradient has the last colour.
+/// Returns the fractional part of `direction · point`, 0 … 1, for a `direction` of length 1. It is 0 at every
+/// integer except 1, where it is 1: so the top of a box as high as its gradient has the last colour.
 ///
 /// **Source:** POV-Ray manual, section "Gradient"; the value at 1 as in POV-Ray 3.7 (measured).
 #[inline]

@@ -182,8 +182,8 @@ pub struct SurfacePoint {
     pub normal: Vector,
     /// Error bound: the true surface lies within this distance of `point` along the normal.
     pub error: f64,
-    /// The flat face that was hit, for shapes that have faces: 0 for a plane; for a box, 2i for face i and 2i
-    /// + 1 for the opposite face.
+    /// The flat face that was hit, for shapes that have faces: 0 for a plane; for face i of a box, 2i, and
+    /// for the opposite face, 2i + 1.
     pub face: u32,
 }
 
@@ -194,8 +194,8 @@ impl SurfacePoint {
     /// Along the ray, the bound is twice the crossing's error, as start and direction are known no better
     /// than that. Flat faces add 4u·t/|N·D|: the vectors of the camera or of a mirror may nearly have
     /// cancelled in a component, so that a direction is off by roundoffs of its length, not of its component.
-    /// The error bounds of curved shapes include that term, and those surfaces bend away where |N·D| may be
-    /// 0. The remaining terms cover the rounding of start, direction and point, and of the projection onto
+    /// The error bounds of curved shapes include that term, and those surfaces bend away where |N·D| may
+    /// be 0. The remaining terms cover the rounding of start, direction and point, and of the projection onto
     /// the surface.
     pub fn spread(&self, ray: &Ray, t: f64, crossing: &Crossing, is_flat: bool) -> Vector {
         let turned = 4.0 * U * t / self.normal.dot(ray.direction).abs();
