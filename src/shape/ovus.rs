@@ -46,8 +46,9 @@ impl Ovus {
     /// Builds an ovus from `top` and `bottom` at any scale.
     ///
     /// The distance of the arc's centre from that of each sphere is the difference of their radii. With b and
-    /// t the radii, it is (4bt − t² − 2b²)/2b above the centre of the bottom sphere and (2b − t)·√(t(4b −
-    /// t))/2b beyond the axis if b ≥ t, else (3t² − 4bt + 2b²)/2b and t·√(3(3t − 2b)(2b − t))/2b.
+    /// t the radii of the spheres, the arc's centre is (4bt − t² − 2b²)/2b above that of the bottom sphere
+    /// and (2b − t)·√(t(4b − t))/2b beyond the axis if b ≥ t, else (3t² − 4bt + 2b²)/2b and t·√(3(3t − 2b)(2b
+    /// − t))/2b.
     pub fn new(bottom: Double, top: Double) -> Self {
         let n = Double::from;
         let half = bottom + top * n(0.5);

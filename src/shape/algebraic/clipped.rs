@@ -14,8 +14,8 @@ use super::{Algebraic, U};
 use crate::math::Vector;
 use crate::math::double::power_of_two;
 
-/// Maximum number of planes of which pairs are tried, each with as many multipliers on either side of the
-/// likeliest.
+/// Maximum number of planes of which pairs are tried, and the number of multipliers tried with each pair on
+/// either side of the likeliest.
 const MOST_PLANES: usize = 6;
 const MULTIPLIERS: i32 = 3;
 /// Maximum number of roundings of a coefficient, relative to the size of its terms.

@@ -52,7 +52,7 @@ struct Seen {
 }
 
 impl Component {
-    /// Returns the maximum of `along`·P over the component relative to its centre, for a radius of `width`.
+    /// Returns the maximum of `along`·P over the component, for a radius of `width`.
     fn greatest(&self, along: Vector, width: f64) -> f64 {
         let along_unit = self.blob_from_unit.transpose() * along;
         self.centre.dot(along) + self.half * along_unit.z.abs() + width * along_unit.length()

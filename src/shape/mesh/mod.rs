@@ -153,9 +153,9 @@ impl Flat {
 }
 
 impl Local for Mesh {
-    /// Entries and exits of a solid alternate, regardless of the winding of each face. A mesh that is not
-    /// closed where the line leaves it ends right behind the last face. A line in the plane of a face is
-    /// displaced beside it, to the same side as all such lines.
+    /// For a solid, entries and exits alternate, regardless of the winding of each face. If it is not closed
+    /// where the line leaves it, it ends right behind the last face. A line in the plane of a face of a solid
+    /// is displaced beside it, to the same side as all such lines.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let is_in_a_plane = self.pierced(ray, |met| found.push(met));
         if is_in_a_plane && self.inside.is_some() {

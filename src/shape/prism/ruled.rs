@@ -98,9 +98,9 @@ impl<'a> Ruled<'a> {
     }
 
     /// **Error:** no line within the ray's blur intersects the wall's line if the two are farther apart than
-    /// the blur: |r·(d × g)| > B·|d × g|, with B the blur at their closest approach, whose distance is |r ×
-    /// g|/|d × g|; plus a small margin, as the lines within the blur are not parallel. Valid while the ray's
-    /// turn is less than half of the angle between the two.
+    /// the blur: |r·(d × g)| > B·|d × g|, with B the blur at their closest approach, which is at distance |r
+    /// × g|/|d × g| along the ray; plus a small margin, as the lines within the blur are not parallel. Valid
+    /// while the ray's turn is less than half of the angle between the two.
     fn value(&self, point: Point) -> (f64, f64) {
         let LocalRay { nearest, direction, blur, turn, .. } = *self.ray;
         let [a, b, c] = self.side;
