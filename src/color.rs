@@ -1,8 +1,7 @@
-//! Colours, and the only place that knows a gamma curve.
+//! Colours and gamma curves; no other module implements a gamma curve.
 //!
-//! **Invariant:** [`Rgb`] is light: linear, unbounded, `f64`. [`Color`] is what the language calls
-//! a colour: light plus `filter` and `transmit`. Encoding for a display happens only in
-//! [`srgb_encode`].
+//! **Invariant:** [`Rgb`] is light: linear, unbounded, `f64`. [`Color`] is a colour of the scene language:
+//! light plus `filter` and `transmit`. Encoding for a display happens only in [`srgb_encode`].
 
 mod web;
 
@@ -40,22 +39,22 @@ impl Rgb {
         Self::new(f(self.red), f(self.green), f(self.blue))
     }
 
-    /// A component above 1 counts as exactly 1.
+    /// Clamps each component to at most 1.
     #[inline]
     pub fn at_most_one(self) -> Self {
         self.map(|c| c.min(1.0))
     }
 
-    /// The largest absolute component.
+    /// Returns the largest absolute component.
     #[inline]
     pub fn largest(self) -> f64 {
         self.red.abs().max(self.green.abs()).max(self.blue.abs())
     }
 
-    /// How bright it is as a gray.
+    /// Returns the brightness.
     ///
-    /// **Source:** POV-Ray 3.7's behaviour, measured: where `adc_bailout` cuts rays through filters
-    /// of one colour each.
+    /// **Source:** behaviour of POV-Ray 3.7, measured: where `adc_bailout` cuts rays through filters of one
+    /// colour each.
     pub fn brightness(self) -> f64 {
         0.297 * self.red + 0.589 * self.green + 0.114 * self.blue
     }
@@ -65,13 +64,12 @@ impl Rgb {
         self == Self::BLACK
     }
 
-    /// Whether any component is above zero.
+    /// Returns whether any component is above zero.
     pub fn gives_light(self) -> bool {
         self.red > 0.0 || self.green > 0.0 || self.blue > 0.0
     }
 
-    /// With a large number for what is infinite, as POV-Ray 3.7 shows it (measured), and 0 for what is no
-    /// number.
+    /// Replaces infinities by a large number, as POV-Ray 3.7 shows them (measured), and NaN by 0.
     pub fn bounded(self) -> Self {
         const LARGE: f64 = 1e9;
         self.map(|c| match c {
@@ -90,7 +88,7 @@ impl Rgb {
     }
 }
 
-/// As the language writes it: `<1, 0.5, 0>`.
+/// Formats as in the scene language: `<1, 0.5, 0>`.
 impl fmt::Display for Rgb {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Adding zero turns −0 into 0.
@@ -129,7 +127,7 @@ impl Mul<f64> for Rgb {
     }
 }
 
-/// The language's colour: light, and how much passes through, tinted (`filter`) or not
+/// A colour of the scene language: light, and how much light passes through, tinted (`filter`) or not
 /// (`transmit`).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Color {
@@ -159,14 +157,14 @@ impl Color {
         Self { rgb, filter: 0.0, transmit: 0.0 }
     }
 
-    /// With 0 for what is no number, as in POV-Ray 3.7 (measured).
+    /// Replaces NaN by 0, as in POV-Ray 3.7 (measured).
     pub fn of_numbers(self) -> Self {
         let number = |n: f64| if n.is_nan() { 0.0 } else { n };
         let (filter, transmit) = (number(self.filter), number(self.transmit));
         Self { rgb: self.rgb.map(number), filter, transmit }
     }
 
-    /// Each number rounded to single precision; what is too large for that is its largest.
+    /// Rounds each number to single precision, clamped to finite numbers.
     pub fn single(self) -> Self {
         let single = |number: f64| {
             let largest = f64::from(f32::MAX);
@@ -176,22 +174,22 @@ impl Color {
         Self { rgb: self.rgb.map(single), filter, transmit }
     }
 
-    /// Whether any light goes through.
+    /// Returns whether any light passes through.
     #[inline]
     pub fn is_clear(self) -> bool {
         self.filter != 0.0 || self.transmit != 0.0
     }
 
-    /// The part of the light behind it that goes through: as it is, and tinted.
+    /// Returns the fraction of the light behind it that passes through: unchanged, plus tinted.
     #[inline]
     pub fn transmittance(self) -> Rgb {
         self.rgb.map(|c| c * self.filter + self.transmit)
     }
 
-    /// The colour it shows by itself, as much of it as is not clear. More `filter` and `transmit`
-    /// than 1 in all leave less than nothing.
+    /// Returns the colour of its own surface, scaled by its opacity. Negative if `filter` and `transmit` sum
+    /// to more than 1.
     ///
-    /// **Source:** POV-Ray 3.7's behaviour, measured with ambient, emission and diffuse light.
+    /// **Source:** behaviour of POV-Ray 3.7, measured with ambient, emission and diffuse light.
     #[inline]
     pub fn body(self, clearness: Clearness) -> Rgb {
         if !self.is_clear() {
@@ -207,7 +205,7 @@ impl Color {
         self.rgb * (1.0 - filter - self.transmit)
     }
 
-    /// The point `t` of the way from `self` to `other`, per component.
+    /// Interpolates linearly from `self` to `other`, per component.
     #[inline]
     pub fn lerp(self, other: Self, t: f64) -> Self {
         let mix = |a: f64, b: f64| a + (b - a) * t;
@@ -223,7 +221,7 @@ impl Color {
     }
 }
 
-/// As [`Rgb`], with filter and transmit where they are not zero.
+/// Formats like [`Rgb`], with `filter` and `transmit` if they are not zero.
 impl fmt::Display for Color {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.rgb.fmt(f)?;
@@ -237,23 +235,23 @@ impl fmt::Display for Color {
     }
 }
 
-/// How the numbers of a scene's colours stand for light.
+/// How the numbers of a scene's colours encode light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Gamma {
-    /// Light is the number to this power, > 0; 1 for numbers that are light.
+    /// Light is the number to this power, > 0; 1 for linear numbers.
     Power(f64),
-    /// The sRGB curve, which goes on above 1.
+    /// The sRGB curve, continued above 1.
     Srgb,
 }
 
 impl Gamma {
-    /// Numbers that are light.
+    /// Linear numbers.
     pub const LINEAR: Self = Self::Power(1.0);
 
-    /// The light that a component stands for, ≥ 0; none where it is negative or undefined.
+    /// Converts a component to light, ≥ 0; zero if it is negative or NaN.
     ///
-    /// **Source:** POV-Ray 3.7's `assumed_gamma`, measured: within 1/65,535 of each up to 1, and
-    /// above in radiance maps.
+    /// **Source:** `assumed_gamma` of POV-Ray 3.7, measured: within 1/65,535 of each up to 1, and above in
+    /// radiance maps.
     #[inline]
     pub fn linear(self, component: f64) -> f64 {
         if component.is_nan() || component <= 0.0 {
@@ -266,10 +264,10 @@ impl Gamma {
         }
     }
 
-    /// The component that stands for what a display shows of `encoded`.
+    /// Converts a display value to the component that shows the same.
     ///
-    /// **Source:** POV-Ray 3.7's `srgb`, measured: the curve goes on above 1, its straight part below 0,
-    /// and a power has nothing of a negative light.
+    /// **Source:** `srgb` of POV-Ray 3.7, measured: the curve continues above 1, its straight part below 0,
+    /// and a power maps negative light to 0.
     pub fn of_srgb(self, encoded: f64) -> f64 {
         match self {
             Self::Power(1.0) => srgb_decode(encoded),
@@ -278,7 +276,7 @@ impl Gamma {
         }
     }
 
-    /// The component that stands for light of 0 to 1: the inverse of [`Gamma::linear`].
+    /// Converts light from 0 to 1 to a component: the inverse of [`Gamma::linear`].
     pub fn of_light(self, light: f64) -> f64 {
         match self {
             Self::Power(1.0) => light,
@@ -294,7 +292,7 @@ impl Default for Gamma {
     }
 }
 
-/// As the language writes it: `2.2`, `srgb`.
+/// Formats as in the scene language: `2.2`, `srgb`.
 impl fmt::Display for Gamma {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -304,7 +302,7 @@ impl fmt::Display for Gamma {
     }
 }
 
-/// Linear light to the sRGB curve, both 0 … 1; out of range is clamped and NaN is 0.
+/// Encodes linear light by the sRGB curve, both 0 … 1; out-of-range values are clamped and NaN is 0.
 ///
 /// **Source:** IEC 61966-2-1.
 pub fn srgb_encode(linear: f64) -> f64 {
@@ -319,7 +317,7 @@ pub fn srgb_encode(linear: f64) -> f64 {
     }
 }
 
-/// The inverse of [`srgb_encode`].
+/// Returns the inverse of [`srgb_encode`].
 pub fn srgb_decode(encoded: f64) -> f64 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { pow((encoded + 0.055) / 1.055, 2.4) }
 }

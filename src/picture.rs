@@ -1,7 +1,7 @@
-//! Picture files: the one door that names `image` and `png`.
+//! Picture files; the only module that uses `image` and `png`.
 //!
-//! **In:** an [`Image`]. **Out:** the bytes of a file. **Invariant:** the bytes depend on the image
-//! alone: no date, no name, no order of threads.
+//! **In:** an [`Image`]. **Out:** the bytes of a file. **Invariant:** the bytes depend only on the image: no
+//! date, no name, no thread order.
 
 pub mod heights;
 
@@ -11,14 +11,14 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use crate::film::{Depth, Image, Pixels};
 
-/// What a picture file can be.
+/// The format of a picture file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// 8 or 16 bits, lossless, with sRGB and gAMA chunks.
     Png,
     /// 8 bits, lossy.
     Jpeg,
-    /// 8 or 16 bits, not compressed.
+    /// 8 or 16 bits, uncompressed.
     Ppm,
     /// 8 bits, lossless.
     Qoi,
@@ -31,7 +31,7 @@ pub enum Format {
 impl Format {
     pub const ALL: [Self; 6] = [Self::Png, Self::Jpeg, Self::Ppm, Self::Qoi, Self::Hdr, Self::Exr];
 
-    /// The extensions a file of this format may have; the first is the usual one.
+    /// Returns the file name extensions of this format; the first is the usual one.
     pub fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Png => &["png"],
@@ -43,14 +43,14 @@ impl Format {
         }
     }
 
-    /// The format a file name's extension stands for, in any case.
+    /// Returns the format of a file name extension, ignoring case.
     pub fn from_extension(extension: &str) -> Option<Self> {
         let lower = extension.to_lowercase();
         Self::ALL.into_iter().find(|format| format.extensions().contains(&lower.as_str()))
     }
 
-    /// What an image must be made of for this format, given how many bits were asked for;
-    /// `None` when it cannot hold them.
+    /// Returns the pixel depth that this format requires for the requested number of bits; `None` if it does
+    /// not support them.
     pub fn depth(self, bits: Option<u8>) -> Option<Depth> {
         match (self, bits) {
             (Self::Hdr | Self::Exr, None | Some(32)) => Some(Depth::Linear),
@@ -60,7 +60,7 @@ impl Format {
         }
     }
 
-    /// Why this format cannot hold a picture of so many pixels, where it cannot.
+    /// Returns why this format cannot hold a picture of this size; `None` if it can.
     pub fn too_large(self, width: u32, height: u32) -> Option<String> {
         match self {
             Self::Jpeg if width.max(height) > 65_535 => {
@@ -73,7 +73,7 @@ impl Format {
         }
     }
 
-    /// No file of such a picture is smaller. Exact where nothing is compressed.
+    /// Returns a lower bound on the size of the file. Exact for uncompressed formats.
     pub fn least_bytes(self, depth: Depth, width: u32, height: u32) -> u64 {
         let pixels = u64::from(width) * u64::from(height);
         match (self, depth) {
@@ -85,7 +85,7 @@ impl Format {
     }
 }
 
-/// The file's bytes. Fails when the format cannot hold the image: too large, or of another depth.
+/// Encodes an image. Fails if the format cannot hold it: it is too large, or of another depth.
 pub fn encode(image: &Image, format: Format) -> Result<Vec<u8>, String> {
     let (width, height) = (image.width, image.height);
     let with = |encoder: &mut dyn FnMut(&[u8], ExtendedColorType) -> image::ImageResult<()>| {
@@ -122,7 +122,7 @@ pub fn encode(image: &Image, format: Format) -> Result<Vec<u8>, String> {
     Ok(out)
 }
 
-/// `image` writes no sRGB and gAMA chunks, so `png` does it directly.
+/// Encodes with `png` directly, as `image` writes no sRGB and gAMA chunks.
 fn png(image: &Image, out: &mut Vec<u8>) -> Result<(), String> {
     let (depth, bytes) = match &image.pixels {
         Pixels::Eight(pixels) => (png::BitDepth::Eight, pixels.as_flattened().to_vec()),
@@ -143,7 +143,7 @@ fn png(image: &Image, out: &mut Vec<u8>) -> Result<(), String> {
     written.map_err(|error| error.to_string())
 }
 
-/// Binary PPM. **Source:** the Netpbm manual, `ppm`.
+/// Encodes a binary PPM. **Source:** the Netpbm manual, `ppm`.
 fn ppm(image: &Image, out: &mut Vec<u8>) -> Result<(), String> {
     let (last, bytes) = match &image.pixels {
         Pixels::Eight(pixels) => (255, pixels.as_flattened().to_vec()),
@@ -163,7 +163,7 @@ fn big_endian(pixels: &[[u16; 3]]) -> Vec<u8> {
     pixels.as_flattened().iter().flat_map(|c| c.to_be_bytes()).collect()
 }
 
-/// Whether a file that starts with these bytes is a picture, of ours or of another tool.
+/// Returns whether a file that starts with these bytes is a picture, in one of our formats or another.
 pub fn is_picture(start: &[u8]) -> bool {
     image::guess_format(start).is_ok()
 }

@@ -1,30 +1,30 @@
-//! Splines: values that change smoothly from one point in time to the next.
+//! Splines: values that vary smoothly over time.
 //!
-//! **Invariant:** the points in time rise strictly; before the first and after the last the value
-//! stands still.
+//! **Invariant:** the times of the knots are strictly increasing; before the first and after the last, the
+//! value is constant.
 //!
-//! **Source:** manual, section 3.3.1.10 ("Splines"); what it leaves open was read off POV-Ray's
-//! values (the tests hold a table of them): a quadratic piece goes through the point before it, a
-//! cubic one has at each end the mean of the slopes to either side. A value for a time that has one
-//! replaces it, unless that time is the last of several so far: then it is dropped.
+//! **Source:** manual, section 3.3.1.10 ("Splines"); unspecified details were determined from POV-Ray's
+//! values (see the table in the tests): a quadratic piece passes through the preceding point; the slope of a
+//! cubic piece at each end is the mean of those on either side. A value replaces an earlier one for the same
+//! time, unless that time is the last of several so far: then it is dropped.
 
 use crate::math::interval::Interval;
 
-/// Spans of time so small, relative to the time itself, that their thirds are rounded to be uneven.
+/// Length of a time span, relative to the time, below which rounding makes its thirds uneven.
 const UNEVEN: f64 = 1.0 / (1_u32 << 20) as f64;
 
-/// Numbers of one value: two to five, the others zero.
+/// The numbers of one value: two to five; the others are zero.
 type Values = [f64; 5];
 
-/// How the pieces between two points are made.
+/// The interpolation between two knots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SplineKind {
     Linear,
-    /// A parabola through the two ends and the point before (after, for the first piece).
+    /// A parabola through both ends and the preceding point (the following one for the first piece).
     Quadratic,
-    /// A cubic whose slopes at its ends are known; the first and last point only give slopes.
+    /// A cubic with given slopes at its ends; the first and last points only determine slopes.
     Cubic,
-    /// Cubics that meet with equal slopes and bends, and end without a bend.
+    /// Cubics with continuous first and second derivatives; the latter are zero at both ends.
     Natural,
 }
 
@@ -35,7 +35,7 @@ pub struct Knot {
     pub value: Values,
 }
 
-/// A curve through values in time.
+/// A curve that interpolates values over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spline {
     kind: SplineKind,
@@ -45,7 +45,7 @@ pub struct Spline {
 }
 
 impl Spline {
-    /// At least one knot, in any order; none is no spline.
+    /// Builds a spline from knots in any order; `None` if there are none.
     pub fn new(kind: SplineKind, knots: Vec<Knot>) -> Option<Self> {
         let knots = in_order(knots);
         let bends = match kind {
@@ -63,11 +63,11 @@ impl Spline {
         &self.knots
     }
 
-    /// All values of a component over a span of time.
+    /// Returns the range of a component over a span of time.
     ///
-    /// Between two knots a component is a cubic at most, and lies within its Bernstein coefficients over any part of
-    /// that; four of its values give them. Times so near each other that they are rounded to be uneven have as much
-    /// room again.
+    /// Between two knots, a component is at most a cubic, and its Bernstein coefficients, computed from four
+    /// of its values, bound it over any part. Where times are so close that rounding makes the thirds uneven,
+    /// the margin is as large as the range.
     pub fn bounds(&self, component: usize, over: Interval) -> Interval {
         let value = |time: f64| self.at(time).get(component).copied().unwrap_or(f64::NAN);
         let within = |time: &f64| over.low < *time && *time < over.high;
@@ -94,7 +94,7 @@ impl Spline {
         all.unwrap_or(Interval::EVERYTHING)
     }
 
-    /// The value at a time.
+    /// Returns the value at a time.
     pub fn at(&self, time: f64) -> Values {
         let (first, last) = match self.kind {
             SplineKind::Linear | SplineKind::Quadratic | SplineKind::Natural => {
@@ -157,7 +157,7 @@ impl Spline {
     }
 }
 
-/// Of each time, as they are written, whether its value replaces one for the same time before it.
+/// Returns, for each time in the order written, whether its value replaces an earlier one for the same time.
 pub fn replacing(times: impl Iterator<Item = f64>) -> impl Iterator<Item = bool> {
     let (mut first, mut last) = (f64::INFINITY, f64::NEG_INFINITY);
     times.map(move |time| {
@@ -167,7 +167,7 @@ pub fn replacing(times: impl Iterator<Item = f64>) -> impl Iterator<Item = bool>
     })
 }
 
-/// The knots that count, in the order of their times.
+/// Returns the effective knots in order of time.
 fn in_order(knots: Vec<Knot>) -> Vec<Knot> {
     let replacing = replacing(knots.iter().map(|knot| knot.time)).collect::<Vec<_>>();
     let mut all: Vec<(Knot, bool)> = knots.into_iter().zip(replacing).collect();
@@ -199,17 +199,17 @@ fn slope(from: &Knot, to: &Knot, k: usize) -> f64 {
     (to.value[k] - from.value[k]) / (to.time - from.time)
 }
 
-/// The cubic with these values and slopes at its ends, `share` of its width along.
+/// Returns the cubic with these values and slopes at its ends, at a fraction `share` of its width.
 fn hermite([from, to]: [f64; 2], [leaving, arriving]: [f64; 2], width: f64, share: f64) -> f64 {
     let rest = 1.0 - share;
     rest * rest * ((1.0 + 2.0 * share) * from + share * width * leaving)
         + share * share * ((1.0 + 2.0 * rest) * to - rest * width * arriving)
 }
 
-/// The second derivatives that make slopes equal where pieces meet, zero at both ends.
+/// Returns the second derivatives that make slopes continuous at the knots, with zeros at both ends.
 ///
-/// **Source:** the tridiagonal system of the natural cubic spline, solved from the top down (C. de
-/// Boor, *A Practical Guide to Splines*, 1978, chapter IV); diagonally dominant, so no pivoting.
+/// **Source:** the tridiagonal system of the natural cubic spline, solved from the top down (C. de Boor, *A
+/// Practical Guide to Splines*, 1978, chapter IV); diagonally dominant, so pivoting is unnecessary.
 fn bends(knots: &[Knot]) -> Vec<Values> {
     let count = knots.len();
     let mut bends = vec![[0.0; 5]; count];
@@ -238,7 +238,7 @@ mod tests {
 
     const TIMES: [f64; 6] = [0.0, 1.0, 2.5, 3.0, 5.0, 6.0];
 
-    /// What POV-Ray 3.7 gives at a time, for a spline that is 1 at one knot and 0 at the others.
+    /// Values of POV-Ray 3.7 at a time, for a spline that is 1 at one knot and 0 at the others.
     const MEASURED: &[(SplineKind, f64, [f64; 6])] = &[
         (SplineKind::Linear, -1.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         (SplineKind::Linear, 0.0, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
@@ -380,7 +380,7 @@ mod tests {
         assert_eq!([s.at(0.5)[0], s.at(1.5)[0], s.at(-4.0)[0], s.at(9.0)[0]], [3.0, 3.0, 1.0, 1.0]);
     }
 
-    /// What POV-Ray 3.7 gives at 0, 1/2, 1, 3/2, 2 and 3.
+    /// Values of POV-Ray 3.7 at 0, 1/2, 1, 3/2, 2 and 3.
     #[test]
     fn a_value_for_a_time_that_has_one_replaces_it_but_for_the_last_of_several() {
         type Case = (&'static [(f64, f64)], [f64; 6]);

@@ -1,8 +1,8 @@
-//! Colours as the web writes them: `#ff8000`, `#f80`.
+//! Colours in web notation: `#ff8000`, `#f80`.
 
 use super::Rgb;
 
-/// What a display shows of `#` and three or six hexadecimal digits: 0 to 1, on its curve.
+/// Parses `#` with three or six hexadecimal digits; returns display values, 0 to 1.
 pub fn web(text: &str) -> Option<Rgb> {
     let digits = text.strip_prefix('#')?;
     let width = match digits.len() {
@@ -20,7 +20,7 @@ pub fn web(text: &str) -> Option<Rgb> {
     Some(Rgb::new(component(0)?, component(1)?, component(2)?))
 }
 
-/// A colour as an author would write it: to four decimals, a grey as one number.
+/// Formats a colour as an author would write it: to four decimals, a grey as one number.
 pub fn rounded(color: Rgb) -> String {
     let rounded = color.map(|c| format!("{c:.4}").parse().unwrap_or(c));
     match rounded.red == rounded.green && rounded.red == rounded.blue {

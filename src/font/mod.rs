@@ -1,41 +1,44 @@
-//! Fonts: the one door that names `ttf_parser`.
+//! Fonts; the only module that uses `ttf_parser`.
 //!
-//! **In:** the bytes of a TrueType or OpenType font, or the first of a collection; a string. **Out:** its
-//! letters as closed curves, set in a row. **Invariant:** no bytes make it panic.
+//! **In:** the bytes of a TrueType or OpenType font, or of a collection, whose first font is used; a string.
+//! **Out:** the outlines of its letters as closed curves, set in a row. **Invariant:** never panics, for any
+//! bytes.
 //!
-//! **Source:** Microsoft, "OpenType specification", version 1.9 (tables `cmap`, `glyf`, `hmtx`, `kern`); where
-//! POV-Ray 3.7 sets letters was measured: the left end of the first is at x = 0, each goes on after the width
-//! and the kerning of the one before, and `offset` moves all that follow.
+//! **Source:** Microsoft, "OpenType specification", version 1.9 (tables `cmap`, `glyf`, `hmtx`, `kern`); the
+//! positions of letters were measured on POV-Ray 3.7: the left edge of the first is at x = 0, each one
+//! follows at the advance width and kerning of the preceding one, and `offset` shifts all that follow.
 
 use ttf_parser::kern::Format;
 use ttf_parser::{Face, GlyphId, OutlineBuilder, PlatformId};
 
 use crate::scene::text::{Contour, Letter};
 
-/// The font that comes with the program: DejaVu Serif.
+/// The bundled font: DejaVu Serif.
 pub const BUILT_IN: &[u8] = include_bytes!("DejaVuSerif.ttf");
 
-/// Fonts that come with POV-Ray.
+/// The fonts that are part of POV-Ray.
 pub const POV_RAYS: [&str; 4] = ["povlogo.ttf", "timrom.ttf", "cyrvetic.ttf", "crystal.ttf"];
 
-/// A font that can be read.
+/// A parsed font.
 pub struct Font<'a> {
     face: Face<'a>,
-    /// A unit of the font, over the size of its letters.
+    /// Size of a font unit relative to the em.
     unit: f64,
 }
 
 impl<'a> Font<'a> {
+    /// Parses a font.
+    ///
     /// # Errors
-    /// What is wrong with the bytes.
+    /// Describes what is wrong with the bytes.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, String> {
         let face = Face::parse(bytes, 0).map_err(|error| error.to_string())?;
         let unit = 1.0 / f64::from(face.units_per_em());
         Ok(Self { face, unit })
     }
 
-    /// Letters in a row along x, those that show something; `None` where `fits` says that they hold too many
-    /// bytes.
+    /// Returns the visible letters of a text in a row along x; `None` if `fits` returns `false` for their
+    /// total size in bytes.
     pub fn set(
         &self,
         text: &str,
@@ -70,13 +73,13 @@ impl<'a> Font<'a> {
         Some(letters)
     }
 
-    /// The first character of a text that the font has nothing for.
+    /// Returns the first character of a text that the font has no glyph for.
     pub fn first_missing(&self, text: &str) -> Option<char> {
         text.chars().find(|character| self.glyph(*character) == GlyphId::default())
     }
 
-    /// That of a character; the one for what is missing where there is none. Fonts of symbols have theirs in a
-    /// range of private use.
+    /// Returns the glyph of a character, or the glyph for missing characters. Symbol fonts map theirs to a
+    /// private use range.
     fn glyph(&self, character: char) -> GlyphId {
         let code = u32::from(character);
         let tables = self.face.tables().cmap.into_iter().flat_map(|cmap| cmap.subtables);
@@ -90,7 +93,7 @@ impl<'a> Font<'a> {
         glyph.unwrap_or_default()
     }
 
-    /// Pairs are not in order in every font that says so.
+    /// Searches linearly, as the pairs are not sorted in every font that claims so.
     fn kerning(&self, before: GlyphId, glyph: GlyphId) -> i16 {
         let tables = self.face.tables().kern.into_iter().flat_map(|kern| kern.subtables);
         let mut tables = tables.filter(|table| table.horizontal && !table.has_state_machine);
@@ -106,7 +109,7 @@ impl<'a> Font<'a> {
     }
 }
 
-/// A letter under way.
+/// A letter under construction.
 struct Drawn {
     letter: Letter,
     place: [f64; 2],

@@ -1,8 +1,7 @@
-//! Building a tape: constants folded, equal operations shared, loops left with what needs them.
+//! Builds tapes: folds constants, shares equal operations, and moves invariant operations out of loops.
 //!
-//! **Invariant:** a node's operands were built before it, so the order of building is an order of
-//! running. A node belongs to the innermost loop on whose counter it depends, wherever it was
-//! written.
+//! **Invariant:** a node's operands are built before it, so the build order is an execution order. A node
+//! belongs to the innermost loop whose counter it depends on, wherever it was written.
 
 use std::collections::HashMap;
 
@@ -12,40 +11,40 @@ use super::tape::{Function, Register, Step};
 
 mod layout;
 
-/// A function has no more parameters, and asks with no more arguments (manual, section 3.3.1.8.3).
+/// Maximum number of parameters of a function, and of arguments of a call (manual, section 3.3.1.8.3).
 pub const MOST_ARGUMENTS: usize = 56;
 
-/// No more loops stand inside one another (the same section).
+/// Maximum nesting depth of loops (same section).
 pub const DEEPEST_LOOP: usize = 56;
 
-/// A tape has no more operations, those inside a loop counted once.
+/// Maximum number of operations of a tape; those inside a loop count once.
 pub const MOST_OPERATIONS: usize = 1_000_000;
 
-/// The result of an operation, or what it starts from.
+/// The result of an operation, a parameter or a constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Node(u32);
 
-/// The function has more than [`MOST_OPERATIONS`], [`MOST_ARGUMENTS`] or [`DEEPEST_LOOP`].
+/// Error: the function exceeds [`MOST_OPERATIONS`], [`MOST_ARGUMENTS`] or [`DEEPEST_LOOP`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TooLong;
 
-/// A loop that is being built: what is built until [`Builder::close`] may use its counter.
+/// A loop under construction: what is built before [`Builder::close`] may use its counter.
 #[derive(Debug)]
 pub struct Loop {
     pub counter: Node,
     operation: Binary,
     from: Node,
     last: Node,
-    /// How many loops it stands in.
+    /// Number of enclosing loops.
     depth: usize,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 enum Kind {
-    /// Its bits: two zeros are two constants.
+    /// The bits of the value: the two zeros are different constants.
     Constant(u64),
     Parameter(u32),
-    /// Each loop has a counter of its own.
+    /// Each loop has its own counter.
     Counter(u32),
     Unary(Unary, Node),
     Binary(Binary, Node, Node),
@@ -63,7 +62,7 @@ enum Kind {
 #[derive(Debug)]
 struct Built {
     kind: Kind,
-    /// Bit d: it depends on the counter of a loop that stands in d others.
+    /// Bit d is set if it depends on the counter of a loop with d enclosing loops.
     needs: u64,
 }
 
@@ -77,7 +76,7 @@ pub struct Builder {
 }
 
 impl Builder {
-    /// A function of so many parameters.
+    /// Starts a function with this number of parameters.
     pub fn new(parameters: usize) -> Result<Self, TooLong> {
         if parameters > MOST_ARGUMENTS {
             return Err(TooLong);
@@ -91,12 +90,12 @@ impl Builder {
         Ok(builder)
     }
 
-    /// The parameter of this index.
+    /// Returns the parameter with this index.
     pub fn parameter(&self, index: usize) -> Option<Node> {
         (index < self.parameters as usize).then_some(Node(index as u32))
     }
 
-    /// Whether `b` is the number 0, and `a` no number that is known.
+    /// Returns whether `b` is the constant 0, and `a` is not a constant.
     pub fn divides_by_zero(&self, a: Node, b: Node) -> bool {
         self.value(a).is_none() && self.value(b) == Some(0.0)
     }
@@ -129,7 +128,7 @@ impl Builder {
         }
     }
 
-    /// `condition ? then : otherwise`.
+    /// Adds `condition ? then : otherwise`.
     pub fn choose(
         &mut self,
         condition: Node,
@@ -144,7 +143,7 @@ impl Builder {
         }
     }
 
-    /// The value of something that is no arithmetic.
+    /// Adds a call of something that is not arithmetic.
     pub fn ask(&mut self, id: OutsideId, arguments: &[Node]) -> Result<Node, TooLong> {
         if arguments.len() > MOST_ARGUMENTS {
             return Err(TooLong);
@@ -152,8 +151,8 @@ impl Builder {
         self.add(Kind::Ask(id, arguments.to_vec()))
     }
 
-    /// Opens a sum ([`Binary::Add`]) or product over a counter from `from`, by ones, while it is not
-    /// past `last`.
+    /// Opens a sum ([`Binary::Add`]) or product over a counter that starts at `from` and increases by 1 until
+    /// it exceeds `last`.
     pub fn open(&mut self, operation: Binary, from: Node, last: Node) -> Result<Loop, TooLong> {
         if self.depth >= DEEPEST_LOOP {
             return Err(TooLong);
@@ -164,14 +163,14 @@ impl Builder {
         Ok(Loop { counter, operation, from, last, depth })
     }
 
-    /// Closes the innermost loop, whose turns have this value.
+    /// Closes the innermost loop; `value` is the value of an iteration.
     pub fn close(&mut self, open: Loop, value: Node) -> Result<Node, TooLong> {
         let Loop { counter, operation, from, last, depth } = open;
         self.depth = depth;
         self.add(Kind::Loop { operation, counter, from, last, value })
     }
 
-    /// Another function's value at these arguments; its operations become this one's.
+    /// Inlines another function's operations with these arguments; returns its value.
     pub fn call(&mut self, function: &Function, arguments: &[Node]) -> Result<Node, TooLong> {
         let zero = self.constant(0.0)?;
         let mut registers = vec![zero; function.registers as usize];
@@ -223,7 +222,7 @@ impl Builder {
         Ok(())
     }
 
-    /// The function whose value is this node's.
+    /// Returns the function whose value is this node.
     pub fn finish(self, result: Node) -> Function {
         layout::lay_out(&self, result)
     }
@@ -232,7 +231,7 @@ impl Builder {
         &self.nodes[node.index()].kind
     }
 
-    /// What a node is, if it is a constant.
+    /// Returns the value of a node, if it is a constant.
     fn value(&self, node: Node) -> Option<f64> {
         match *self.kind(node) {
             Kind::Constant(bits) => Some(f64::from_bits(bits)),
@@ -285,7 +284,7 @@ impl Kind {
 }
 
 impl Built {
-    /// How many loops stand around the innermost whose counter it needs, and that one: 0 outside all.
+    /// Depth of the innermost loop whose counter it needs: 0 if it needs none.
     fn home(&self) -> u32 {
         u64::BITS - self.needs.leading_zeros()
     }

@@ -1,4 +1,4 @@
-//! Closed: a function and all that it asks; it needs nothing from outside.
+//! Closed functions: a function together with everything it calls, independent of its environment.
 
 use super::domain::{Needed, needed};
 use super::noise::NoiseFunction;
@@ -12,30 +12,30 @@ use crate::noise::NoiseGenerator;
 use crate::pattern::Pattern;
 use crate::spline::Spline;
 
-/// What a function asks, by itself.
+/// Something that a function calls, in self-contained form.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Asked {
     Noise {
         function: NoiseFunction,
-        /// The scene's own.
+        /// The generator of the scene.
         generator: NoiseGenerator,
     },
-    /// One component of a spline's value at a time.
+    /// One component of a spline's value.
     Spline {
         spline: Spline,
         component: usize,
     },
-    /// A pattern at a point, and what its values become.
+    /// A pattern at a point, with its values mapped.
     Pattern {
         pattern: Pattern,
         pattern_from_point: Map,
-        /// Sorted by value, linear between, constant outside; at least one entry.
+        /// Sorted by value, linear between entries, constant outside; at least one entry.
         map: Vec<(f64, f64)>,
     },
     Constant(f64),
 }
 
-/// A function that knows all that it asks.
+/// A function that contains everything it calls.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Closed {
     function: Function,
@@ -44,12 +44,12 @@ pub struct Closed {
 }
 
 impl Closed {
-    /// How many operations it makes at a point; those inside a loop count once.
+    /// Returns the number of operations; those inside a loop count once.
     pub fn operations(&self) -> usize {
         self.function.operations()
     }
 
-    /// `None` where `asked` does not know what the function asks.
+    /// Closes a function; `None` if `asked` does not know something that the function calls.
     pub fn new(
         mut function: Function,
         mut asked: impl FnMut(OutsideId) -> Option<Asked>,
@@ -72,7 +72,7 @@ impl Closed {
         Some(Self { function, asked: all.into_iter().map(|(_, asked)| asked).collect(), needed })
     }
 
-    /// Whether it is certainly no number wherever the arguments lie within theirs.
+    /// Returns whether it is certainly NaN for all arguments in these intervals.
     pub fn is_undefined(&self, arguments: &[Interval]) -> bool {
         self.needed.iter().any(|needed| needed.is_missed(arguments, self))
     }
@@ -124,7 +124,7 @@ impl Asked {
     }
 }
 
-/// **Source:** as a pigment's map (`world::pigment`).
+/// Looks up a value in a map. **Source:** like a pigment's map (`world::pigment`).
 fn look_up(map: &[(f64, f64)], value: f64) -> f64 {
     let (Some(first), Some(last)) = (map.first(), map.last()) else { return f64::NAN };
     if value >= last.0 {
@@ -137,7 +137,7 @@ fn look_up(map: &[(f64, f64)], value: f64) -> f64 {
     }
 }
 
-/// What a map makes of all of these values.
+/// Range of a map over an interval of values.
 fn look_up_all(map: &[(f64, f64)], values: Interval) -> Interval {
     let entries = map.iter().filter(|entry| values.contains(entry.0)).map(|entry| entry.1);
     let ends = [look_up(map, values.low), look_up(map, values.high)];

@@ -1,15 +1,15 @@
-//! Domain: where a function is certainly no number, for what it takes a root or a logarithm of.
+//! Domain of a function: where it is certainly NaN because of a root, a logarithm or a similar operation.
 //!
-//! **In:** a function. **Out:** the operands that must lie within bounds for it to be a number.
-//! **Invariant:** only those that the result cannot do without: what a choice, a comparison, a minimum or a
-//! maximum may pass over is not among them.
+//! **In:** a function. **Out:** the operands that must be in range for its result to be a number.
+//! **Invariant:** only operands that the result always depends on; those that a choice, a comparison, a
+//! minimum or a maximum may discard are excluded.
 
 use super::Closed;
 use super::operation::{Binary, Unary};
 use super::tape::{Function, Register, Step};
 use crate::math::interval::Interval;
 
-/// What must lie in an interval.
+/// An operand, and the interval that it must be in.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Needed {
     operand: Function,
@@ -17,14 +17,14 @@ pub(super) struct Needed {
 }
 
 impl Needed {
-    /// Whether it lies outside, wherever the arguments are within theirs.
+    /// Returns whether the operand is certainly out of range for all arguments in these intervals.
     pub fn is_missed(&self, arguments: &[Interval], closed: &Closed) -> bool {
         let Interval { low, high } = self.operand.run().at(arguments, closed);
         high < self.within.low || self.within.high < low
     }
 }
 
-/// All that a function needs to be a number.
+/// Returns all conditions for a function's result to be a number.
 pub(super) fn needed(function: &Function) -> Vec<Needed> {
     let mut found = Vec::new();
     // Registers that the result is no number without.
@@ -73,7 +73,7 @@ pub(super) fn needed(function: &Function) -> Vec<Needed> {
     found
 }
 
-/// The steps that are in no loop, each with its place.
+/// The steps outside of loops, each with its index.
 fn outermost(steps: &[Step]) -> Vec<(usize, &Step)> {
     let (mut all, mut at) = (Vec::new(), 0);
     while let Some(step) = steps.get(at) {
@@ -86,7 +86,7 @@ fn outermost(steps: &[Step]) -> Vec<(usize, &Step)> {
     all
 }
 
-/// Where an operation gives a number, if it is not everywhere.
+/// The interval in which an operation yields a number; `None` if it does so everywhere.
 fn domain(operation: Unary) -> Option<Interval> {
     match operation {
         Unary::Sqrt | Unary::Ln | Unary::Log => Some(Interval { low: 0.0, high: f64::INFINITY }),

@@ -1,14 +1,13 @@
-//! Functions of numbers: a flat tape of operations, made once, run on points, batches and intervals.
+//! Functions of numbers: flat tapes of operations, built once, evaluated for points, batches and intervals.
 //!
-//! **In:** calls to [`Builder`], one for each operation, operands first.
-//! **Out:** a [`Function`]; its [`Run`] over `f64`, [`Batch`] or
-//! [`Interval`] allocates nothing for each point.
-//! **Invariant:** all three say the same: a batch gives the bits of its points, and a value that is
-//! a number lies within the bounds of any box around its point. A tape has no operation that does
-//! not reach its result, none twice, and none inside a loop that does not need its counter.
+//! **In:** calls to [`Builder`], one for each operation, operands first. **Out:** a [`Function`]; its [`Run`]
+//! over `f64`, [`Batch`] or [`Interval`] does not allocate per point. **Invariant:** all three agree: a batch
+//! yields the same bits as its points, and a value that is a number lies within the bounds of any box around
+//! its point. A tape contains no operation that does not affect its result, no duplicate operation, and no
+//! operation inside a loop whose counter it does not need.
 //!
-//! What is not arithmetic (noise, a pattern, another object of the scene) stands outside: the tape
-//! names it by a number, and whoever runs it brings an [`Outside`] that answers.
+//! Everything that is not arithmetic (noise, a pattern, another object of the scene) is external: the tape
+//! refers to it by a number, and the caller supplies an [`Outside`] that evaluates it.
 
 mod build;
 mod closed;
@@ -29,21 +28,21 @@ pub use operation::{Binary, Unary};
 pub use slope::Sloped;
 pub use tape::{Function, Run};
 
-/// Which of the things that a function may ask is meant; its owner knows what the number says.
+/// Identifies something external that a function calls; its owner knows what the number refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct OutsideId(pub u32);
 
-/// What a function asks that is no arithmetic.
+/// External functions that are not arithmetic.
 pub trait Outside {
-    /// Its value at some arguments, as many as the function was built with.
+    /// Returns the value for the arguments, as many as the function was built with.
     fn value(&self, id: OutsideId, arguments: &[f64]) -> f64;
 
-    /// An interval that holds its value wherever the arguments lie within theirs.
+    /// Returns an interval that contains the value for all arguments in these intervals.
     fn bounds(&self, _: OutsideId, _: &[Interval]) -> Interval {
         Interval::EVERYTHING
     }
 
-    /// The same, with bounds on its slopes along some ways, from those of the arguments.
+    /// Returns the bounds with bounds on the slopes along some directions, given those of the arguments.
     fn sloped<const N: usize>(&self, id: OutsideId, arguments: &[Sloped<N>]) -> Sloped<N> {
         let mut values = [Interval::point(0.0); MOST_ARGUMENTS];
         for (value, argument) in values.iter_mut().zip(arguments) {
@@ -54,7 +53,7 @@ pub trait Outside {
     }
 }
 
-/// Nothing stands outside: for functions that are arithmetic throughout.
+/// No external functions, for functions that are arithmetic throughout.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nothing;
 

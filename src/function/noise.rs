@@ -1,12 +1,11 @@
-//! Functions made of noise: `f_noise3d`, and the fractals that sum it at finer and finer scales.
+//! Functions based on noise: `f_noise3d`, and fractals that sum it at finer and finer scales.
 //!
-//! **In:** a point, and for the fractals how their octaves are summed. **Out:** a number, or its bounds:
-//! both by the same steps, run on numbers or on intervals.
-//! **Invariant:** bounds are told where what shapes a fractal (its octaves, their scale and weight) is
-//! one number; else they are [`Interval::EVERYTHING`].
+//! **In:** a point and, for fractals, the parameters of their octaves. **Out:** a number or its bounds, both
+//! computed by the same steps on numbers or on intervals. **Invariant:** bounds are finite if the parameters
+//! of a fractal (octaves, scale and weight) are single numbers; otherwise they are [`Interval::EVERYTHING`].
 //!
-//! **Source:** F. K. Musgrave in Ebert and others, *Texturing and Modeling*, 3rd ed., chapter 16, for
-//! the two multifractals; what differs there, and `f_ridge`, was measured on POV-Ray 3.7.
+//! **Source:** F. K. Musgrave in Ebert and others, *Texturing and Modeling*, 3rd ed., chapter 16, for the two
+//! multifractals; differences from it, and `f_ridge`, were measured on POV-Ray 3.7.
 
 use super::number::Number;
 use super::operation::{Binary, Unary};
@@ -16,12 +15,12 @@ use crate::math::elementary::pow;
 use crate::math::interval::Interval;
 use crate::noise::{self, NoiseGenerator};
 
-/// A function that stands outside of all tapes, since it is made of noise.
+/// An external function based on noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoiseFunction {
-    /// Of the scene's own generator.
+    /// Noise of the scene's generator.
     Noise3d,
-    /// Of the generator named last.
+    /// Noise of the generator given as the last argument.
     Generator,
     /// H, lacunarity, octaves, offset, T, generator: high places are rough, low ones smooth.
     Hetero,
@@ -31,7 +30,7 @@ pub enum NoiseFunction {
     Ridge,
 }
 
-/// Noise is as steep as its gradient, along each axis.
+/// Noise with the bounds of its gradient.
 fn sloped<const N: usize>(generator: NoiseGenerator, point: [Sloped<N>; 3]) -> Sloped<N> {
     let at = point.map(|coordinate| coordinate.value);
     let (value, [x, y, z]) = noise::bounds_and_slopes(generator, at);
@@ -39,11 +38,11 @@ fn sloped<const N: usize>(generator: NoiseGenerator, point: [Sloped<N>; 3]) -> S
     Sloped::follow_both(value, (Interval::point(1.0), &flat), (z, &point[2]))
 }
 
-/// More octaves are finer than numbers can tell, or all the same.
+/// Maximum number of octaves; further ones are below the precision of numbers, or all equal.
 const MOST_OCTAVES: f64 = 1_000.0;
 
 impl NoiseFunction {
-    /// How many arguments it takes, the point's three among them.
+    /// Returns the number of arguments, including the three coordinates of the point.
     pub fn parameters(self) -> usize {
         match self {
             Self::Noise3d => 3,
@@ -52,18 +51,18 @@ impl NoiseFunction {
         }
     }
 
-    /// Its value where the scene's noise is `own`; arguments that are missing are zero.
+    /// Returns the value, where `own` is the scene's generator; missing arguments are zero.
     pub fn value(self, own: NoiseGenerator, arguments: &[f64]) -> f64 {
         let noise = |generator, p: [f64; 3]| noise::noise(generator, Vector::from_array(p));
         self.of(own, arguments, noise, Some).unwrap_or(f64::NAN)
     }
 
-    /// An interval that holds its value wherever the arguments lie within theirs.
+    /// Returns an interval that contains the value for all arguments in these intervals.
     pub fn bounds(self, own: NoiseGenerator, arguments: &[Interval]) -> Interval {
         self.of(own, arguments, noise::bounds, Interval::single).unwrap_or(Interval::EVERYTHING)
     }
 
-    /// The same, with bounds on its slopes.
+    /// Returns the bounds with bounds on the slopes.
     pub fn sloped<const N: usize>(self, own: NoiseGenerator, arguments: &[Sloped<N>]) -> Sloped<N> {
         let level = arguments.iter().all(Sloped::is_level);
         self.of(own, arguments, sloped, |argument| argument.value.single())
@@ -106,7 +105,7 @@ impl NoiseFunction {
     }
 }
 
-/// Which noise a number names; its fraction and all but its last two bits do not count.
+/// Returns the generator that a number selects; only the last two bits of its integer part count.
 fn generator(number: f64) -> NoiseGenerator {
     match number as i64 & 3 {
         2 => NoiseGenerator::RangeCorrected,
@@ -118,9 +117,9 @@ fn generator(number: f64) -> NoiseGenerator {
 /// How the octaves after the first are summed.
 #[derive(Clone, Copy)]
 struct Octaves {
-    /// How much finer each is than the one before.
+    /// Ratio of the frequencies of consecutive octaves.
     scale: f64,
-    /// How much each counts, of the one before.
+    /// Ratio of the weights of consecutive octaves.
     weight: f64,
     count: f64,
 }
@@ -130,7 +129,7 @@ impl Octaves {
         Self { scale, weight: pow(scale, -h), count: count.min(MOST_OCTAVES) }
     }
 
-    /// What is left of the count after its whole octaves.
+    /// The fractional part of the count.
     fn rest(self) -> f64 {
         if self.count > 0.0 { self.count.fract() } else { 0.0 }
     }
@@ -152,7 +151,7 @@ fn times<N: Number>(a: N, b: N) -> N {
     N::binary(Binary::Multiply, a, b)
 }
 
-/// 0 … 1 to −1 … 1.
+/// Maps 0 … 1 to −1 … 1.
 fn signed<N: Number>(noise: N) -> N {
     minus(times(N::constant(2.0), noise), N::constant(1.0))
 }

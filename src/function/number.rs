@@ -1,28 +1,28 @@
-//! What a tape can be run on: a point's numbers, those of many points at once, or intervals.
+//! Number types that a tape can run on: single points, batches of points, or intervals.
 
 use super::operation::{Binary, Unary};
 use super::{Outside, OutsideId};
 use crate::math::interval::Interval;
 
-/// A number, or what stands for several at once.
+/// A number, or a value that represents several numbers at once.
 pub trait Number: Copy {
     fn constant(value: f64) -> Self;
     fn unary(operation: Unary, a: Self) -> Self;
     fn binary(operation: Binary, a: Self, b: Self) -> Self;
-    /// `then` where the condition is not zero, else `otherwise`.
+    /// Returns `then` if the condition is not zero, else `otherwise`.
     fn choose(condition: Self, then: Self, otherwise: Self) -> Self;
     fn ask(outside: &impl Outside, id: OutsideId, arguments: &[Self]) -> Self;
-    /// What a loop does whose counter stands here.
+    /// Decides what a loop does next at this counter.
     fn turn(counter: Self, last: Self) -> Turn<Self>;
 }
 
 /// What a loop does next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Turn<N> {
-    /// Another turn, which counts where this condition is not zero.
+    /// Another iteration, which counts if this condition is not zero.
     Again(N),
     Done,
-    /// The counter may have passed the end or not.
+    /// Whether the counter has passed the end is uncertain.
     Unknown,
 }
 
@@ -55,7 +55,7 @@ impl Number for f64 {
     }
 }
 
-/// How many points a batch has: two cache lines, four of the widest registers.
+/// Number of points in a batch: two cache lines, four of the widest registers.
 pub const LANES: usize = 16;
 
 /// The numbers of [`LANES`] points.
@@ -83,8 +83,8 @@ impl Number for Batch {
         Self([value; LANES])
     }
 
-    /// The cheap ones have a loop each, which vectorises; the others can afford to be told apart
-    /// lane by lane.
+    /// Cheap operations have a loop of their own, which vectorises; for the others, selecting the operation
+    /// per lane is affordable.
     #[inline]
     fn unary(operation: Unary, a: Self) -> Self {
         match operation {

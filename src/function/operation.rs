@@ -1,8 +1,8 @@
-//! The operations a function is made of, on numbers and on intervals.
+//! The operations of functions, on numbers and on intervals.
 //!
 //! **Source:** manual, sections 3.3.1.8 ("User-Defined Functions") and 3.3.1.5 ("Float Functions").
-//! A comparison is exact here, and its answer 1 or 0 (checked against POV-Ray: `1 = 1 + 1e-12` is
-//! false in a function and true outside one). What is undefined is not a number.
+//! Comparisons are exact here and yield 1 or 0 (checked against POV-Ray: `1 = 1 + 1e-12` is false in a
+//! function and true outside of one). Undefined results are NaN.
 
 use crate::math::elementary;
 use crate::math::interval::Interval;
@@ -15,7 +15,7 @@ pub enum Unary {
     Abs,
     Floor,
     Ceil,
-    /// Toward zero.
+    /// Rounds toward zero.
     Int,
     Square,
     Sqrt,
@@ -94,7 +94,7 @@ impl Unary {
         }
     }
 
-    /// An interval that holds [`Self::of`] every number of `a`.
+    /// Returns an interval that contains [`Self::of`] for every number in `a`.
     pub fn bounds(self, a: Interval) -> Interval {
         const INFINITY: f64 = f64::INFINITY;
         match self {
@@ -166,7 +166,7 @@ impl Binary {
         }
     }
 
-    /// An interval that holds [`Self::of`] every pair of numbers from `a` and `b`.
+    /// Returns an interval that contains [`Self::of`] for every pair of numbers from `a` and `b`.
     pub fn bounds(self, a: Interval, b: Interval) -> Interval {
         let decided = |always: bool, never: bool| match (always, never) {
             (true, _) => Interval::point(1.0),
@@ -197,7 +197,7 @@ impl Binary {
         }
     }
 
-    /// Whether the operands may change places.
+    /// Returns whether the operands may be swapped.
     pub(super) fn commutes(self) -> bool {
         match self {
             Self::Add | Self::Multiply | Self::Equal | Self::NotEqual | Self::And | Self::Or => {

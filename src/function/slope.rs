@@ -1,8 +1,8 @@
-//! Bounds with slopes: what a value, and how fast it changes along some ways, can come to in a box.
+//! Bounds with slopes: the range of a value over a box, and of its derivatives along some directions.
 //!
-//! **Invariant:** wherever both ends of a step along a way lie in the box, the value changes by the length
-//! of the step times a number of that way's `slopes`; so kinks have the slopes of both sides, and what may
-//! jump or be undefined has [`Interval::EVERYTHING`].
+//! **Invariant:** if both ends of a step along a direction lie in the box, the value changes by the length of
+//! the step times some number in that direction's `slopes`. So a kink has the slopes of both sides, and a
+//! value that may jump or be undefined has [`Interval::EVERYTHING`].
 //!
 //! **Source:** F. Clarke, *Optimization and Nonsmooth Analysis* (1983), section 2.3, for the rules at kinks;
 //! L. Rall, *Automatic Differentiation* (1981), for the others.
@@ -12,7 +12,7 @@ use super::operation::{Binary, Unary};
 use super::{Outside, OutsideId};
 use crate::math::interval::Interval;
 
-/// A value's bounds, and those of its slope along each of `N` ways.
+/// The range of a value, and of its slope along each of `N` directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sloped<const N: usize> {
     pub value: Interval,
@@ -22,7 +22,7 @@ pub struct Sloped<const N: usize> {
 const LEVEL: Interval = Interval { low: 0.0, high: 0.0 };
 const ONE: Interval = Interval { low: 1.0, high: 1.0 };
 
-/// A steepness times a slope; what does not change at all changes nothing.
+/// Product of a steepness and a slope; a constant has slope 0, however steep the operation.
 fn times(steepness: Interval, slope: Interval) -> Interval {
     if slope == LEVEL || steepness == LEVEL { LEVEL } else { steepness * slope }
 }
@@ -35,20 +35,20 @@ fn plus(a: Interval, b: Interval) -> Interval {
     }
 }
 
-/// 0 where a step function cannot step.
+/// 0 where a step function is constant.
 fn of_steps(value: Interval) -> Interval {
     if value.single().is_some() { LEVEL } else { Interval::EVERYTHING }
 }
 
 impl<const N: usize> Sloped<N> {
-    /// As fast as its argument, times so much.
+    /// Chain rule for one argument.
     fn follow(value: Interval, steepness: Interval, a: &Self) -> Self {
         let known = value != Interval::EVERYTHING;
         let steepness = if known { steepness } else { Interval::EVERYTHING };
         Self { value, slopes: a.slopes.map(|slope| times(steepness, slope)) }
     }
 
-    /// Of two arguments, each with its own.
+    /// Chain rule for two arguments, each with its own steepness.
     pub(super) fn follow_both(
         value: Interval,
         (first, a): (Interval, &Self),
@@ -65,19 +65,19 @@ impl<const N: usize> Sloped<N> {
         std::array::from_fn(|at| self.slopes[at].hull(other.slopes[at]))
     }
 
-    /// It does not change along any way.
+    /// Returns whether it is constant along every direction.
     pub fn is_level(&self) -> bool {
         self.slopes.iter().all(|slope| *slope == LEVEL)
     }
 
-    /// Where nothing is known of its slopes.
+    /// Returns a value whose slopes are unknown, unless it is constant (`level`).
     pub fn anyhow(value: Interval, level: bool) -> Self {
         let slope = if level { LEVEL } else { Interval::EVERYTHING };
         Self { value, slopes: [slope; N] }
     }
 }
 
-/// How steep an operation is over an interval, whose values are `value`.
+/// Derivative of an operation over an interval; its values there are `value`.
 fn steepness(operation: Unary, a: Interval, value: Interval) -> Interval {
     let two = Interval::point(2.0);
     match operation {
@@ -201,7 +201,7 @@ impl<const N: usize> Number for Sloped<N> {
     }
 }
 
-/// n·aⁿ⁻¹; n is one number, and where n − 1 is rounded, it is none.
+/// Range of n·aⁿ⁻¹; n is a single number, but n − 1 is an interval if it is not exact.
 fn steepness_of_power(a: Interval, n: Interval) -> Interval {
     let less = n - ONE;
     let less = match n.single().map(|n| n - 1.0) {
@@ -211,7 +211,7 @@ fn steepness_of_power(a: Interval, n: Interval) -> Interval {
     n * a.pow(less)
 }
 
-/// Whether the remainder of all of an interval is the interval less one and the same number.
+/// Whether the remainder of an entire interval is the interval less a constant.
 fn is_one_period(a: Interval, by: Interval) -> bool {
     let Some(by) = by.single().map(f64::abs).filter(|by| *by > 0.0 && by.is_finite()) else {
         return false;

@@ -1,7 +1,8 @@
-//! The tape: operations in the order they are made, each into a register.
+//! Tapes: operations in execution order, each of which writes to a register.
 //!
-//! **Invariant:** registers hold the arguments first, then the constants, then what steps leave; a
-//! step reads only what was written before it, and a register is used again once nothing reads it.
+//! **Invariant:** the arguments are in the first registers, followed by the constants, then by the results of
+//! steps. A step reads only registers written before it, and a register is reused once its value is no longer
+//! needed.
 
 use smallvec::SmallVec;
 
@@ -10,12 +11,12 @@ use super::operation::{Binary, Unary};
 use super::{Outside, OutsideId};
 use crate::function::build::MOST_ARGUMENTS;
 
-/// After so many turns a loop has no result: it would seem never to end.
+/// Number of iterations after which a loop yields NaN: it would appear not to terminate.
 pub(super) const MOST_TURNS: u32 = 10_000_000;
 
 pub(super) type Register = u32;
 
-/// One operation. `to` is where its result goes; the others are where its operands are.
+/// One operation. `to` is the register of its result; the others are those of its operands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Step {
     Unary {
@@ -35,7 +36,7 @@ pub(super) enum Step {
         then: Register,
         otherwise: Register,
     },
-    /// Its arguments are `count` registers of the tape's list, from `first` on.
+    /// Calls [`Outside`]; its arguments are `count` registers of the tape's list, from `first` on.
     Ask {
         id: OutsideId,
         to: Register,
@@ -45,7 +46,7 @@ pub(super) enum Step {
     Repeat(Repeat),
 }
 
-/// A sum or product: the `body` steps that follow run once for each value of the counter.
+/// A sum or product: the following `body` steps run once for each value of the counter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Repeat {
     /// [`Binary::Add`] or [`Binary::Multiply`].
@@ -58,11 +59,11 @@ pub(super) struct Repeat {
     pub body: u32,
 }
 
-/// A function of numbers to a number.
+/// A function that maps numbers to a number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Function {
     pub(super) parameters: u32,
-    /// In the registers after the arguments.
+    /// Constants, in the registers after the arguments.
     pub(super) constants: Vec<f64>,
     pub(super) registers: u32,
     pub(super) steps: Vec<Step>,
@@ -72,17 +73,17 @@ pub struct Function {
 }
 
 impl Function {
-    /// How many arguments it takes.
+    /// Returns the number of arguments.
     pub fn parameters(&self) -> usize {
         self.parameters as usize
     }
 
-    /// How many operations it makes at a point; those inside a loop count once.
+    /// Returns the number of operations; those inside a loop count once.
     pub fn operations(&self) -> usize {
         self.steps.len()
     }
 
-    /// Made ready once, to be run at one point after another.
+    /// Prepares it for evaluation at one point after another.
     pub fn run<N: Number>(&self) -> Run<'_, N> {
         let mut registers = SmallVec::from_elem(N::constant(0.0), self.registers as usize);
         for (register, constant) in registers[self.parameters()..].iter_mut().zip(&self.constants) {
@@ -92,7 +93,7 @@ impl Function {
     }
 }
 
-/// A function and the registers it works in.
+/// A function and its registers.
 #[derive(Debug, Clone)]
 pub struct Run<'f, N> {
     function: &'f Function,
@@ -101,7 +102,7 @@ pub struct Run<'f, N> {
 }
 
 impl<N: Number> Run<'_, N> {
-    /// The function's value; arguments that are missing are zero, those too many are not looked at.
+    /// Returns the function's value; missing arguments are zero, and extra ones are ignored.
     pub fn at(&mut self, arguments: &[N], outside: &impl Outside) -> N {
         let parameters = self.function.parameters();
         for (index, register) in self.registers[..parameters].iter_mut().enumerate() {

@@ -1,12 +1,12 @@
-//! Double-double numbers: the unevaluated sum of two `f64`, about 106 bits.
+//! Double-double numbers: unevaluated sums of two `f64`, with about 106 bits.
 //!
-//! **In/Out:** plain values. **Invariant:** `high` is the sum rounded to `f64` and `low` the rest, so
-//! [`Double::round`] rounds once. Results that fit in 106 bits (dyadic numbers, small integers) are
-//! exact; others are within 2⁻¹⁰² of the result, relative (products and quotients above 2⁻⁹⁰⁰; a sum
-//! relative to its larger term). An overflow leaves a number that is not finite, never a wrong one.
+//! **In/Out:** plain values. **Invariant:** `high` is the sum rounded to `f64`, and `low` is the rest, so
+//! [`Double::round`] rounds once. Results that fit in 106 bits (dyadic numbers, small integers) are exact;
+//! others have a relative error of at most 2⁻¹⁰² (for products and quotients, above 2⁻⁹⁰⁰; for sums, relative
+//! to the larger term). An overflow yields a value that is not finite, never a wrong one.
 //!
-//! **Source:** Joldes, Muller, Popescu, "Tight and rigorous error bounds for basic building blocks
-//! of double-word arithmetic", ACM TOMS 44 (2017): algorithms 6, 12, 17.
+//! **Source:** Joldes, Muller, Popescu, "Tight and rigorous error bounds for basic building blocks of
+//! double-word arithmetic", ACM TOMS 44 (2017): algorithms 6, 12, 17.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::LazyLock;
@@ -14,27 +14,27 @@ use std::sync::LazyLock;
 use super::Vector;
 use super::elementary::fmod;
 
-/// A real number to about 32 decimal digits.
+/// A real number with about 32 decimal digits.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub struct Double {
     high: f64,
     low: f64,
 }
 
-/// a + b and its rounding error, exactly.
+/// Returns a + b and its rounding error, exactly.
 fn two_sum(a: f64, b: f64) -> Double {
     let high = a + b;
     let b_part = high - a;
     Double { high, low: (a - (high - b_part)) + (b - b_part) }
 }
 
-/// As [`two_sum`], for |a| ≥ |b|.
+/// [`two_sum`] for |a| ≥ |b|.
 fn fast_two_sum(a: f64, b: f64) -> Double {
     let high = a + b;
     Double { high, low: b - (high - a) }
 }
 
-/// a · b and its rounding error, exactly (barring underflow).
+/// Returns a · b and its rounding error, exactly (barring underflow).
 fn two_product(a: f64, b: f64) -> Double {
     let high = a * b;
     Double { high, low: a.mul_add(b, -high) }
@@ -43,11 +43,11 @@ fn two_product(a: f64, b: f64) -> Double {
 impl Double {
     pub const ZERO: Self = Self { high: 0.0, low: 0.0 };
     pub const ONE: Self = Self { high: 1.0, low: 0.0 };
-    /// π / 180: multiply degrees by it to get radians.
+    /// π / 180, which converts degrees to radians.
     const RADIANS_PER_DEGREE: Self =
         Self { high: 0.017453292519943295, low: 2.9486522708701687e-19 };
 
-    /// The nearest `f64`; of the two zeros the positive one.
+    /// Returns the nearest `f64`; a zero is always positive.
     #[inline]
     pub fn round(self) -> f64 {
         self.high + 0.0
@@ -68,7 +68,7 @@ impl Double {
         if self.high < 0.0 { -self } else { self }
     }
 
-    /// The square root; zero of a negative number.
+    /// Returns the square root; zero for a negative number.
     pub fn sqrt(self) -> Self {
         if self.high <= 0.0 {
             return Self::ZERO;
@@ -78,7 +78,7 @@ impl Double {
         fast_two_sum(root, rest.high / (2.0 * root))
     }
 
-    /// Exact unless it under- or overflows.
+    /// Multiplies by a power of two; exact unless it overflows or underflows.
     #[inline]
     pub fn times_power_of_two(self, power: f64) -> Self {
         Self { high: self.high * power, low: self.low * power }
@@ -141,11 +141,11 @@ impl Div for Double {
     }
 }
 
-/// Sine and cosine of an angle in degrees.
+/// Returns the sine and cosine of an angle in degrees.
 ///
-/// Exact where they are 0, ±½ or ±1; equal in size at odd multiples of 45°; elsewhere within 2⁻¹⁰⁰.
-/// The angle is reduced to −45° … 45°, which is exact in `f64`, then the Taylor series is summed
-/// from its smallest term. Not finite for an angle that is not.
+/// Exact where they are 0, ±½ or ±1; equal in magnitude at odd multiples of 45°; elsewhere within 2⁻¹⁰⁰. The
+/// angle is reduced to −45° … 45°, which is exact in `f64`; then the Taylor series is summed from its
+/// smallest term. Not finite for an angle that is not finite.
 pub fn sin_cos_degrees(degrees: f64) -> (Double, Double) {
     let turn = fmod(degrees, 360.0);
     let quarter = (turn / 90.0).round();
@@ -169,16 +169,16 @@ pub fn sin_cos_degrees(degrees: f64) -> (Double, Double) {
     }
 }
 
-/// Σ (−square)ᵏ · termₖ, from the smallest.
+/// Sums (−square)ᵏ · termₖ, from the smallest.
 fn alternating(terms: &[Double; TERMS], square: Double) -> Double {
     let [first @ .., last] = terms;
     first.iter().rev().fold(*last, |sum, &term| term - square * sum)
 }
 
-/// What is left out is less than 2⁻¹¹⁰ for an argument below π/4.
+/// Number of terms; the rest is less than 2⁻¹¹⁰ for an argument below π/4.
 const TERMS: usize = 14;
 
-/// 1/(2k + 1)! and 1/(2k)!: of the sine over its argument, and of the cosine.
+/// 1/(2k + 1)! and 1/(2k)!: for the sine divided by its argument, and for the cosine.
 static SERIES: LazyLock<[[Double; TERMS]; 2]> = LazyLock::new(|| {
     let terms = |start: f64| {
         let mut term = Double::ONE;
@@ -217,7 +217,7 @@ impl DoubleVector {
         [self.x, self.y, self.z]
     }
 
-    /// Each component rounded once.
+    /// Rounds each component once.
     pub fn round(self) -> Vector {
         Vector::new(self.x.round(), self.y.round(), self.z.round())
     }
@@ -246,25 +246,25 @@ impl DoubleVector {
         self.components().iter().all(|c| c.is_zero())
     }
 
-    /// The largest absolute component, rounded.
+    /// Returns the largest absolute component, rounded.
     pub fn largest(self) -> f64 {
         self.round().abs().max_element()
     }
 
-    /// The length; exact along an axis, at any size without over- or underflow.
+    /// Returns the length; exact along an axis; never overflows or underflows.
     pub fn length(self) -> Double {
         let (v, size) = self.near_one();
         v.length_near_one().times_power_of_two(size)
     }
 
-    /// The vector of length 1 in this direction; `None` for zero.
+    /// Returns the unit vector in this direction; `None` for zero.
     pub fn normalized(self) -> Option<Self> {
         let (v, _) = self.near_one();
         let length = v.length_near_one();
         (!length.is_zero()).then(|| v.map(|c| c / length))
     }
 
-    /// This vector over a power of two that brings it near 1, and that power.
+    /// Returns the vector divided by a power of two, so that it is near 1, and that power.
     fn near_one(self) -> (Self, f64) {
         let size = power_of_two_near(self.largest());
         (self.map(|c| c.times_power_of_two(1.0 / size)), size)
@@ -274,7 +274,7 @@ impl DoubleVector {
         self.on_axis().unwrap_or_else(|| self.dot(self).sqrt())
     }
 
-    /// The size of the only component that is not zero, if there is but one.
+    /// Absolute value of the only component that is not zero, if there is only one.
     fn on_axis(self) -> Option<Double> {
         let mut parts = self.components().into_iter().filter(|c| !c.is_zero());
         match (parts.next(), parts.next()) {
@@ -284,21 +284,22 @@ impl DoubleVector {
     }
 }
 
-/// 2 to the `exponent`, as near as a normal number comes.
+/// Returns 2 to the `exponent`, clamped to normal numbers.
 pub fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent.clamp(-1022, 1023)) as u64) << 52)
 }
 
-/// The power of two next below `value`, within the range where its inverse is one too.
+/// Returns the largest power of two not above `value`, within the range where its inverse is also one.
 pub fn power_of_two_near(value: f64) -> f64 {
     let exponent = (value.to_bits() >> 52) & 0x7ff;
     f64::from_bits(exponent.clamp(2, 2044) << 52)
 }
 
-/// Of numbers in a range, what they all can be told from without a rounding: its middle, where none is more than
-/// twice another, else 0.
+/// Returns a number that can be subtracted from every number in the range without rounding: the middle, if no
+/// number is more than twice another, else 0.
 ///
-/// **Source:** Sterbenz' lemma (J.-M. Muller et al., *Handbook of Floating-Point Arithmetic*, 2nd ed., lemma 4.1).
+/// **Source:** Sterbenz' lemma (J.-M. Muller et al., *Handbook of Floating-Point Arithmetic*, 2nd ed., lemma
+/// 4.1).
 pub fn exact_middle((low, high): (f64, f64)) -> f64 {
     let (least, most) = (low.abs().min(high.abs()), low.abs().max(high.abs()));
     let is_beside_0 = (low > 0.0) == (high > 0.0) && most <= 2.0 * least;

@@ -1,20 +1,20 @@
-//! The elementary functions, over `libm`: the same bits on every machine.
+//! Elementary functions, by `libm`, with the same bits on every machine.
 //!
-//! **Invariant:** no other room calls `f64::sin`, `powf`, `exp` and their kin (`sqrt`, `abs`,
-//! `floor` are exact everywhere and need no wrapping).
+//! **Invariant:** no other module calls `f64::sin`, `powf`, `exp` and similar functions (`sqrt`, `abs` and
+//! `floor` are exact everywhere and need no wrapper).
 
 pub use libm::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, ceil, cos, cosh, erf, exp, floor, fmod,
     hypot, log, log10, pow, sin, sinh, tan, tanh,
 };
 
-/// π / 180: multiply degrees by it to get radians.
+/// π / 180, which converts degrees to radians.
 pub const RADIANS_PER_DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// Sine and cosine of an angle in degrees; exact (0, ±1) at multiples of 90°.
+/// Returns the sine and cosine of an angle in degrees; exact (0, ±1) at multiples of 90°.
 ///
-/// The angle is reduced to −45° … 45° in degrees, where `fmod` is exact, so the error is that of
-/// the kernels: under 1 unit in the last place plus one rounding of the angle.
+/// The angle is reduced to −45° … 45° in degrees, where `fmod` is exact, so the error is that of the kernels:
+/// less than 1 unit in the last place, plus one rounding of the angle.
 pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     let turn = fmod(degrees, 360.0);
     let quarter = (turn / 90.0).round();

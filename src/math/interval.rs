@@ -1,11 +1,10 @@
-//! Closed intervals: what a calculation can come to when its inputs lie between two numbers.
+//! Interval arithmetic on closed intervals.
 //!
-//! **Invariant:** the exact result for every choice of numbers in the operands lies in the result;
-//! so does the rounded one. Sums, products and roots are correctly rounded, so one step outward
-//! holds them (or up to two, which are sooner taken); the functions of [`super::elementary`] err by
-//! less than one unit in the last place, and get two steps. What may be undefined for some choice (a root
-//! of a negative number) is [`Interval::EVERYTHING`], and no other interval stands for what may be not a
-//! number.
+//! **Invariant:** the result contains the exact and the rounded result for every choice of numbers in the
+//! operands. Sums, products and roots are correctly rounded, so widening by one step is enough (up to two are
+//! used where that is faster); the functions of [`super::elementary`] err by less than one unit in the last
+//! place, and get two steps. A result that may be undefined for some choice (a root of a negative number) is
+//! [`Interval::EVERYTHING`]; no other interval represents a result that may be NaN.
 //!
 //! **Source:** R. E. Moore, R. B. Kearfott, M. J. Cloud, *Introduction to Interval Analysis*, 2009.
 
@@ -14,19 +13,19 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::elementary;
 
-/// Steps outward for a function that is not correctly rounded.
+/// Outward steps for a function that is not correctly rounded.
 const SLACK: usize = 2;
 
-/// Beyond so many radians, multiples of π are not told apart well enough to place a crest.
+/// Argument in radians beyond which multiples of π are too inaccurate to locate a crest.
 const FAR: f64 = 1e6;
 
-/// What is no wider, of a wave, is not worth two values.
+/// Width up to which a wave is evaluated only once.
 const NARROW: f64 = 1e-11;
 
-/// What π and a division by it round off, of a radian.
+/// Error, in radians per radian, from rounding π and dividing by it.
 const TURN: f64 = 1e-15;
 
-/// Whole numbers up to it are exact, and so are their neighbours' quotients.
+/// Integers up to this value are exact, and so are the quotients of adjacent ones.
 const WHOLE: f64 = 1e15;
 
 /// All numbers from `low` to `high`.
@@ -38,10 +37,10 @@ pub struct Interval {
 
 impl Interval {
     pub const EVERYTHING: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
-    /// What a comparison comes to while both answers are possible.
+    /// Result of a comparison that may be true or false.
     pub const UNDECIDED: Self = Self { low: 0.0, high: 1.0 };
 
-    /// The numbers between two, in either order.
+    /// Returns the interval between two numbers in either order.
     #[inline]
     pub fn between(a: f64, b: f64) -> Self {
         if a.is_nan() || b.is_nan() {
@@ -51,13 +50,13 @@ impl Interval {
         }
     }
 
-    /// One number.
+    /// Returns the interval of a single number.
     #[inline]
     pub fn point(value: f64) -> Self {
         Self::between(value, value)
     }
 
-    /// One number, if it is no more than that.
+    /// Returns the number, if the interval has only one.
     #[inline]
     pub fn single(self) -> Option<f64> {
         (self.low == self.high).then_some(self.low)
@@ -68,19 +67,19 @@ impl Interval {
         self.low <= value && value <= self.high
     }
 
-    /// The least interval that holds both.
+    /// Returns the smallest interval that contains both.
     #[inline]
     pub fn hull(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// Of two that are numbers throughout.
+    /// Returns the range of the minimum; neither operand may contain NaN.
     #[inline]
     pub fn min(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.min(other.high) }
     }
 
-    /// Of two that are numbers throughout.
+    /// Returns the range of the maximum; neither operand may contain NaN.
     #[inline]
     pub fn max(self, other: Self) -> Self {
         Self { low: self.low.max(other.low), high: self.high.max(other.high) }
@@ -97,7 +96,7 @@ impl Interval {
         }
     }
 
-    /// x·x, which [`Mul`] takes for a product of strangers.
+    /// Returns x·x, narrower than with [`Mul`], which treats the operands as independent.
     #[inline]
     pub fn square(self) -> Self {
         let Self { low, high } = self.abs();
@@ -114,26 +113,26 @@ impl Interval {
         Self { low: wide.low.max(0.0), ..wide }
     }
 
-    /// The image under a function that never falls and is exact (`floor`, `trunc`).
+    /// Returns the image under a non-decreasing function that is exact (`floor`, `trunc`).
     #[inline]
     pub fn rising_exactly(self, f: impl Fn(f64) -> f64) -> Self {
         let low = f(self.low);
         Self::between(low, if self.low == self.high { low } else { f(self.high) })
     }
 
-    /// The image under a function that never falls.
+    /// Returns the image under a non-decreasing function.
     #[inline]
     pub fn rising(self, f: impl Fn(f64) -> f64) -> Self {
         self.rising_exactly(f).widened(SLACK)
     }
 
-    /// The image under a function that never rises.
+    /// Returns the image under a non-increasing function.
     pub fn falling(self, f: impl Fn(f64) -> f64) -> Self {
         self.rising(f)
     }
 
-    /// The image under a function that rises or falls throughout, where it is defined on all of
-    /// `low ..= high`.
+    /// Returns the image under a monotone function; everything where the function is not defined on the whole
+    /// interval, which must lie in `low ..= high`.
     pub fn monotone_within(self, low: f64, high: f64, f: impl Fn(f64) -> f64) -> Self {
         if low <= self.low && self.high <= high { self.rising(f) } else { Self::EVERYTHING }
     }
@@ -150,7 +149,7 @@ impl Interval {
         self.wave(elementary::cos, 0.0)
     }
 
-    /// A wave of −1 to 1 and period 2π whose crests lie at `crest`·π and whole turns from there.
+    /// Image under a wave from −1 to 1 with period 2π and crests at `crest`·π plus multiples of 2π.
     fn wave(self, f: impl Fn(f64) -> f64, crest: f64) -> Self {
         const FULL: Interval = Interval { low: -1.0, high: 1.0 };
         let far = self.low.abs().max(self.high.abs());
@@ -190,7 +189,7 @@ impl Interval {
         self.rising(elementary::tan)
     }
 
-    /// `atan2(self, x)`.
+    /// Returns the range of `atan2(self, x)`.
     pub fn atan2(self, x: Self) -> Self {
         // Across the cut on the negative x axis the angle jumps by a turn.
         let on_cut = x.low <= 0.0 && self.contains(0.0) && self.single().is_none();
@@ -204,7 +203,7 @@ impl Interval {
         Self::hull_of(angles).widened(SLACK)
     }
 
-    /// `pow(self, exponent)`.
+    /// Returns the range of `pow(self, exponent)`.
     pub fn pow(self, exponent: Self) -> Self {
         if let Some(whole) = exponent.single().filter(|n| n.fract() == 0.0 && n.abs() < WHOLE) {
             let even = whole % 2.0 == 0.0;
@@ -227,12 +226,12 @@ impl Interval {
         Self::hull_of(corners.map(|(x, n)| elementary::pow(x, n))).widened(SLACK).as_signed_as(self)
     }
 
-    /// The power of what is not less than 0 is not either.
+    /// Clamps a power to be non-negative if its base is.
     fn as_signed_as(self, base: Self) -> Self {
         Self { low: if base.low >= 0.0 { self.low.max(0.0) } else { self.low }, ..self }
     }
 
-    /// The remainder with the sign of the dividend.
+    /// Returns the range of the remainder with the sign of the dividend.
     pub fn fmod(self, by: Self) -> Self {
         let by = match by.single().map(f64::abs) {
             Some(by) if by > 0.0 && by.is_finite() && self.is_finite() => by,
@@ -275,8 +274,8 @@ impl Interval {
         Self::stepped(self.low, self.high, steps)
     }
 
-    /// Of sums as they are rounded: each has the sign of what was meant, so that a sum of squares is never
-    /// less than 0, and has a root.
+    /// Widens the rounded ends of a sum. A rounded sum has the sign of the exact one, so a sum of squares
+    /// never becomes negative and always has a root.
     #[inline]
     fn sum(low: f64, high: f64) -> Self {
         let wide = Self::outward(low, high);
@@ -291,8 +290,8 @@ impl Interval {
         Self::stepped(low, high, 1)
     }
 
-    /// At least so many steps to the next number outward, by a sum and not by bits: ε·|x| is no less than
-    /// one.
+    /// Moves both ends outward by at least `steps` representable numbers, by addition rather than bit
+    /// operations: ε·|x| is at least one step.
     #[inline]
     fn stepped(low: f64, high: f64, steps: usize) -> Self {
         let step = |x: f64| x.abs() * (f64::EPSILON * steps as f64) + f64::MIN_POSITIVE;
@@ -300,9 +299,10 @@ impl Interval {
         if wide.low <= wide.high { wide } else { Self::stepped_by_bits(low, high, steps) }
     }
 
-    /// Of two points whose sum is a number: what counts, or goes by steps, stays whole.
+    /// Returns the sum of two points if it is exact, so that counters and fixed steps are not widened.
     ///
-    /// **Source:** D. Knuth, "The Art of Computer Programming" 2, section 4.2.2, theorem B: the error of a sum.
+    /// **Source:** D. Knuth, "The Art of Computer Programming" 2, section 4.2.2, theorem B: the error of a
+    /// sum.
     #[inline]
     fn exact_sum(self, other: Self) -> Option<Self> {
         if self.low != self.high || other.low != other.high {
@@ -315,7 +315,7 @@ impl Interval {
         (error == 0.0).then_some(Self::point(sum))
     }
 
-    /// For what is infinite, or no number.
+    /// Handles infinities and NaN.
     #[cold]
     fn stepped_by_bits(low: f64, high: f64, steps: usize) -> Self {
         if low.is_nan() || high.is_nan() {

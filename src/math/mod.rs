@@ -1,8 +1,8 @@
-//! Numbers, vectors and the maps between spaces.
+//! Numbers, vectors and maps between spaces.
 //!
-//! **Architecture invariant:** knows nothing of scenes, shapes or the language, and is the only
-//! room that calls the elementary functions (through `libm`, so that a picture is the same on
-//! every machine) and the only one that names `glam`.
+//! **Architecture invariant:** independent of scenes, shapes and the language. The only module that calls the
+//! elementary functions (through `libm`, so that a picture is the same on every machine), and the only one
+//! that uses `glam`.
 
 pub mod double;
 pub mod elementary;

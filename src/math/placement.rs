@@ -1,15 +1,14 @@
-//! Affine maps as they are used: subtract the centre first, then multiply.
+//! Affine maps in the form in which they are applied: subtract the centre, then multiply.
 //!
-//! **Invariant:** every [`Placement`] is invertible and its two matrices undo each other within
-//! rounding.
+//! **Invariant:** every [`Placement`] is invertible, and its two matrices are inverses within rounding.
 
 use super::double::{Double, DoubleVector};
 use super::{Matrix, Vector, reciprocal_power_of_two};
 
-/// `p ↦ matrix · (p − centre)`.
+/// The map `p ↦ matrix · (p − centre)`.
 ///
-/// Subtracting first keeps the digits of far things: for an ellipsoid 10⁶ units from the origin
-/// the relative error of t is 3e-15 so, and 4e-11 with a 4×4 matrix.
+/// Subtracting first preserves the digits of distant objects: for an ellipsoid 10⁶ units from the origin, the
+/// relative error of t is 3e-15, compared with 4e-11 for a 4×4 matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Map {
     pub centre: Vector,
@@ -29,10 +28,10 @@ impl Map {
         self.matrix * d
     }
 
-    /// How far [`Map::point`] of `p` may be off along each axis, where `p` is by `error`.
+    /// Returns the error of [`Map::point`] for `p` along each axis, given the error of `p`.
     ///
-    /// With M the matrix and c the centre: |M|·(error + u·|c| + u·|p − c|) for what comes in, the
-    /// centre's rounding and the difference's, and 4u·|M|·|p − c| for the matrix' and the sums.
+    /// With M the matrix and c the centre: |M|·(error + u·|c| + u·|p − c|) for the input, the rounding of the
+    /// centre and that of the difference, plus 4u·|M|·|p − c| for the matrix and the sums.
     pub fn point_error(&self, p: Vector, error: Vector) -> Vector {
         let centre = self.centre.abs() * f64::EPSILON;
         let difference = (p - self.centre).abs() * (4.0 * f64::EPSILON);
@@ -48,10 +47,10 @@ impl Default for Map {
     }
 }
 
-/// Where a local shape stands in the world.
+/// The placement of a local space in world space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
-    /// The world point of the local origin.
+    /// The local origin in world space.
     pub centre: Vector,
     pub world_from_local: Matrix,
     pub local_from_world: Matrix,
@@ -73,47 +72,48 @@ impl Placement {
         self.world_from_local * local + self.centre
     }
 
-    /// The (unnormalised) world normal of a local one: by the inverse transpose.
+    /// Returns the normal in world space, not normalized, by the inverse transpose.
     #[inline]
     pub fn world_normal(&self, local: Vector) -> Vector {
         self.local_from_world.transpose() * local
     }
 
-    /// By how many roundings the two matrices may be from undoing each other: the product of their Frobenius
-    /// norms.
+    /// Returns the condition number in the Frobenius norm: the number of roundings by which the two matrices
+    /// may fail to be inverses.
     pub fn condition(&self) -> f64 {
         norm(self.world_from_local) * norm(self.local_from_world)
     }
 }
 
-/// The Frobenius norm.
+/// Returns the Frobenius norm.
 pub fn norm(Matrix { x_axis, y_axis, z_axis }: Matrix) -> f64 {
     (x_axis.length_squared() + y_axis.length_squared() + z_axis.length_squared()).sqrt()
 }
 
-/// How a line lies to a plane: one across a local axis, in lengths along that axis, or one of the world.
+/// A line relative to a plane: either perpendicular to a local axis, in lengths along that axis, or in world
+/// space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rise {
-    /// How far its start is up from the plane.
+    /// Height of its start above the plane.
     pub up: f64,
-    /// How much it rises for each length of the ray.
+    /// Rise per unit length of the ray.
     pub speed: f64,
-    /// How great the numbers may be that made `up`, along the plane's normal: the start's, and how far the plane is
-    /// from 0. It is the same for all that have the plane.
+    /// Upper bound on the terms of `up`, along the plane's normal: the start, and the distance of the plane
+    /// from 0. It is the same for all bodies that share the plane.
     pub up_size: f64,
-    /// The same of `speed`.
+    /// The same for `speed`.
     pub speed_size: f64,
 }
 
 impl Rise {
-    /// To the plane normal·P = distance, exactly.
+    /// Returns the exact position relative to the plane normal·P = distance.
     pub fn from_plane(normal: Vector, distance: Double, origin: Vector, direction: Vector) -> Self {
         let normal = DoubleVector::from(normal);
         let up = normal.dot(origin.into()) - distance;
         Self::along(normal, (up, distance.round()), origin, direction)
     }
 
-    /// Of a line that starts so far up along a normal, from a plane that is so far from 0.
+    /// Returns the position of a line that starts `up` along a normal from a plane at `distance` from 0.
     fn along(
         normal: DoubleVector,
         (up, distance): (Double, f64),
@@ -131,8 +131,8 @@ impl Rise {
     }
 }
 
-/// Where a local space stands in the world, to 106 bits: points of two such spaces that are one point of the
-/// world are so to the bit.
+/// The placement of a local space in world space, to 106 bits: points of two such spaces that coincide in
+/// world space are bit-identical.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactPlacement {
     /// The rows of `world_from_local`.
@@ -142,12 +142,12 @@ pub struct ExactPlacement {
     pub norm: f64,
     /// [`Placement::condition`].
     pub condition: f64,
-    /// Left and right are swapped.
+    /// Whether left and right are swapped.
     pub is_mirrored: bool,
 }
 
 impl ExactPlacement {
-    /// Of the place that `placement` is, rounded.
+    /// Builds the exact form of `placement`, which is rounded.
     pub fn new(rows: [DoubleVector; 3], centre: DoubleVector, placement: &Placement) -> Self {
         // Near 1, so that the product of three does not underflow.
         let [x, y, z] = rows.map(|row| {
@@ -159,8 +159,8 @@ impl ExactPlacement {
         Self { rows, centre, norm, condition: placement.condition(), is_mirrored }
     }
 
-    /// How a line of the world lies to the plane across a local axis where that coordinate is `end`, as exact as the
-    /// ray and the place.
+    /// Returns a line in world space relative to the plane in which the coordinate of a local axis is `end`,
+    /// as exactly as the ray and the placement allow.
     pub fn rise(&self, axis: usize, end: f64, origin: Vector, direction: Vector) -> Rise {
         let column = |index: usize| {
             let [x, y, z] = self.rows.map(|row| row.components()[index % 3]);
@@ -177,19 +177,20 @@ impl ExactPlacement {
         Rise::along(steep, (steep.dot(from_plane), distance), origin, direction)
     }
 
-    /// The way from a point of the world to a local one, rounded once.
+    /// Returns the vector from a point in world space to a local point, rounded once.
     pub fn way(&self, from: Vector, local: Vector) -> Vector {
         (self.centred(local) + (self.centre - DoubleVector::from(from))).round()
     }
 
-    /// The way from the centre to a local point.
+    /// The vector from the centre to a local point, in world space.
     fn centred(&self, local: Vector) -> DoubleVector {
         let local = DoubleVector::from(local);
         let [x, y, z] = self.rows.map(|row| row.dot(local));
         DoubleVector::new(x, y, z)
     }
 
-    /// How a line of the world lies to the plane through three local points; `None` where those lie in a line.
+    /// Returns a line in world space relative to the plane through three local points; `None` if they are
+    /// collinear.
     pub fn rise_from(
         &self,
         points: [Vector; 3],

@@ -1,14 +1,15 @@
-//! Powers of numbers that are not negative, by products and square roots where these do.
+//! Powers of non-negative numbers, by multiplications and square roots where possible.
 
 use super::elementary::pow;
 
-/// The greatest exponent that is reached by products.
+/// The largest exponent computed by multiplications.
 const MOST: u8 = 16;
 
-/// x ↦ xᵖ for x ≥ 0.
+/// The function x ↦ xᵖ for x ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Power {
-    /// x to a whole number of at most 16, of the square root as often taken; or 1 over that.
+    /// Takes the square root `roots` times, then raises it to an integer of at most 16, then inverts it if
+    /// `inverse`.
     Products {
         times: u8,
         roots: u8,
@@ -31,10 +32,10 @@ impl Power {
         }
     }
 
-    /// xᵖ.
+    /// Returns xᵖ.
     ///
-    /// **Error:** of exponents to 16 |p| roundings and 5 more at most (k factors are rounded k − 1
-    /// times, the root under each of three once); of others that of [`pow`].
+    /// **Error:** for exponents up to 16, at most |p| + 5 roundings (k factors are rounded k − 1 times, the
+    /// root inside each of three once); for others, that of [`pow`].
     pub fn of(self, x: f64) -> f64 {
         match self {
             Self::Products { times, roots, inverse } => {
@@ -47,11 +48,10 @@ impl Power {
     }
 }
 
-/// `base ^ exponent` for `base` ≥ 0, of an exponent that is asked for once.
+/// Returns `base ^ exponent` for `base` ≥ 0, for an exponent that is used only once.
 ///
-/// A whole exponent up to 1,024 is raised by repeated squaring: at most 2 roundings a bit and
-/// each is doubled by the squarings after it, so the relative error is below
-/// 2 · exponent · 2⁻⁵³; others cost a call of `pow`.
+/// An integer exponent up to 1,024 uses repeated squaring, with at most 2 roundings per bit, each doubled by
+/// the subsequent squarings, so the relative error is below 2 · exponent · 2⁻⁵³; others cost a call of `pow`.
 #[inline(never)]
 pub fn power(base: f64, exponent: f64) -> f64 {
     let whole = exponent as u32;
@@ -61,7 +61,7 @@ pub fn power(base: f64, exponent: f64) -> f64 {
     products(base, whole)
 }
 
-/// xⁿ by squares.
+/// xⁿ by repeated squaring.
 #[inline(always)]
 fn products(x: f64, times: u32) -> f64 {
     let (mut all, mut square, mut left) = (1.0, x, times);

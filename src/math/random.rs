@@ -1,21 +1,21 @@
-//! Numbers drawn at random: which pixels are looked at, where samples lie.
+//! Pseudorandom numbers, for the choice of pixels and the positions of samples.
 //!
-//! **Invariant:** the same from one seed on every machine.
+//! **Invariant:** the same seed yields the same numbers on every machine.
 
 #[cfg(test)]
 mod draw;
 #[cfg(test)]
 pub(crate) use draw::{long, tries, tries_in};
 
-/// A small generator of numbers.
+/// A small pseudorandom generator.
 ///
-/// **Source:** G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators",
-/// OOPSLA 2014 (SplitMix64).
+/// **Source:** G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014
+/// (SplitMix64).
 #[derive(Debug, Clone)]
 pub(crate) struct Random(pub u64);
 
 impl Random {
-    /// A generator of its own for one of many things that share a seed.
+    /// Returns an independent generator for one of many users of a seed.
     pub fn of(seed: u64, thing: u64) -> Self {
         Self(Self(seed ^ Self(thing).bits()).bits())
     }
@@ -32,7 +32,7 @@ impl Random {
         (self.bits() % count as u64) as usize
     }
 
-    /// Between `low` and `high`.
+    /// Returns a number between `low` and `high`.
     pub fn number(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }

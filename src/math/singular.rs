@@ -1,18 +1,20 @@
-//! Singular values: by which factors a matrix stretches space along the axes it keeps at right
-//! angles.
+//! Singular values of a matrix: the factors by which it stretches space along orthogonal axes that it keeps
+//! orthogonal.
 
 use super::{Matrix, Vector};
 
-/// Pairs of columns are turned to right angles at most so many times; three do almost always.
+/// Maximum number of sweeps over the pairs of columns; three almost always suffice.
 const SWEEPS: usize = 30;
 
-/// The singular values of a finite matrix, largest first.
+/// Returns the singular values of a finite matrix, largest first.
 ///
-/// Pairs of columns are rotated until all are at right angles; their lengths are the values.
-/// **Error:** a few units in the last place of the largest value; of each value itself where the
-/// columns were at right angles from the start, however different their lengths.
-/// **Source:** Demmel and Veselić, "Jacobi's method is more accurate than QR", SIAM J. Matrix Anal.
-/// Appl. 13 (1992), algorithm 4.1.
+/// Pairs of columns are rotated until all are orthogonal; their lengths are the values.
+///
+/// **Error:** a few units in the last place of the largest value; of each value itself if the columns are
+/// orthogonal from the start, however different their lengths.
+///
+/// **Source:** Demmel and Veselić, "Jacobi's method is more accurate than QR", SIAM J. Matrix Anal. Appl. 13
+/// (1992), algorithm 4.1.
 pub fn singular_values(matrix: Matrix) -> [f64; 3] {
     let [a, b, c, d, e, f, g, h, i] = matrix.to_cols_array();
     let mut columns = [Vector::new(a, b, c), Vector::new(d, e, f), Vector::new(g, h, i)];
@@ -45,7 +47,7 @@ pub fn singular_values(matrix: Matrix) -> [f64; 3] {
     values
 }
 
-/// |v|, also where its square over- or underflows.
+/// |v|, even if its square overflows or underflows.
 fn length(v: Vector) -> f64 {
     let largest = v.abs().max_element();
     if largest == 0.0 { 0.0 } else { (v / largest).length() * largest }

@@ -1,7 +1,7 @@
-//! The terms of polynomials in x, y and z, in the order that the language lists them: by falling powers of x,
-//! then of y, then of z.
+//! Terms of polynomials in x, y and z, in the order in which the language lists them: by descending powers of
+//! x, then of y, then of z.
 
-/// The exponents of all terms, in order.
+/// Returns the exponents of all terms, in order.
 ///
 /// **Source:** the manual's table of polynomial terms, section 3.4.5.3.5.
 pub fn exponents(degree: usize) -> impl Iterator<Item = [usize; 3]> {
@@ -10,7 +10,7 @@ pub fn exponents(degree: usize) -> impl Iterator<Item = [usize; 3]> {
     })
 }
 
-/// How many terms a polynomial has: (n + 1)(n + 2)(n + 3) / 6.
+/// Returns the number of terms of a polynomial: (n + 1)(n + 2)(n + 3) / 6.
 pub fn count_of_terms(degree: usize) -> usize {
     (degree + 1) * (degree + 2) * (degree + 3) / 6
 }

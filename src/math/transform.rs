@@ -1,8 +1,8 @@
-//! Transformations as they are written: in order, rotations in degrees.
+//! Transformations as written: in order, with rotations in degrees.
 
 use super::Vector;
 
-/// Names a list of steps: an index into the Scene's arena of them.
+/// Identifies a list of steps: an index into the arena of the `Scene`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TransformId(pub u32);
 
@@ -18,14 +18,13 @@ pub enum Step {
     Translate(Vector),
     /// Factors along x, y and z.
     Scale(Vector),
-    /// Degrees about x, then y, then z, right-hand rule.
+    /// Degrees about x, then y, then z, by the right-hand rule.
     Rotate(Vector),
-    /// Three columns of the linear part, as rows of four numbers each are written in the
-    /// language: `<m00, m01, m02, m10, … m32>`; a point p becomes
-    /// `x·row0 + y·row1 + z·row2 + row3`.
+    /// Four rows of three numbers, as the language writes them: `<m00, m01, m02, m10, … m32>`. Maps a point p
+    /// to `x·row0 + y·row1 + z·row2 + row3`.
     Matrix([Vector; 4]),
-    /// All steps of another list, which stands before this one.
+    /// All steps of an earlier list.
     Transform(TransformId),
-    /// What undoes all steps of another list, which stands before this one.
+    /// The inverse of all steps of an earlier list.
     InverseOf(TransformId),
 }

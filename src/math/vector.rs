@@ -1,7 +1,7 @@
-//! Points and directions in three dimensions; the only file that names `glam`.
+//! Points and directions in three dimensions; the only file that uses `glam`.
 //!
-//! **In/Out:** plain values. **Invariant:** a [`UnitVector`] has length 1 within 2 units in the
-//! last place.
+//! **In/Out:** plain values. **Invariant:** the length of a [`UnitVector`] is 1 within 2 units in the last
+//! place.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
@@ -9,13 +9,13 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 /// A point, a direction or a size in `f64`.
 pub type Vector = glam::DVec3;
 
-/// A 3×3 matrix in `f64`, stored by columns; it maps column vectors: `m * v`.
+/// A 3×3 matrix in `f64`, stored by columns; it multiplies column vectors: `m * v`.
 pub type Matrix = glam::DMat3;
 
-/// Four `f32` side by side, for the boxes of a tree.
+/// Four `f32` lanes, for the boxes of a tree.
 pub type Lanes = glam::Vec4;
 
-/// The arithmetic a shape kernel is written in: `f32` or `f64`.
+/// The scalar type of a shape kernel: `f32` or `f64`.
 pub trait Real:
     Copy
     + Debug
@@ -34,10 +34,10 @@ pub trait Real:
     const NEG_INFINITY: Self;
     /// Half the distance from 1 to the next number: the relative error of one rounding.
     const UNIT_ROUNDOFF: Self;
-    /// 2ᵏ + 1 with k half of the significant bits, rounded up: times a number, it splits it in two.
+    /// 2ᵏ + 1, k half of the significant bits, rounded up: multiplication by it splits a number in two.
     const SPLITTER: Self;
-    /// Sums of squares between these two lose nothing to the range of exponents, and neither do
-    /// their parts down to the roundoff of the roundoff.
+    /// Range in which sums of squares neither overflow nor underflow, and neither do their parts, down to the
+    /// square of the roundoff.
     const SAFE_SQUARES: (Self, Self);
     fn from_f64(value: f64) -> Self;
     fn to_f64(self) -> f64;
@@ -47,7 +47,7 @@ pub trait Real:
     fn max(self, other: Self) -> Self;
 }
 
-/// What a shape kernel asks of a vector.
+/// The vector operations that shape kernels use.
 pub trait Vector3<R: Real>:
     Copy
     + Debug
@@ -60,7 +60,7 @@ pub trait Vector3<R: Real>:
     fn from_vector(v: Vector) -> Self;
     fn to_vector(self) -> Vector;
     fn dot(self, other: Self) -> R;
-    /// Σ |aᵢ·bᵢ|: what the rounding error of `dot` is proportional to (at most 3 roundoffs of it).
+    /// Returns Σ |aᵢ·bᵢ|; the rounding error of `dot` is at most 3 roundoffs of it.
     fn abs_dot(self, other: Self) -> R;
     fn cross(self, other: Self) -> Self;
     fn length_squared(self) -> R;
@@ -154,8 +154,8 @@ real!(
     (f64::from_bits(123 << 52), f64::from_bits(2023 << 52))
 );
 
-/// The vector as the language writes it: `<1, 2, 3>`, each number in the shortest form that reads
-/// back to the same value.
+/// Formats a vector as in the scene language: `<1, 2, 3>`, each number in the shortest form that parses to
+/// the same value.
 pub fn written(v: Vector) -> String {
     // Adding zero turns −0 into 0.
     format!("<{}, {}, {}>", v.x + 0.0, v.y + 0.0, v.z + 0.0)
@@ -170,10 +170,10 @@ impl UnitVector {
     pub const Y: Self = Self(Vector::Y);
     pub const Z: Self = Self(Vector::Z);
 
-    /// The direction of `v`; `None` when `v` is zero or not finite.
+    /// Returns the direction of `v`; `None` if `v` is zero or not finite.
     ///
-    /// Scaled by a power of two first, so that no square over- or underflows; multiplying `v` by
-    /// a power of two changes no bit of the answer, and a vector along an axis stays exact.
+    /// `v` is first scaled by a power of two, so that no square overflows or underflows. Multiplying `v` by a
+    /// power of two therefore changes no bit of the result, and a vector along an axis stays exact.
     pub fn from_direction(v: Vector) -> Option<Self> {
         let largest = v.abs().max_element();
         if largest == 0.0 || !v.is_finite() {
@@ -185,7 +185,7 @@ impl UnitVector {
         Some(Self(scaled / scaled.length()))
     }
 
-    /// A vector already known to have length 1 (the caller has just made it so).
+    /// Wraps a vector that is already of length 1; the caller has just normalized it.
     #[inline]
     pub fn from_unit(v: Vector) -> Self {
         debug_assert!((v.length_squared() - 1.0).abs() < 1e-12, "not a unit vector: {v}");
@@ -206,8 +206,8 @@ impl Neg for UnitVector {
     }
 }
 
-/// A power of two near `1 / largest`, within the range of normal numbers: the product of the two
-/// is in ½ … 2, unless that range forbids.
+/// Returns a power of two near `1 / largest`, within the range of normal numbers: the product of the two is
+/// in ½ … 2, unless that range prevents it.
 pub(crate) fn reciprocal_power_of_two(largest: f64) -> f64 {
     let exponent = ((largest.to_bits() >> 52) & 0x7ff) as i64 - 1023;
     f64::from_bits(((1023 - exponent).clamp(1, 2046) as u64) << 52)

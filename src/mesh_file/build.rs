@@ -1,6 +1,6 @@
-//! What the readers of all formats put together: vertices, and polygons that become triangles.
+//! Assembles what all readers produce: vertices, and polygons, which become triangles.
 //!
-//! **Invariant:** every index is that of an entry; every number is finite.
+//! **Invariant:** every index refers to an entry; every number is finite.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use crate::color::{Color, Rgb};
 use crate::math::Vector;
 use crate::scene::mesh::{Face, Triangles};
 
-/// One corner of a polygon, by indices.
+/// A corner of a polygon, by indices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Corner {
     pub vertex: u32,
@@ -23,7 +23,7 @@ pub(super) struct Builder {
     colors: Vec<Color>,
     known: HashMap<[u64; 5], u32>,
     lacks: Vec<String>,
-    /// Bytes.
+    /// Size limit in bytes.
     most: u64,
 }
 
@@ -33,7 +33,7 @@ impl Builder {
         Self { triangles, colors, known: HashMap::new(), lacks: Vec::new(), most }
     }
 
-    /// How many vertices, normals and places in a texture there are.
+    /// Returns the numbers of vertices, normals and texture coordinates.
     pub fn counts(&self) -> [usize; 3] {
         let Triangles { vertices, normals, uvs, .. } = &self.triangles;
         [vertices.len(), normals.len(), uvs.len()]
@@ -47,7 +47,7 @@ impl Builder {
         next(&mut self.triangles.vertices, vertex)
     }
 
-    /// Of any length; one that is not finite tells nothing.
+    /// Adds a normal of any length; one that is not finite becomes zero.
     pub fn normal(&mut self, [x, y, z]: [f64; 3]) -> Result<u32, Fault> {
         let normal = Vector::new(x, y, z);
         next(&mut self.triangles.normals, if normal.is_finite() { normal } else { Vector::ZERO })
@@ -58,7 +58,7 @@ impl Builder {
         next(&mut self.triangles.uvs, [finite(u), finite(v)])
     }
 
-    /// A linear colour, and how opaque it is, 0 to 1.
+    /// Adds a linear colour; `alpha` is the opacity, 0 to 1.
     pub fn color(&mut self, rgb: [f64; 3], alpha: f64) -> Result<u32, Fault> {
         let finite = |number: f64| if number.is_finite() { number.max(0.0) } else { 0.0 };
         let [red, green, blue] = rgb.map(finite);
@@ -79,8 +79,8 @@ impl Builder {
         }
     }
 
-    /// A flat polygon of three corners or more, as triangles; fewer are none. Its corners turn left where
-    /// it is seen from outside, in a right-handed space.
+    /// Adds a planar polygon, as triangles; fewer than three corners add nothing. Seen from outside, in a
+    /// right-handed space, its corners are counterclockwise.
     pub fn polygon(&mut self, corners: &[Corner]) {
         let first = self.first_of_fan(corners);
         let corner = |i: usize| corners[(first + i) % corners.len()];
@@ -89,8 +89,8 @@ impl Builder {
         }
     }
 
-    /// Where a fan of triangles begins that covers a polygon: at a corner from which all of them face as the
-    /// polygon does, if there is one among the first few.
+    /// Returns the corner at which a triangle fan of a polygon starts: the first one from which all triangles
+    /// face the same side as the polygon, if there is one among the first 16.
     fn first_of_fan(&self, corners: &[Corner]) -> usize {
         if corners.len() <= 3 {
             return 0;
@@ -120,8 +120,10 @@ impl Builder {
         });
     }
 
+    /// Checks the total size, including `more` bytes.
+    ///
     /// # Errors
-    /// Where more is put together than there may be.
+    /// Fails if the size exceeds the limit.
     pub fn check_size(&self, more: u64) -> Result<(), Fault> {
         if self.triangles.bytes().saturating_add(more) <= self.most {
             return Ok(());
@@ -138,7 +140,7 @@ impl Builder {
         Ok(Model { triangles, colors, lacks })
     }
 
-    /// Where a part of a file has colours, all else is white.
+    /// Makes all faces without a colour white, if others have colours.
     fn paint_the_rest(&mut self) -> Result<(), Fault> {
         if self.triangles.faces.iter().all(|face| face.paint.is_some()) {
             return Ok(());
@@ -151,7 +153,7 @@ impl Builder {
     }
 }
 
-/// Appends; the new entry's index.
+/// Appends an entry; returns its index.
 fn next<T>(list: &mut Vec<T>, entry: T) -> Result<u32, Fault> {
     let index =
         u32::try_from(list.len()).map_err(|_| Fault::new("it has more than 2³² entries"))?;

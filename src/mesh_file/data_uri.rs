@@ -1,11 +1,11 @@
-//! Names of files that hold the file themselves, or hide signs of their names: `data:…;base64,…`, `%20`.
+//! File names that contain the file itself or percent-encoded characters: `data:…;base64,…`, `%20`.
 //!
 //! **Source:** RFC 2397 "The data URL scheme"; RFC 4648, section 4; RFC 3986, section 2.1.
 
-/// The bytes that a name of this kind holds; `None` for the name of a file.
+/// Returns the bytes that a data URI contains; `None` for the name of a file.
 ///
 /// # Errors
-/// Where they are not in base 64.
+/// Fails if they are not valid base64.
 pub(super) fn held(uri: &str) -> Option<Result<Vec<u8>, &'static str>> {
     let (head, data) = uri.strip_prefix("data:")?.split_once(',').unwrap_or(("", ""));
     Some(match head.ends_with(";base64") {
@@ -14,7 +14,7 @@ pub(super) fn held(uri: &str) -> Option<Result<Vec<u8>, &'static str>> {
     })
 }
 
-/// The name with its hidden signs.
+/// Decodes the percent-encoded characters of a name.
 pub(super) fn name(uri: &str) -> String {
     String::from_utf8_lossy(&plain(uri)).into_owned()
 }

@@ -1,4 +1,4 @@
-//! Binary glTF: a head, the document, and bytes that it may point at.
+//! Binary glTF: a header, the document, and a buffer that it may refer to.
 //!
 //! **Source:** Khronos Group, "glTF 2.0 Specification", section 4.4.
 
@@ -6,10 +6,10 @@ use gltf::binary::Error as BinaryError;
 
 use super::{Fault, Place};
 
-/// A head of 12 bytes, and 8 before the document.
+/// A file header of 12 bytes, and 8 before the document.
 pub(super) const HEAD: usize = 20;
 
-/// The document of a binary file, and its bytes.
+/// Splits a binary file into its document and its buffer.
 pub(super) fn parts(bytes: &[u8]) -> Result<(&[u8], Option<Vec<u8>>), Fault> {
     let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
     // The crate takes 12 from this number.

@@ -1,8 +1,8 @@
-//! glTF 2.0: the meshes of a scene's nodes, each where its node puts it; the only file that names `gltf`.
+//! glTF 2.0: the meshes of a scene's nodes, transformed to their places; the only file that uses `gltf`.
 //!
-//! Base colours and colours of vertices are kept; pictures, morph targets, skins and animations are not.
-//! The crate reads the document. What it points at is looked up here: the crate's own checks and iterators
-//! panic on indices of nothing.
+//! Base colours and vertex colours are used; textures, morph targets, skins and animations are not. The crate
+//! parses the document. References are resolved here, because the crate's own checks and iterators panic on
+//! invalid indices.
 //!
 //! **Source:** Khronos Group, "glTF 2.0 Specification".
 
@@ -18,7 +18,7 @@ use super::json::Text;
 use super::{Beside, Fault, Place, data_uri, glb};
 use crate::math::{Matrix, Vector};
 
-/// What a file may require without being shown otherwise.
+/// Extensions that a file may require without affecting the result.
 const UNDERSTOOD: [&str; 3] =
     ["KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual"];
 
@@ -58,7 +58,7 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder, beside: &mut Beside) -> 
     document.nodes()
 }
 
-/// The byte of a text at a line and a column, both from 1.
+/// Byte offset of a line and a column of a text, both counted from 1.
 fn offset(text: &[u8], line: usize, column: usize) -> usize {
     let lines = text.split_inclusive(|byte| *byte == b'\n').take(line.saturating_sub(1));
     (lines.map(<[u8]>::len).sum::<usize>() + column.saturating_sub(1)).min(text.len())
@@ -94,7 +94,7 @@ struct Document<'d, 'b> {
     builder: &'b mut Builder,
 }
 
-/// From a node's space to the file's.
+/// The transformation from a node's space to the file's.
 #[derive(Clone, Copy)]
 struct Map {
     matrix: Matrix,
@@ -131,7 +131,7 @@ impl Map {
         Self { matrix: self.matrix * inner.matrix, offset }
     }
 
-    /// What takes normals along: the inverse transposed, times the determinant.
+    /// Returns the matrix for normals: the inverse transpose, times the determinant.
     fn of_normals(&self) -> Matrix {
         let Matrix { x_axis: a, y_axis: b, z_axis: c } = self.matrix;
         Matrix::from_cols(b.cross(c), c.cross(a), a.cross(b))
@@ -139,7 +139,7 @@ impl Map {
 }
 
 impl Document<'_, '_> {
-    /// Every node of the scene, once.
+    /// Visits every node of the scene once.
     fn nodes(&mut self) -> Result<(), Fault> {
         let root = self.root;
         let nothing = |what: &str| Fault::new(format!("{what} is not there"));
@@ -267,7 +267,7 @@ impl Document<'_, '_> {
         Ok(())
     }
 
-    /// The base colour of a material, how opaque it is, and whether that counts.
+    /// Returns the base colour of a material, its opacity, and whether the opacity blends.
     fn base_color(
         &mut self,
         material: Option<Index<Material>>,
@@ -294,7 +294,7 @@ impl Document<'_, '_> {
         Ok(Some(([red, green, blue], alpha, blends)))
     }
 
-    /// All numbers of an accessor, which has one of these widths; and its width.
+    /// Returns all numbers of an accessor, whose width must be one of these, and its width.
     fn numbers(
         &self,
         index: Index<Accessor>,
@@ -353,7 +353,7 @@ impl Document<'_, '_> {
     }
 }
 
-/// The `i`th vector of a list that an accessor gave.
+/// The `i`th vector of an accessor's list.
 fn entry(list: &Option<(usize, Vec<f64>)>, i: usize) -> Option<&[f64]> {
     let (width, numbers) = list.as_ref()?;
     numbers.get(i * width..(i + 1) * width)
@@ -367,7 +367,7 @@ fn size(component: ComponentType) -> usize {
     }
 }
 
-/// A number of [`size`] bytes; a normalised one is 1 where it is greatest.
+/// A number of [`size`] bytes; a normalized one is 1 at its maximum.
 fn number(component: ComponentType, bytes: &[u8], normalized: bool) -> f64 {
     let four = || <[u8; 4]>::try_from(bytes).unwrap_or_default();
     let two = || <[u8; 2]>::try_from(bytes).unwrap_or_default();

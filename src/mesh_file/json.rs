@@ -1,19 +1,19 @@
-//! Where a value of a JSON text begins, by the keys and the numbers that lead to it.
+//! Locates a value in a JSON text by its path of keys and indices.
 //!
-//! **In:** a text that was parsed: what is wrong with its form was told. **Invariant:** no text makes it
-//! panic or recurse.
+//! **In:** a text that was parsed successfully, so its syntax is valid. **Invariant:** never panics and never
+//! recurses, for any text.
 
 use super::{Fault, Place, line_at};
 
-/// A document, alone or in a binary file.
+/// A document, by itself or in a binary file.
 #[derive(Clone, Copy)]
 pub(super) struct Text<'t> {
     pub bytes: &'t [u8],
-    /// Where it begins in a binary file.
+    /// Offset of its start in a binary file.
     pub start: Option<usize>,
 }
 
-/// From a value into it.
+/// A step from a value to a nested one.
 #[derive(Clone, Copy)]
 pub(super) enum Step<'s> {
     Key(&'s str),
@@ -29,7 +29,8 @@ impl Text<'_> {
         }
     }
 
-    /// The fault at the value that a path leads to, if there is one and the fault has no place yet.
+    /// Returns the fault, located at the value with this path, if there is one and the fault has no location
+    /// yet.
     pub fn fault_at(&self, fault: Fault, path: &[Step]) -> Fault {
         match find(self.bytes, path) {
             Some(at) => fault.at(self.place(at)),
@@ -53,7 +54,7 @@ struct Cursor<'t> {
 }
 
 impl<'t> Cursor<'t> {
-    /// The first byte that is no blank.
+    /// Advances to the next byte that is not whitespace, and returns it.
     fn next(&mut self) -> Option<u8> {
         let rest = self.text.get(self.at..)?;
         self.at += rest.iter().position(|byte| !byte.is_ascii_whitespace())?;
@@ -64,7 +65,7 @@ impl<'t> Cursor<'t> {
         (self.next()? == wanted).then(|| self.at += 1)
     }
 
-    /// What is between quotes.
+    /// Reads a string, without its quotes.
     fn string(&mut self) -> Option<&'t [u8]> {
         self.take(b'"')?;
         let start = self.at;
@@ -79,7 +80,7 @@ impl<'t> Cursor<'t> {
         self.text.get(start..self.at - 1)
     }
 
-    /// To the value of a key, or to an entry.
+    /// Advances to the value of a key, or to an entry.
     fn enter(&mut self, step: Step) -> Option<()> {
         match step {
             Step::Key(wanted) => {
@@ -105,7 +106,7 @@ impl<'t> Cursor<'t> {
         }
     }
 
-    /// Past a value, and all that is in it.
+    /// Skips a value with its contents.
     fn skip(&mut self) -> Option<()> {
         let mut depth = 0usize;
         loop {

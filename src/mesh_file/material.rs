@@ -1,4 +1,4 @@
-//! MTL: the materials of an OBJ file, of which their colours are kept.
+//! MTL: materials of an OBJ file; only their colours are used.
 //!
 //! **Source:** Alias|Wavefront, "Advanced Visualizer Manual", appendix B1.
 
@@ -6,16 +6,16 @@ use std::collections::HashMap;
 
 use super::Fault;
 
-/// `Kd`, linear, and `d`: how opaque it is.
+/// `Kd`, linear, and `d`, the opacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Material {
     pub rgb: [f64; 3],
     pub alpha: f64,
-    /// Its colour comes from a picture, too.
+    /// Whether its colour also uses a texture.
     pub pictured: bool,
 }
 
-/// The materials of a library, by name; `None` of those that say nothing of a colour.
+/// Reads the materials of a library, by name; `None` for those without a colour.
 pub(super) fn read(text: &str) -> Result<HashMap<String, Option<Material>>, Fault> {
     const PLAIN: Material = Material { rgb: [1.0; 3], alpha: 1.0, pictured: false };
     let mut all: HashMap<String, Option<Material>> = HashMap::new();

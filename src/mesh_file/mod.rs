@@ -1,9 +1,9 @@
 //! Meshes from files: PLY, OBJ, STL and glTF.
 //!
-//! **In:** a file's name and bytes, and who has the files that it names. **Out:** a [`Model`], or the
-//! first [`Fault`]. **Invariant:** no bytes make it panic, and no count is believed before there are bytes
-//! for it. Coordinates are the file's; corners turn so that what is outside in the file (where they turn
-//! left, seen in a right-handed space) is outside here.
+//! **In:** a file's name and bytes, and access to the files that it refers to. **Out:** a [`Model`], or the
+//! first [`Fault`]. **Invariant:** never panics, for any bytes, and trusts no count before there are bytes
+//! for it. Coordinates are those of the file; the winding is converted so that the outside in the file (from
+//! where corners are counterclockwise, in a right-handed space) is the outside here.
 
 mod build;
 mod data_uri;
@@ -27,28 +27,28 @@ use build::Builder;
 /// The triangles of a file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Model {
-    /// Some may be lines or points.
+    /// Some may be degenerate: lines or points.
     pub triangles: Triangles,
-    /// Linear; what `Face::paint` counts. Empty where the file has no colours.
+    /// Linear colours, to which the indices in `Face::paint` refer. Empty if the file has no colours.
     pub colors: Vec<Color>,
-    /// What the file asks for that there is not, and what of it is not read: a sentence each.
+    /// What the file requires but is missing, and what is not read: one sentence each.
     pub lacks: Vec<String>,
 }
 
-/// Why a file is no mesh.
+/// Why a file is not a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
-    /// The name of another file, where that is at fault.
+    /// Name of another file, if that is at fault.
     pub file: Option<String>,
-    /// `None` of what is larger than the limit, and of a file that is not there.
+    /// `None` if the size limit is exceeded, or if a file does not exist.
     pub place: Option<Place>,
-    /// `a vertex has three numbers`.
+    /// For example, `a vertex has three numbers`.
     pub reason: String,
-    /// The file is not at fault: what it says is larger than the limit.
+    /// Whether the file is valid, but exceeds the size limit.
     pub is_too_large: bool,
 }
 
-/// A place in a file.
+/// A location in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// Counted from 1.
@@ -84,15 +84,15 @@ impl Fault {
     }
 }
 
-/// The line of a byte, from 1.
+/// Line number of a byte, from 1.
 fn line_at(bytes: &[u8], at: usize) -> usize {
     1 + bytes[..at.min(bytes.len())].iter().filter(|byte| **byte == b'\n').count()
 }
 
-/// Who has the files that lie beside one; the error is a reason, such as `it is not found`.
+/// Reads a file beside the mesh file; the error is a reason, such as `it is not found`.
 pub type Beside<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 
-/// What a file may be.
+/// The format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Format {
     Ply,
@@ -105,7 +105,7 @@ impl Format {
     /// In the order of [`ENDINGS`].
     const ALL: [Self; 5] = [Self::Ply, Self::Obj, Self::Stl, Self::Gltf, Self::Gltf];
 
-    /// By the end of a file's name.
+    /// Determines the format from the extension of a file's name.
     fn of(name: &str) -> Option<Self> {
         let extension = name.rsplit_once('.')?.1;
         let known = ENDINGS.iter().position(|known| extension.eq_ignore_ascii_case(known));
@@ -113,18 +113,18 @@ impl Format {
     }
 }
 
-/// How the names of meshes end.
+/// File name extensions of meshes.
 pub const ENDINGS: [&str; 5] = ["ply", "obj", "stl", "gltf", "glb"];
 
-/// Whether a file's name ends as that of a mesh.
+/// Returns whether a file's name has the extension of a mesh.
 pub fn is_named(name: &str) -> bool {
     Format::of(name).is_some()
 }
 
-/// The mesh that a file is. It and all that is made on the way take about `most` bytes, or less.
+/// Reads a mesh. The result and all intermediate data use about `most` bytes, or less.
 ///
 /// # Errors
-/// The first fault, in the file or in one that it cannot do without.
+/// Returns the first fault, in the file or in one that it requires.
 pub fn read(name: &str, bytes: &[u8], beside: &mut Beside, most: u64) -> Result<Model, Fault> {
     let mut builder = Builder::new(most);
     match Format::of(name) {

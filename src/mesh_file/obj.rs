@@ -1,11 +1,11 @@
-//! OBJ: vertices and faces, a statement a line; groups and objects are one mesh.
+//! OBJ: vertices and faces, one statement per line; groups and objects are merged into one mesh.
 //!
-//! It is read here. The crates that read it (tobj, obj, wobj, wavefront_obj) panic on some texts, give
-//! normals to the wrong corners where not all faces have them, or forget the material in a new group; and
-//! none says in which line an index is of nothing.
+//! It is parsed here. The existing crates (tobj, obj, wobj, wavefront_obj) panic on some texts, assign
+//! normals to the wrong corners if not all faces have them, or lose the material at a new group; and none
+//! reports the line of an invalid index.
 //!
-//! **Source:** Alias|Wavefront, "Advanced Visualizer Manual", appendix B1 "Object Files"; the colours of
-//! vertices are MeshLab's and Blender's, in display values.
+//! **Source:** Alias|Wavefront, "Advanced Visualizer Manual", appendix B1 "Object Files"; vertex colours as
+//! in MeshLab and Blender, in display values.
 
 use std::collections::HashMap;
 
@@ -20,16 +20,16 @@ struct Reader<'b, 'f> {
     materials: HashMap<String, Option<Material>>,
     /// One for each vertex.
     colors: Vec<Option<u32>>,
-    /// Of the material in use.
+    /// Colour of the current material.
     color: Option<u32>,
     corners: Vec<Corner>,
-    /// The line that is read.
+    /// Number of the current line.
     line: usize,
-    /// What names vertices, normals or places that come later: an index counts from the file's first.
+    /// Polygons with indices, counted from the start of the file, of entries that follow later.
     ahead: Vec<Polygon>,
 }
 
-/// A polygon whose indices may be of nothing.
+/// A polygon whose indices may be invalid.
 struct Polygon {
     line: usize,
     corners: Vec<Corner>,
@@ -142,7 +142,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// The colours of vertices go before the material's.
+    /// Adds a polygon; vertex colours take precedence over that of the material.
     fn polygon(&mut self, corners: &mut [Corner]) {
         for corner in &mut *corners {
             let own = self.colors.get(corner.vertex as usize).copied().flatten();
@@ -151,7 +151,7 @@ impl Reader<'_, '_> {
         self.builder.polygon(corners);
     }
 
-    /// The first index that is of nothing so far.
+    /// Returns a fault for the first index of an entry that does not exist so far.
     fn missing(&self, corners: &[Corner]) -> Option<Fault> {
         let counts = self.builder.counts();
         let indices = |corner: &Corner| [Some(corner.vertex), corner.normal, corner.uv];
@@ -172,7 +172,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// One that is not there costs the colours alone.
+    /// Reads a material library; a missing one only loses the colours.
     fn library(&mut self, name: &str) -> Result<(), Fault> {
         match (self.beside)(name) {
             Ok(bytes) => {
@@ -228,7 +228,8 @@ fn lacks_numbers(wanted: &str, text: &str) -> Fault {
     }
 }
 
-/// An index counts from 1, maybe to what comes later; or backward from the last entry so far.
+/// Converts an index, which counts from 1 and may refer to later entries, or backward from the last entry so
+/// far.
 fn index(text: &str, count: usize, which: usize) -> Result<u32, Fault> {
     let number: i64 = text.parse().map_err(|_| Fault::new(format!("`{text}` is no index")))?;
     if number == 0 {

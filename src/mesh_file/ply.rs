@@ -1,8 +1,8 @@
-//! PLY: elements with properties, as text or in binary of either order; the only file that names
+//! PLY: elements with properties, as text or in binary of either byte order; the only file that uses
 //! `ply_rs_bw`.
 //!
-//! Read are the `vertex` elements (x y z, nx ny nz, red green blue alpha, s t) and the `face` elements
-//! (vertex_indices, red green blue alpha). Colours of whole numbers are display values.
+//! Reads the `vertex` elements (x y z, nx ny nz, red green blue alpha, s t) and the `face` elements
+//! (vertex_indices, red green blue alpha). Integer colours are display values.
 //!
 //! **Source:** G. Turk, "The PLY Polygon File Format", 1994.
 
@@ -21,7 +21,7 @@ use crate::color::srgb_decode;
 
 type Bytes<'b> = Reader<Cursor<&'b [u8]>>;
 
-/// What a face calls its vertices.
+/// Names of the property of a face that lists its vertices.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
@@ -88,7 +88,7 @@ fn in_element(what: &str, number: usize, place: Place, fault: Fault) -> Fault {
     Fault { reason: format!("{what} {number}: {}", fault.reason), ..fault }.at(place)
 }
 
-/// The line of the head that begins with these words.
+/// Number of the header line that begins with these words.
 fn line_of(bytes: &[u8], words: &str) -> usize {
     let mut lines = bytes.split(|byte| *byte == b'\n');
     let begins = |line: &[u8]| {
@@ -98,7 +98,7 @@ fn line_of(bytes: &[u8], words: &str) -> usize {
     lines.position(begins).map_or(1, |number| number + 1)
 }
 
-/// Comments may be of any encoding; the crate reads UTF-8.
+/// Replaces non-ASCII bytes in the header: comments may be in any encoding, but the crate reads UTF-8.
 fn with_plain_head(bytes: &[u8]) -> Cow<'_, [u8]> {
     const END: &[u8] = b"end_header";
     let end = bytes.windows(END.len()).position(|window| window == END).unwrap_or(bytes.len());
@@ -110,7 +110,7 @@ fn with_plain_head(bytes: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned(bytes)
 }
 
-/// A binary element takes room, so there are no more of them than there is room for.
+/// Checks that the rest of the file can hold this many elements.
 fn check_count(element: &ElementDef, header: &Header, room: usize) -> Result<(), Fault> {
     let size = |scalar: &ScalarType| match scalar {
         ScalarType::Char | ScalarType::UChar => 1,
@@ -138,7 +138,8 @@ fn check_count(element: &ElementDef, header: &Header, room: usize) -> Result<(),
     }
 }
 
-/// What names vertices are whole numbers, and so are counts; in a text they can be read as that, whatever their type.
+/// Checks that vertex indices and list counts are integers; in a text file, counts may be declared with any
+/// type.
 fn check_lists(element: &ElementDef, header: &Header) -> Result<(), Fault> {
     let is_whole = |scalar: &ScalarType| !matches!(scalar, ScalarType::Float | ScalarType::Double);
     let is_text = header.encoding == Encoding::Ascii;
@@ -161,7 +162,7 @@ fn check_lists(element: &ElementDef, header: &Header) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The elements of a kind, each with where it begins.
+/// Reads the elements of a kind, each with its location.
 fn elements<E: PropertyAccess>(
     reader: &mut Bytes,
     element: &ElementDef,
@@ -208,7 +209,7 @@ fn elements<E: PropertyAccess>(
     Ok(read)
 }
 
-/// Of the numbers of an element, in their order.
+/// Names of the numbers of an element, in order.
 fn names_of(element: &ElementDef) -> String {
     let names = element.properties.iter().map(|(name, property)| match property.data_type {
         PropertyType::Scalar(_) => name.clone(),
@@ -217,7 +218,7 @@ fn names_of(element: &ElementDef) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// An element of which nothing is kept.
+/// An element that is skipped.
 struct Unread;
 
 impl PropertyAccess for Unread {
@@ -226,7 +227,7 @@ impl PropertyAccess for Unread {
     }
 }
 
-/// `red`, `green`, `blue` and `alpha`, display values of 0 to 1; NaN where one is not given.
+/// `red`, `green`, `blue` and `alpha`, display values from 0 to 1; NaN if missing.
 #[derive(Clone, Copy)]
 struct Paint([f64; 4]);
 
@@ -274,7 +275,7 @@ fn number_of(property: &Property) -> f64 {
     }
 }
 
-/// x y z, nx ny nz, s t; NaN where one is not given.
+/// x y z, nx ny nz, s t; NaN if missing.
 struct Vertex {
     numbers: [f64; 8],
     paint: Paint,
@@ -305,7 +306,7 @@ impl PropertyAccess for Vertex {
     }
 }
 
-/// Each of its lists has an entry for each vertex, or none has any.
+/// Which of the lists have an entry for each vertex; the others are empty.
 #[derive(Clone, Copy)]
 struct Has {
     normals: bool,
@@ -313,7 +314,7 @@ struct Has {
 }
 
 impl Vertex {
-    /// Its colour.
+    /// Adds its colour.
     fn add(&self, has: Has, builder: &mut Builder) -> Result<Option<u32>, Fault> {
         let [x, y, z, nx, ny, nz, s, t] = self.numbers;
         builder.vertex([x, y, z])?;
@@ -328,7 +329,7 @@ impl Vertex {
 }
 
 struct Polygon {
-    /// −1 for what is no index.
+    /// −1 for an invalid index.
     vertices: Vec<i64>,
     paint: Paint,
 }
@@ -357,7 +358,7 @@ impl PropertyAccess for Polygon {
 }
 
 impl Polygon {
-    /// Its own colour goes before those of its vertices.
+    /// Adds the face; its own colour takes precedence over those of its vertices.
     fn add(&self, colors: &[Option<u32>], has: Has, builder: &mut Builder) -> Result<(), Fault> {
         let own = self.paint.add(builder)?;
         let corner = |&vertex: &i64| {

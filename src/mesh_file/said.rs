@@ -1,19 +1,19 @@
-//! What is said of a line that cannot be read: what was expected there, and what it is instead.
+//! Error messages for lines that cannot be read: what was expected and what was found.
 //!
-//! The crates that read these files tell in words of their own that a line is wrong, not what it should have
-//! been; that follows from the lines before it.
+//! The parser crates report that a line is wrong, but not what was expected; that follows from the preceding
+//! lines.
 
-/// How much of a line is shown.
+/// Maximum number of characters of a line to show.
 const MOST_SHOWN: usize = 40;
 
-/// A line of a file, counted from 1, without the blanks around it; `None` behind its end.
+/// A line of a file, counted from 1, trimmed; `None` past the end.
 fn line(bytes: &[u8], number: usize) -> Option<String> {
     let mut rest = bytes.split(|byte| *byte == b'\n').skip(number.checked_sub(1)?);
     let line = String::from_utf8_lossy(rest.next()?).trim().to_owned();
     (!line.is_empty() || rest.next().is_some()).then_some(line)
 }
 
-/// `found …`: what stands instead of what was expected.
+/// Returns `found …`, quoting the text.
 pub fn found(text: &str) -> String {
     let text = text.trim();
     let is_text = |c: char| !c.is_control() && c != char::REPLACEMENT_CHARACTER || c == '\t';
@@ -25,7 +25,7 @@ pub fn found(text: &str) -> String {
     }
 }
 
-/// A line of an STL, in the order that its lines have.
+/// Returns the message for a line of an STL file, according to its position.
 pub fn of_stl(bytes: &[u8], number: usize) -> String {
     let (mut last, mut corners) = (String::new(), 0);
     let before = bytes.split(|byte| *byte == b'\n').take(number.saturating_sub(1));
@@ -47,7 +47,7 @@ pub fn of_stl(bytes: &[u8], number: usize) -> String {
     format!("expected {wanted}, {found}")
 }
 
-/// A line of the head of a PLY.
+/// Returns the message for a line of a PLY header.
 pub fn of_ply_head(bytes: &[u8], number: usize) -> String {
     let Some(text) = line(bytes, number) else {
         return "the file ends before `end_header`".to_owned();
@@ -76,7 +76,8 @@ pub fn of_ply_head(bytes: &[u8], number: usize) -> String {
     format!("expected {wanted}, {}", found(&text))
 }
 
-/// A line that holds numbers of these names; `what` it is, as `vertex 2`.
+/// Returns the message for a line that should contain numbers with these names; `what` names it, such as
+/// `vertex 2`.
 pub fn of_numbers(what: &str, names: &str, bytes: &[u8], number: usize) -> String {
     match line(bytes, number) {
         Some(text) => format!("{what}: expected numbers, {names}; {}", found(&text)),

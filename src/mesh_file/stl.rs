@@ -1,7 +1,8 @@
-//! STL: triangles one by one, as text or in binary; the only file that names `stl_io`.
+//! STL: independent triangles, as text or in binary; the only file that uses `stl_io`.
 //!
-//! A file is binary if it has the length that its count of triangles gives, or a zero in its head: many of
-//! those begin with the word `solid`, too. Its normals are those of the flat triangles, and tell nothing.
+//! A file is binary if it has the length that its triangle count implies, or a zero in its header: many
+//! binary files begin with the word `solid`, too. The normals are those of the flat triangles, and are
+//! ignored.
 //!
 //! **Source:** 3D Systems, "StereoLithography Interface Specification", 1989.
 
@@ -13,7 +14,7 @@ use stl_io::{Triangle, create_stl_reader};
 use super::build::{Builder, Corner};
 use super::{Fault, Place, line_at, said};
 
-/// A title and a count of 4 bytes, then 50 for each triangle.
+/// A title and a count of 4 bytes; 50 bytes follow for each triangle.
 const HEAD: usize = 84;
 const EACH: usize = 50;
 
@@ -66,21 +67,21 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Fault> {
     Ok(())
 }
 
-/// How long a binary file is by what it says.
+/// Length of a binary file, according to its count.
 fn length_told(bytes: &[u8]) -> usize {
     let count = bytes.get(HEAD - 4..HEAD).and_then(|count| count.try_into().ok());
     let count = count.map_or(0, |count| u32::from_le_bytes(count) as usize);
     HEAD.saturating_add(count.saturating_mul(EACH))
 }
 
-/// Triangles that know nothing of each other: equal corners become one vertex.
+/// Independent triangles: equal corners become one vertex.
 struct Soup<'b> {
     builder: &'b mut Builder,
     known: HashMap<[u32; 3], u32>,
 }
 
 impl Soup<'_> {
-    /// A fault without a reason is one of the line of a text that was read last.
+    /// Reads the triangles. A fault without a reason concerns the last line read.
     fn read(&mut self, pieces: &mut Pieces) -> Result<(), Fault> {
         let is_text = pieces.lines == 1;
         let told = |error: io::Error| match error.kind() {
@@ -115,17 +116,17 @@ impl Soup<'_> {
     }
 }
 
-/// Two texts as one, of which a line is given at a time: so what was given last is what was read last.
+/// Two texts as one, supplied one line at a time, so that the last line supplied is the last one read.
 struct Pieces<'t> {
     head: &'t [u8],
     rest: &'t [u8],
-    /// How far it was read.
+    /// Number of bytes already read.
     at: usize,
     lines: usize,
 }
 
 impl<'t> Pieces<'t> {
-    /// Gives about `lines` lines at once.
+    /// Supplies about `lines` lines at once.
     fn new(head: &'t [u8], rest: &'t [u8], lines: usize) -> Self {
         Self { head, rest, at: 0, lines }
     }
@@ -146,7 +147,7 @@ impl Read for Pieces<'_> {
 }
 
 impl Seek for Pieces<'_> {
-    /// To the start, from which the crate asks what it is.
+    /// Returns to the start, which the crate requests to detect the format.
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         match to {
             SeekFrom::Start(at) => self.at = at as usize,

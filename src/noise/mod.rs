@@ -1,17 +1,17 @@
-//! Solid noise: a smooth number, or vector, for every point of space, random from point to point.
+//! Solid noise: a smooth pseudorandom number, or vector, for every point of space.
 //!
-//! **In:** any point. **Out:** 0 … 1, or a vector whose components stay within 2 of zero.
-//! **Invariant:** finite for every point; continuous, and smooth where it is not cut off; out to
-//! 2·10⁹ units equal to POV-Ray 3.7's, so that a picture made of it is the same picture.
+//! **In:** any point. **Out:** 0 … 1, or a vector whose components are within 2 of zero. **Invariant:**
+//! finite for every point; continuous, and smooth where it is not clamped; equal to POV-Ray 3.7's out to
+//! 2·10⁹ units, so that pictures based on it are the same.
 //!
-//! Lattice noise: each point of the integer lattice holds a value and a gradient, and so a linear
-//! function; between lattice points those of the eight corners are blended by 3t² − 2t³ along each
-//! axis. What a point holds hangs on one walk through a shuffled table, a step an axis.
+//! This is lattice noise: each point of the integer lattice has a value and a gradient, which define a linear
+//! function; between lattice points, the functions of the eight corners are blended by 3t² − 2t³ along each
+//! axis. The data of a lattice point are selected by a walk through a shuffled table, one step per axis.
 //!
-//! **Source:** found by experiment on POV-Ray 3.7: its values at lattice points repeat every 4096
-//! units and are 256 in number; each line of the lattice is a reordering of any other by exclusive
-//! or of the index. For noise of this kind see Ebert and others, *Texturing and Modeling*, 3rd ed.,
-//! chapter 2, and Perlin, "An Image Synthesizer", 1985.
+//! **Source:** found by experiment on POV-Ray 3.7: its values at lattice points repeat every 4096 units and
+//! are 256 in number; each line of the lattice is a permutation of any other by exclusive or of the index.
+//! For this kind of noise, see Ebert and others, *Texturing and Modeling*, 3rd ed., chapter 2, and Perlin,
+//! "An Image Synthesizer", 1985.
 
 mod perlin;
 mod range;
@@ -24,21 +24,21 @@ use crate::math::Vector;
 use crate::math::interval::Interval;
 use table::{NUMBERS, PERMUTATION, STRIDE};
 
-/// Which noise patterns are made of: `noise_generator` 1, 2 or 3.
+/// The noise that patterns are based on: `noise_generator` 1, 2 or 3.
 ///
 /// **Source:** POV-Ray manual, section 3.4.7.5.4 "Noise Generators".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum NoiseGenerator {
-    /// 1: reaches below 0 and above 1, where it is cut off to plateaus.
+    /// 1: exceeds 0 … 1, and is clamped to plateaus there.
     Plateaus,
-    /// 2: the same, shrunk to its range.
+    /// 2: the same, scaled to 0 … 1.
     #[default]
     RangeCorrected,
-    /// 3: gradients alone.
+    /// 3: Perlin's gradient noise.
     Perlin,
 }
 
-/// Noise at `point`, 0 … 1.
+/// Returns the noise at `point`, 0 … 1.
 pub fn noise(generator: NoiseGenerator, point: Vector) -> f64 {
     let value = match generator {
         NoiseGenerator::Plateaus => plain(point),
@@ -49,13 +49,13 @@ pub fn noise(generator: NoiseGenerator, point: Vector) -> f64 {
     value.clamp(0.0, 1.0)
 }
 
-/// An interval that holds the noise of every point of a box.
+/// Returns an interval that contains the noise of every point of a box.
 pub fn bounds(generator: NoiseGenerator, point: [Interval; 3]) -> Interval {
     range::range(generator, point).0
 }
 
-/// The same, and intervals that hold noise's slope along each axis at every point of a box; where it is cut
-/// off, 0 as well.
+/// Returns [`bounds`], and intervals that contain the slope along each axis at every point of a box,
+/// including 0 where noise is clamped.
 pub fn bounds_and_slopes(
     generator: NoiseGenerator,
     point: [Interval; 3],
@@ -63,12 +63,12 @@ pub fn bounds_and_slopes(
     range::range(generator, point)
 }
 
-/// Three noises at once: a direction to push `point` in, about zero.
+/// Returns three independent noises: a displacement of `point`, centred on zero.
 pub fn vector_noise(point: Vector) -> Vector {
     Vector::from_array(blend(point))
 }
 
-/// About 0.5, seldom outside 0 … 1.
+/// Noise around 0.5, rarely outside of 0 … 1.
 fn plain(point: Vector) -> f64 {
     let [first] = blend(point);
     first + 0.5
@@ -101,40 +101,40 @@ fn blend<const N: usize>(point: Vector) -> [f64; N] {
     sum
 }
 
-/// What a lattice point holds of the first.
+/// The first component's data at a lattice point.
 fn plain_corner([i, j, k]: [usize; 3]) -> range::Linear {
     let at = step(step(step(i) ^ j) ^ k) % 256;
     [0.5 * NUMBERS[at], NUMBERS[at + 1], NUMBERS[at + 2], NUMBERS[at + 3]]
 }
 
-/// Where the table's zero lies: at (−10000, −10000, −10000).
+/// The origin of the table is at (−10000, −10000, −10000).
 const LATTICE_ORIGIN: i64 = 10_000;
 
 fn step(index: usize) -> usize {
     usize::from(PERMUTATION[index % PERMUTATION.len()])
 }
 
-/// One coordinate among its two lattice neighbours.
+/// A coordinate relative to its two lattice neighbours.
 #[derive(Clone, Copy)]
 struct Cell {
-    /// The lower neighbour; only its low bits are used, so that it may wrap.
+    /// The lower neighbour; only its low bits are used, so it may wrap.
     low: usize,
-    /// From the lower neighbour, 0 … 1.
+    /// Distance from the lower neighbour, 0 … 1.
     fraction: f64,
 }
 
-/// What a corner of a cell means to one axis.
+/// A corner of a cell relative to one axis.
 struct Corner {
-    /// From the corner to the point, −1 … 1.
+    /// Offset from the corner to the point, −1 … 1.
     offset: f64,
-    /// How much the corner counts, 0 … 1.
+    /// Weight of the corner, 0 … 1.
     weight: f64,
 }
 
 impl Cell {
-    /// Coordinates beyond 2⁵³ are lattice points; what is no number lies at 0.
+    /// Splits a coordinate. Coordinates beyond 2⁵³ are lattice points; NaN counts as 0.
     ///
-    /// Not by `floor`, which is a call where the processor is not known to have it.
+    /// Avoids `floor`, which is a function call unless the target is known to support it.
     #[inline]
     fn new(coordinate: f64, origin: i64) -> Self {
         let towards_zero = coordinate as i64;

@@ -1,8 +1,8 @@
-//! Perlin's gradient noise: zero at every lattice point, a random slope through each.
+//! Perlin's gradient noise: the value at every lattice point is zero, with a random gradient.
 //!
-//! **Source:** Perlin, "An Image Synthesizer", 1985; which slopes, scale and offset: found by
-//! experiment on POV-Ray 3.7, whose values at lattice points are all 0.4925, whose gradients there
-//! are 2048 vectors of length 0.795, each in the ratio of three whole numbers.
+//! **Source:** Perlin, "An Image Synthesizer", 1985; gradients, scale and offset found by experiment on
+//! POV-Ray 3.7: its values at lattice points are all 0.4925, and its gradients there are 2048 vectors of
+//! length 0.795, each in a ratio of three integers.
 
 use std::sync::LazyLock;
 
@@ -14,11 +14,10 @@ use crate::math::interval::Interval;
 
 const SIZE: usize = 2048;
 
-/// The program adds this to each coordinate and keeps what `f64` leaves of the sum: coordinates
-/// come in steps of 2⁻²⁹.
+/// POV-Ray adds this to each coordinate in `f64`, which rounds coordinates to multiples of 2⁻²⁹.
 const ORIGIN: f64 = 10_000_000.023_157_213;
 
-/// About 0.4925.
+/// Noise around 0.4925.
 pub(super) fn noise(point: Vector) -> f64 {
     let lattice = &*LATTICE;
     let [x, y, z] = cells(point + Vector::splat(ORIGIN), 0);
@@ -38,12 +37,12 @@ pub(super) fn noise(point: Vector) -> f64 {
     0.4925 + 0.795 * sum
 }
 
-/// Coordinates as the lattice has them.
+/// Converts coordinates to those of the lattice.
 pub(super) fn shifted(i: Interval) -> Interval {
     Interval { low: i.low + ORIGIN, high: i.high + ORIGIN }
 }
 
-/// What a lattice point holds.
+/// The data of a lattice point.
 pub(super) fn corner([i, j, k]: [usize; 3]) -> Linear {
     let lattice = &*LATTICE;
     let column = lattice.step(lattice.step(i).wrapping_add(j));
@@ -53,7 +52,7 @@ pub(super) fn corner([i, j, k]: [usize; 3]) -> Linear {
 
 struct Lattice {
     steps: [u16; SIZE],
-    /// Of length 1.
+    /// Unit vectors.
     gradients: [Vector; SIZE],
 }
 
@@ -71,7 +70,7 @@ impl Lattice {
     }
 }
 
-/// Evenly spread: what of the cube is outside the ball is drawn again.
+/// Uniformly distributed: points of the cube outside of the ball are rejected.
 fn direction(stream: &mut Stream) -> Vector {
     loop {
         let v = Vector::from_array([(); 3].map(|()| stream.below(4096) as f64 - 2048.0));
@@ -82,8 +81,8 @@ fn direction(stream: &mut Stream) -> Vector {
     }
 }
 
-/// Every other number changes places, starting one behind the last: so the table holds 0 twice,
-/// and 1017 not at all.
+/// Swaps only every other number, starting one past the end: so the table contains 0 twice, and 1017 not at
+/// all.
 fn half_shuffled(stream: &mut Stream) -> [u16; SIZE] {
     let mut steps = [0; SIZE + 1];
     for (i, step) in steps[..SIZE].iter_mut().enumerate() {

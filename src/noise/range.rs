@@ -1,27 +1,29 @@
-//! What noise and its slopes can come to over a box.
+//! Bounds of noise and its slopes over a box.
 //!
-//! **In:** a box. **Out:** intervals. **Invariant:** they hold what is found at every point of the box, and
-//! between any two; of a box within a cell or two of the lattice they are nearly as narrow as can be.
+//! **In:** a box. **Out:** intervals. **Invariant:** the intervals contain the values at every point of the
+//! box, and the slopes between any two; for a box within a cell or two of the lattice, they are nearly
+//! optimal.
 //!
-//! Within a cell noise is made of the corners' eight linear functions, blended along one axis after another by
-//! s = 3t² − 2t³. A blend of intervals lies between those of their ends, at the ends of s; its slope is the
-//! blend of the slopes, and s′ times the difference.
+//! Within a cell, noise blends the linear functions of the eight corners along one axis after another by s =
+//! 3t² − 2t³. A blend of intervals lies between the blends of their ends, at the ends of s; its slope is the
+//! blend of the slopes, plus s′ times the difference.
 
 use super::{Cell, LATTICE_ORIGIN, NoiseGenerator, noise, perlin, plain_corner};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
-/// Beyond, coordinates are rounded too coarsely for slopes to tell anything.
+/// Coordinate beyond which rounding makes slopes meaningless.
 const FAR: f64 = 1e6;
 
-/// What a corner of a cell holds: its value, and its slopes.
+/// A corner of a cell: its value, and its slopes.
 pub(super) type Linear = [f64; 4];
 
-/// Noise over a box, and its slope along each axis; where it is cut off, 0 as well.
+/// Returns the range of noise over a box, and of its slope along each axis, which includes 0 where noise is
+/// clamped.
 ///
-/// A box longer than a cell has bounds that hold everywhere: |s′| is at most 1.5, and the linear functions of
-/// two neighbouring corners, of |value| ≤ ½ + 3 within a cell and slope ≤ 1, differ by at most 7; so
-/// 1.5·7 + 1 along each axis. Perlin's have |value| ≤ √3.
+/// For a box longer than a cell, the bounds are global: |s′| is at most 1.5, and the linear functions of two
+/// adjacent corners, with |value| ≤ ½ + 3 within a cell and slope ≤ 1, differ by at most 7; so the slope is
+/// at most 1.5·7 + 1 along each axis. Perlin noise has |value| ≤ √3.
 pub(super) fn range(generator: NoiseGenerator, point: [Interval; 3]) -> (Interval, [Interval; 3]) {
     const RANGE: Interval = Interval { low: 0.0, high: 1.0 };
     // (v + shift)·scale, cut off; what rounding may do to v; the steepest slope.
@@ -70,13 +72,13 @@ pub(super) fn range(generator: NoiseGenerator, point: [Interval; 3]) -> (Interva
 /// Part of a cell along one axis.
 #[derive(Clone, Copy)]
 struct Span {
-    /// Of the cell.
+    /// Index of the cell.
     index: usize,
-    /// From where to where, 0 … 1.
+    /// The range in it, 0 … 1.
     from: [f64; 2],
-    /// s there.
+    /// s at the ends.
     weight: [f64; 2],
-    /// s′ between.
+    /// Range of s′.
     rise: Interval,
 }
 
@@ -94,7 +96,7 @@ impl Span {
         }
     }
 
-    /// Of an interval shorter than a cell: one part, or two.
+    /// Splits an interval shorter than a cell into one or two parts.
     fn of(i: Interval, origin: i64) -> ([Self; 2], usize) {
         let (low, high) = (Cell::new(i.low, origin), Cell::new(i.high, origin));
         if low.low == high.low {
@@ -105,7 +107,7 @@ impl Span {
     }
 }
 
-/// Over a box of less than a cell's length, which may lie in up to eight.
+/// Range over a box shorter than a cell, which may intersect up to eight cells.
 fn over(
     point: [Interval; 3],
     origin: i64,
@@ -129,7 +131,7 @@ fn over(
     all.unwrap_or((Interval::EVERYTHING, [Interval::EVERYTHING; 3]))
 }
 
-/// A linear function's values, of what it comes to at zero.
+/// Range of a linear function, given its value at zero.
 #[inline]
 fn linear(at_zero: f64, slopes: [f64; 3], spans: &[Span; 3]) -> Interval {
     let mut sum = Interval { low: at_zero, high: at_zero };
@@ -141,7 +143,7 @@ fn linear(at_zero: f64, slopes: [f64; 3], spans: &[Span; 3]) -> Interval {
     sum
 }
 
-/// a + s·(b − a), for all of s.
+/// Range of a + s·(b − a) over all s.
 #[inline]
 fn blend(a: Interval, b: Interval, weight: [f64; 2]) -> Interval {
     let at = |a: f64, b: f64, s: f64| a + s * (b - a);
@@ -162,7 +164,7 @@ fn plus(a: Interval, b: Interval) -> Interval {
     Interval { low: a.low + b.low, high: a.high + b.high }
 }
 
-/// Within one cell. Corner i + 2j + 4k is one further along those of the axes.
+/// Range within one cell. Corner i + 2j + 4k is offset by (i, j, k).
 fn within(spans: [Span; 3], corner: &impl Fn([usize; 3]) -> Linear) -> (Interval, [Interval; 3]) {
     let index = |axis: usize, further: usize| spans[axis].index.wrapping_add(further);
     // Each from the cell's first corner on.

@@ -1,9 +1,9 @@
-//! What the lattice points of noise hold: tables, measured or made as they were found to be made.
+//! Tables for the lattice points of noise, either measured or generated.
 //!
-//! **Invariant:** the same on every machine, and the same as POV-Ray 3.7's; all but [`NUMBERS`] is
-//! drawn from the generator behind `rand`.
+//! **Invariant:** the same on every machine, and the same as in POV-Ray 3.7; all but [`NUMBERS`] is generated
+//! by the generator of `rand`.
 
-/// The stream that `seed` opens and `rand` draws from, of which noise takes bits 16 to 30.
+/// The generator that `seed` initializes and `rand` draws from; noise uses bits 16 to 30.
 pub(super) struct Stream {
     state: u32,
 }
@@ -13,14 +13,14 @@ impl Stream {
         Self { state: seed }
     }
 
-    /// Below `count`, which is at most 2¹⁵.
+    /// Returns a number below `count`, which is at most 2¹⁵.
     pub const fn below(&mut self, count: u32) -> usize {
         self.state = self.state.wrapping_mul(1_812_433_253).wrapping_add(12_345);
         ((self.state >> 16) % 0x8000 % count) as usize
     }
 }
 
-/// The numbers 0 … 4095, shuffled: the step from one axis of the lattice to the next.
+/// The numbers 0 … 4095, shuffled; applied once per axis of the lattice.
 pub(super) static PERMUTATION: [u16; 4096] = shuffled();
 
 const fn shuffled() -> [u16; 4096] {
@@ -38,15 +38,14 @@ const fn shuffled() -> [u16; 4096] {
     numbers
 }
 
-/// How many numbers one component of noise takes at a lattice point: twice its value, then its
-/// gradient.
+/// Number of table entries for one component of noise at a lattice point: twice its value, then its gradient.
 pub(super) const STRIDE: usize = 4;
 
-/// The numbers that lattice points hold: component c of a point whose place is h (0 … 255) has the
-/// four from h + 4c on.
+/// The data of lattice points: component c of a point with hash h (0 … 255) uses the four entries from h + 4c
+/// on.
 ///
-/// **Source:** measured, six digits each as POV-Ray 3.7 has them: values at lattice points and
-/// gradients beside them, which overlap in this one row.
+/// **Source:** measured, with six digits each as in POV-Ray 3.7: values at lattice points and gradients near
+/// them, which overlap in this array.
 #[rustfmt::skip]
 pub(super) static NUMBERS: [f64; 256 + 3 * STRIDE - 1] = [
     -1.0, 0.604974, -0.937102, 0.414115, 0.576226, -0.0161593, 0.432334, 0.103685, 0.590539,

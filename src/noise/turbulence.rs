@@ -1,12 +1,12 @@
-//! Turbulence: noise upon noise, each layer finer and fainter than the last.
+//! Turbulence: a sum of noise layers of increasing frequency and decreasing amplitude.
 //!
-//! **Invariant:** layer i counts ωⁱ and is noise at λⁱ times the point. λ and ω are single numbers
-//! (`f32`), their powers double ones: as POV-Ray 3.7 was found to have them.
+//! **Invariant:** layer i has weight ωⁱ and is noise at λⁱ times the point. λ and ω are in single precision
+//! (`f32`), their powers in double precision, as found in POV-Ray 3.7.
 
 use super::{NoiseGenerator, noise, vector_noise};
 use crate::math::Vector;
 
-/// How layers of noise become finer and fainter.
+/// The parameters of turbulence.
 ///
 /// **Source:** POV-Ray manual, section 3.4.7.5.5.4 "Turbulence"; rules found by experiment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,22 +23,22 @@ impl Default for Turbulence {
 }
 
 impl Turbulence {
-    /// `lambda`: how much finer each layer is than the one before; `omega`: how much fainter.
-    /// `octaves`: how many layers; its fraction is dropped, and it is taken into 1 … 10.
+    /// Builds turbulence. `lambda` is the ratio of the frequencies of consecutive layers, `omega` that of
+    /// their amplitudes. `octaves` is the number of layers, truncated and clamped to 1 … 10.
     pub fn new(lambda: f64, omega: f64, octaves: f64) -> Self {
         let octaves = octaves.clamp(1.0, 10.0) as u8;
         Self { lambda: single(lambda), omega: single(omega), octaves: octaves.max(1) }
     }
 
-    /// A push for `point`. Finite so long as `omega` to the power of the octaves is.
+    /// Returns the displacement of `point`. Finite if `omega` to the power of the octaves is.
     pub fn vector(&self, point: Vector) -> Vector {
         self.layers(point).fold(Vector::ZERO, |sum, (weight, p)| sum + vector_noise(p) * weight)
     }
 
-    /// A number of no fixed range, as [`vector`](Self::vector) is finite.
+    /// Returns a number without a fixed range; finite like [`vector`](Self::vector).
     ///
-    /// All generators but the first are stretched to twice their range, and there only the first
-    /// layer is kept within 0 … 1.
+    /// The noise of all generators but the first is scaled to twice its range, and then only the first layer
+    /// is clamped to 0 … 1.
     pub fn number(&self, generator: NoiseGenerator, point: Vector) -> f64 {
         let stretched = |p| 2.0 * noise(generator, p) - 0.5;
         let layers = self.layers(point).enumerate();
@@ -54,7 +54,7 @@ impl Turbulence {
         })
     }
 
-    /// How much each layer counts, and where it takes its noise.
+    /// Returns the weight of each layer, and the point at which it is evaluated.
     fn layers(&self, point: Vector) -> impl Iterator<Item = (f64, Vector)> {
         let Self { lambda, omega, octaves } = *self;
         let next = move |(finer, fainter): &(f64, f64)| Some((finer * lambda, fainter * omega));
@@ -64,7 +64,7 @@ impl Turbulence {
     }
 }
 
-/// Rounded to single precision, and never to infinity.
+/// Rounds to single precision, clamped to finite numbers.
 fn single(number: f64) -> f64 {
     let greatest = f64::from(f32::MAX);
     f64::from(number.clamp(-greatest, greatest) as f32)

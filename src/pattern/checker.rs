@@ -6,7 +6,7 @@ use super::{NEAR, settled};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
-/// 0 in the cell that starts at the origin, 1 in its six neighbours, and so on.
+/// Returns 0 in the cell that starts at the origin, 1 in its six neighbours, and so on.
 ///
 /// Exact for coordinates up to 2⁵³; beyond, every number is even and the value is constant.
 #[inline]
@@ -20,8 +20,7 @@ pub fn value(point: Vector, error: Vector) -> f64 {
     f64::from(parity(x.0, x.1) ^ parity(y.0, y.1) ^ parity(z.0, z.1))
 }
 
-/// The value where each coordinate is either a whole number or not [`NEAR`] one: then no error less
-/// than that changes it.
+/// Returns the range of values within `reach` of `point` along each axis.
 pub fn bounds(point: Vector, reach: Vector) -> Interval {
     let (low, high) = ((point - reach).floor(), (point + reach).floor());
     match low == high {
@@ -30,6 +29,8 @@ pub fn bounds(point: Vector, reach: Vector) -> Interval {
     }
 }
 
+/// Returns the value if each coordinate is either an integer or not within [`NEAR`] of one: then no smaller
+/// error changes it.
 #[inline]
 pub fn value_off_seams(point: Vector) -> Option<f64> {
     // The sum is rounded to a whole number; its last bit says whether that is odd.
@@ -42,7 +43,7 @@ pub fn value_off_seams(point: Vector) -> Option<f64> {
     Some(f64::from(parity(point.x)? ^ parity(point.y)? ^ parity(point.z)?))
 }
 
-/// 3·2⁵¹: numbers near it are whole.
+/// 3·2⁵¹: numbers near it are integers.
 const WHOLE: f64 = 1.5 / f64::EPSILON;
 
 #[cfg(test)]

@@ -4,10 +4,10 @@ use super::{Measured, NEAR, settled};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
-/// The fractional part of `direction · point`, 0 … 1, with 0 at each whole number but at 1, where it is 1;
-/// `direction` has length 1. So the top of a box as high as its gradient has the last colour.
+/// Returns the fractional part of `direction · point`, 0 … 1, for a `direction` of length 1. It is 0 at every
+/// integer except 1, where it is 1: so the top of a box as high as its gradient has the last colour.
 ///
-/// **Source:** POV-Ray manual, section "Gradient"; the value at 1 as POV-Ray 3.7 has it (measured).
+/// **Source:** POV-Ray manual, section "Gradient"; the value at 1 as in POV-Ray 3.7 (measured).
 #[inline]
 pub fn value(direction: Vector, point: Vector, error: Vector) -> Measured {
     // The direction and the sum are rounded, too.
@@ -21,7 +21,7 @@ pub fn value(direction: Vector, point: Vector, error: Vector) -> Measured {
     Measured { value: if fraction < 1.0 { fraction } else { 0.0 }, error }
 }
 
-/// The value where it is not [`NEAR`] its jump.
+/// Returns the range of values within `reach` of `point` along each axis.
 pub fn bounds(direction: Vector, point: Vector, reach: Vector) -> Interval {
     let along = direction.dot(point);
     let far = direction.abs().dot(reach + point.abs() * (4.0 * f64::EPSILON));
@@ -32,6 +32,7 @@ pub fn bounds(direction: Vector, point: Vector, reach: Vector) -> Interval {
     }
 }
 
+/// Returns the value if it is not within [`NEAR`] of its jump.
 #[inline]
 pub fn value_off_seams(direction: Vector, point: Vector) -> Option<f64> {
     let along = direction.dot(point);

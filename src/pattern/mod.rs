@@ -1,8 +1,8 @@
-//! Patterns: a point to a number; one file, one pattern.
+//! Patterns, which map a point to a number; one file for each pattern.
 //!
-//! **Invariant:** knows only `math`; closed enum, matched exhaustively. What errors cannot tell from
-//! a seam is on it: so a seam that falls on a row of pixels is one colour all along, however the
-//! points of the row were rounded.
+//! **Invariant:** depends only on `math`; the enum is closed and matched exhaustively. A point that its error
+//! cannot separate from a seam is on the seam: so a seam that coincides with a row of pixels has one colour
+//! throughout, however the points of the row are rounded.
 
 pub mod checker;
 pub mod gradient;
@@ -10,30 +10,30 @@ pub mod gradient;
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
-/// A number for every point of space.
+/// A function that maps every point of space to a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pattern {
     Checker,
-    /// `direction`: as written in a Scene (any length but zero), of length 1 in a World.
+    /// `direction`: as written in a `Scene` (any length but zero), of length 1 in a `World`.
     Gradient {
         direction: Vector,
     },
 }
 
-/// A number, and how far off it may be.
+/// A number with its error bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     pub value: f64,
     pub error: f64,
 }
 
-/// How near to a seam a point's own error is asked after, in cells; the errors of all others only
-/// need to be less than a quarter of this.
+/// Distance from a seam, in cells, within which a point's own error matters; all other errors must only be
+/// less than a quarter of this.
 pub const NEAR: f64 = 1.0 / 256.0;
 
 impl Pattern {
-    /// The pattern's value, 0 … 1, at `point` (in texture space), which may be off by `error` along
-    /// each axis.
+    /// Returns the pattern's value, 0 … 1, at `point` (in texture space), whose error along each axis is
+    /// `error`.
     #[inline]
     pub fn value(&self, point: Vector, error: Vector) -> Measured {
         match self {
@@ -42,7 +42,7 @@ impl Pattern {
         }
     }
 
-    /// The values of the points that are no farther than `reach` from `point` along each axis.
+    /// Returns the range of values within `reach` of `point` along each axis.
     pub fn bounds(&self, point: Vector, reach: Vector) -> Interval {
         match self {
             Self::Checker => checker::bounds(point, reach),
@@ -50,9 +50,8 @@ impl Pattern {
         }
     }
 
-    /// As [`Pattern::value`], whatever the error, if that is less than [`NEAR`] / 4 along each axis;
-    /// `None` where it may matter. The value's own error is then less than is said. Coordinates must
-    /// be below 2⁴⁰.
+    /// Returns [`Pattern::value`] for any error less than [`NEAR`] / 4 along each axis; `None` if the error
+    /// may matter. The returned error is an upper bound. Coordinates must be below 2⁴⁰.
     #[inline]
     pub fn value_off_seams(&self, point: Vector) -> Option<Measured> {
         match self {
@@ -64,8 +63,7 @@ impl Pattern {
     }
 }
 
-/// A coordinate as a lattice of whole numbers sees it: one that its error does not tell from a
-/// whole number is that number.
+/// Rounds a coordinate to an integer if its error cannot separate it from that integer.
 #[inline]
 fn settled(coordinate: f64, error: f64) -> f64 {
     let whole = coordinate.round();

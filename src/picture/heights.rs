@@ -1,14 +1,14 @@
-//! Pictures read as heights.
+//! Reads pictures as heights.
 //!
-//! **In:** the bytes of a picture file. **Out:** a height for each pixel, 0 to less than 1. **Invariant:** no
-//! bytes make it panic, or take more memory than the picture.
+//! **In:** the bytes of a picture file. **Out:** a height for each pixel, from 0 to less than 1.
+//! **Invariant:** never panics, for any bytes, and never uses more memory than the picture.
 //!
-//! **Source:** POV-Ray 3.7 manual, 3.4.5.1.5 "Height Field": the number of a colour in its palette counts, and
-//! not the colour; of other colours red is the high byte and green the low one; grey is itself, in 8 or 16
-//! bits. Measured: the greatest number, 65535, is 65535/65536 high, a colour of a palette 256 times its
-//! number, and a colour of 16 bits a component as high as it is light; a gamma turns components into light
-//! before they count, where the scene names one, and never where only the file does. Of grey pictures of 8
-//! bits a component POV-Ray itself reads some a step of 1/256 too low.
+//! **Source:** POV-Ray 3.7 manual, 3.4.5.1.5 "Height Field": for palettes, the index counts, not the colour;
+//! for other colours, red is the high byte and green the low one; grey is used as it is, in 8 or 16 bits.
+//! Measured: the largest number, 65535, is at height 65535/65536; a palette index counts 256 times; a colour
+//! with 16 bits per component is as high as it is bright; a gamma converts components to light first if the
+//! scene specifies one, and never if only the file does. POV-Ray itself reads some grey pictures with 8 bits
+//! per component a step of 1/256 too low.
 
 use std::io::Cursor;
 
@@ -16,22 +16,22 @@ use image::{DynamicImage, ImageBuffer, ImageFormat, ImageReader, Pixel};
 
 use crate::color::{Gamma, Rgb};
 
-/// Rows of heights, the uppermost first.
+/// Rows of heights, from top to bottom.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heights {
     pub width: usize,
     pub heights: Vec<f32>,
 }
 
-/// More heights than can be numbered are none.
+/// Maximum number of heights, so that they can be numbered.
 const MOST: u64 = 1 << 30;
 
-/// The height of what is from 0 to 1.
+/// Returns the height for a value from 0 to 1.
 pub fn height(share: f64) -> f32 {
     (share * (65535.0 / 65536.0)) as f32
 }
 
-/// How the components of a picture, 0 to 1, count.
+/// Conversion of components, 0 to 1.
 #[derive(Clone, Copy)]
 struct Scale(Gamma);
 
@@ -40,20 +40,20 @@ impl Scale {
         height(self.0.linear(share).min(1.0))
     }
 
-    /// Red is worth 256 times as much as green.
+    /// Combines a high and a low byte: red counts 256 times as much as green.
     fn pair(self, red: f64, green: f64) -> f32 {
         let [red, green] = [red, green].map(|share| self.0.linear(share).min(1.0));
         height((256.0 * red + green) / 257.0)
     }
 
-    /// As light as it is.
+    /// Height of a colour by its brightness.
     fn light(self, components: [f64; 3]) -> f32 {
         let [red, green, blue] = components.map(|share| self.0.linear(share).min(1.0));
         height(Rgb { red, green, blue }.brightness())
     }
 }
 
-/// A colour of a palette.
+/// Height of a palette index.
 fn numbered(number: u8) -> f32 {
     f32::from(number) / 256.0
 }
@@ -66,7 +66,7 @@ fn sixteen(component: u16) -> f64 {
     f64::from(component) / f64::from(u16::MAX)
 }
 
-/// What a file certainly is by its first bytes, and the word for it.
+/// Detects the type of a file from its first bytes; returns its name and its keyword.
 pub fn kind_told(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     match image::guess_format(bytes).ok()? {
         ImageFormat::Png => Some(("PNG", "png")),
@@ -79,10 +79,10 @@ pub fn kind_told(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     }
 }
 
-/// Reads a picture; one of type `tga` tells so by nothing but the word for it.
+/// Reads a picture. The type `tga` cannot be detected from the bytes and must be declared by `is_tga`.
 ///
 /// # Errors
-/// What is wrong with the bytes.
+/// Describes what is wrong with the bytes.
 pub fn read(bytes: &[u8], is_tga: bool, gamma: Gamma) -> Result<Heights, String> {
     let format = if is_tga {
         ImageFormat::Tga
@@ -195,7 +195,7 @@ fn other(bytes: &[u8], format: ImageFormat, scale: Scale) -> Result<Heights, Str
     Ok(Heights { width, heights })
 }
 
-/// What each pixel comes to.
+/// Returns the height of each pixel.
 fn each<P: Pixel, const N: usize>(
     picture: &ImageBuffer<P, Vec<P::Subpixel>>,
     height: impl Fn([P::Subpixel; N]) -> f32,
@@ -241,7 +241,7 @@ mod tests {
         }
     }
 
-    /// What POV-Ray's `trace` says of such pictures, in 65,536ths.
+    /// Results of POV-Ray's `trace` for such pictures, in 65,536ths.
     #[test]
     fn a_gamma_that_is_named_turns_numbers_into_light() {
         let heights = |picture: DynamicImage, gamma| {

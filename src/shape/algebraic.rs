@@ -1,10 +1,12 @@
-//! Algebraic surface: where a polynomial in x, y and z is 0; inside it is negative.
+//! Algebraic surfaces: zero sets of polynomials in x, y and z; the inside is where the polynomial is
+//! negative.
 //!
-//! **Invariant:** a line crosses it where the polynomial along the line certainly changes its sign,
-//! however far away. It may have no end, and begin inside; where it has one, that is proven.
+//! **Invariant:** a line crosses the surface where the polynomial along the line certainly changes its sign,
+//! at any distance. The surface may be unbounded, and a line may begin inside; bounds are given only where
+//! they are proven.
 //!
-//! **Source:** P. Hanrahan, "Ray tracing algebraic surfaces", SIGGRAPH 1983, p. 83; the roots as
-//! `math::roots::polynomial` finds them.
+//! **Source:** P. Hanrahan, "Ray tracing algebraic surfaces", SIGGRAPH 1983, p. 83; roots by
+//! `math::roots::polynomial`.
 
 mod along;
 mod clipped;
@@ -34,20 +36,21 @@ const ENDLESS: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 pub struct Algebraic {
     /// 2 … 15.
     degree: usize,
-    /// Of all xⁱyʲzᵏ with i + j + k ≤ degree; by falling powers of x, then of y, then of z.
+    /// Coefficients of all xⁱyʲzᵏ with i + j + k ≤ degree; in descending powers of x, then of y, then of z.
     terms: Vec<f64>,
     /// Their absolute values.
     sizes: Vec<f64>,
-    /// How many zeros come first of each row: of the terms of one power of x and one of y.
+    /// Number of leading zeros in each row, which holds the terms of one power of x and one of y.
     zeros: Vec<u8>,
-    /// Where it ends, if that is known: of a quadric.
+    /// Bounds of a quadric, where known.
     closed: Option<Closed>,
-    /// Likewise, of others.
+    /// Bounds of other surfaces, where known.
     ends: Memory<OnceLock<Option<Ends>>>,
 }
 
 impl Algebraic {
-    /// `None` where the degree is more than 15, or the number of terms not that of the degree.
+    /// Builds a surface; `None` if the degree exceeds 15, or if the number of terms does not match the
+    /// degree.
     pub fn new(degree: usize, terms: Vec<f64>) -> Option<Self> {
         let fits = degree <= MOST && terms.len() == count_of_terms(degree);
         let sizes = terms.iter().map(|term| term.abs()).collect();
@@ -56,7 +59,7 @@ impl Algebraic {
         fits.then_some(Self { degree, terms, sizes, zeros, closed, ends: Memory::default() })
     }
 
-    /// Where it ends, if that is known and it is no quadric.
+    /// Returns the bounds, where known, of a surface that is not a quadric.
     fn ends(&self) -> Option<&Ends> {
         if self.degree == 2 {
             return None;
@@ -64,7 +67,7 @@ impl Algebraic {
         self.ends.get_or_init(|| Ends::of(self.degree, &self.terms)).as_ref()
     }
 
-    /// What the language calls it.
+    /// Returns its keyword in the scene language.
     pub fn word(&self) -> &'static str {
         match self.degree {
             0..=2 => "quadric",
@@ -74,7 +77,7 @@ impl Algebraic {
         }
     }
 
-    /// The value at a point and its gradient, for the polynomial of these terms.
+    /// Returns the value and the gradient of the polynomial with these terms at a point.
     fn at(&self, terms: &[f64], point: Vector) -> (f64, Vector) {
         let Vector { x, y, z } = point;
         let mut terms = terms.iter();
@@ -96,7 +99,7 @@ impl Algebraic {
         (all, slope)
     }
 
-    /// By the value and the gradient at the point itself, which may be 0.
+    /// Returns the height from the value and the gradient at the point itself; the gradient may be 0.
     fn simple_height(&self, point: Vector) -> multiple::Told {
         let (value, gradient) = self.at(&self.terms, point);
         let (size, steepness) = self.at(&self.sizes, point.abs());
@@ -104,17 +107,17 @@ impl Algebraic {
         (Height { value, gradient, error: rounding * size }, rounding * steepness.length())
     }
 
-    /// How often a term of a value is rounded at most: each factor twice, each of the sums it is carried
-    /// through once.
+    /// Maximum number of roundings in a term of a value: two for each factor, and one for each sum that it
+    /// passes through.
     fn rounding(&self) -> f64 {
         (5 * self.degree + 8) as f64 * U
     }
 
-    /// The polynomial along a line.
+    /// Returns the polynomial along a line.
     ///
-    /// **Error** of each coefficient: with A the same of all absolute values, and A′ that with the line's
-    /// blur and turn added to those of its point and direction, A′ − A for the line, and each coefficient
-    /// of A′ times the rounding of the three.
+    /// **Error** of each coefficient: let A be the same polynomial with all absolute values, and A′ that with
+    /// the line's blur and turn added to those of its point and direction. The line contributes A′ − A, and
+    /// rounding contributes each coefficient of A′ times the rounding of all three.
     fn along_ray(&self, ray: &LocalRay) -> Polynomial {
         let LocalRay { nearest, direction, blur, turn, .. } = *ray;
         let (place, way) = (nearest.abs(), direction.abs());
@@ -128,7 +131,7 @@ impl Algebraic {
     }
 }
 
-/// The same line, from another place of it on.
+/// Returns the same line, with s measured from another point on it.
 #[cold]
 fn about<'a>(ray: &LocalRay<'a>, s: f64) -> LocalRay<'a> {
     let nearest = ray.at(s);
@@ -137,7 +140,7 @@ fn about<'a>(ray: &LocalRay<'a>, s: f64) -> LocalRay<'a> {
 }
 
 impl Algebraic {
-    /// In order, the crossings that may lie between two places, as long as `is_enough` says so of none.
+    /// Adds, in order, the crossings that may lie between two positions, until `is_enough` accepts one.
     fn meet(
         &self,
         ray: &LocalRay,
@@ -237,7 +240,7 @@ impl Local for Algebraic {
         }
     }
 
-    /// Its terms but those that are 0: ` 2·x^2·y`.
+    /// Its non-zero terms: ` 2·x^2·y`.
     fn numbers(&self) -> String {
         let mut out = String::new();
         for (term, powers) in self.terms.iter().zip(exponents(self.degree)) {
@@ -269,7 +272,7 @@ impl Local for Algebraic {
 
 #[cfg(test)]
 impl Algebraic {
-    /// Its value in twice the digits.
+    /// Its value in twice the precision.
     pub(super) fn exactly(&self, point: super::exact::Triple) -> super::exact::Double {
         use super::exact::Double;
         let powers_of = |x: Double| {

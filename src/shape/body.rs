@@ -1,8 +1,8 @@
-//! Body: a solid or a sheet in a space of its own, where its equation is simple.
+//! Bodies: solids and sheets in a local space in which their equations are simple.
 //!
-//! **In:** a [`LocalRay`], a local point. **Out:** all crossings of the whole line, in order; the
-//! height over a part of the surface. **Invariant:** closed bodies are entered and left in turn; what
-//! rounding cannot tell from a miss is missed on both sides.
+//! **In:** a [`LocalRay`], a local point. **Out:** all crossings of the entire line, in order; the height
+//! over a part of the surface. **Invariant:** entries and exits of closed bodies alternate; where rounding
+//! cannot separate a hit from a miss, both crossings are dropped.
 
 use smallvec::SmallVec;
 
@@ -29,99 +29,103 @@ use super::torus::Torus;
 use super::{Crossing, Placed, Ray, U};
 use crate::math::Vector;
 
-/// What every body answers, in its own space.
+/// Queries that every body answers in its local space.
 pub trait Local {
-    /// Adds the crossings of the line with all of the surface, in order.
+    /// Adds all crossings of the line with the surface, in order.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings);
 
-    /// Adds, in order, those crossings that may lie between two places; at least the first that is seen and
-    /// certainly behind the former, where there are more. May add others.
+    /// Adds, in order, the crossings that may lie in the range `between`; where there are further crossings,
+    /// at least up to the first visible one that is certainly behind the start of the range. May add others.
     fn first_crossings(&self, ray: &LocalRay, _between: (f64, f64), found: &mut Crossings) {
         self.crossings(ray, found);
     }
 
-    /// The part of the surface by which the line enters at `s`, or leaves, where that can be told at once.
+    /// Returns the part of the surface through which the line enters or leaves at `s`, where that is cheap to
+    /// determine.
     fn part_at(&self, _ray: &LocalRay, _s: f64, _leaving: bool) -> Option<u32> {
         None
     }
 
-    /// The height over one part of the surface, near it.
+    /// Returns the height of `point` over one part of the surface; valid near that part.
     fn height(&self, part: u32, point: Vector) -> Height;
 
-    /// The least and the greatest `along`·P over what is seen of the body; infinite where that has no end.
+    /// Returns the minimum and maximum of `along`·P over the visible surface; infinite where it is unbounded.
     fn extent(&self, along: Vector) -> (f64, f64);
 
-    /// The same without the room for rounding that it may have.
+    /// Returns [`Local::extent`] without any margin for rounding.
     fn nearest_extent(&self, along: Vector) -> (f64, f64) {
         self.extent(along)
     }
 
-    /// The radius of a ball around the local origin that holds the body; ∞ where none does.
+    /// Returns the radius of a sphere around the local origin that contains the body; ∞ where there is none.
     fn reach(&self) -> f64;
 
-    /// Whether a point lies inside. A sheet has no inside.
+    /// Returns whether a point lies inside. A sheet has no inside.
     fn contains(&self, point: Vector) -> bool;
 
-    /// Whether a point lies inside beyond all doubt: `false` where rounding may hide it, or where nobody asks.
+    /// Returns whether a point certainly lies inside: `false` where rounding may decide, or where no caller
+    /// asks.
     fn certainly_contains(&self, _point: Vector) -> bool {
         false
     }
 
-    /// What distinguishes it from others of its kind, for people to read; each after a blank.
+    /// Returns the parameters that distinguish it from other bodies of its kind, for display; a blank
+    /// precedes each.
     fn numbers(&self) -> String;
 
-    /// Its crossings are found by steps that come nearer and nearer: what [`LocalRay::tolerance`] ends.
+    /// Returns whether its crossings are found by iteration, which [`LocalRay::tolerance`] terminates.
     fn is_iterated(&self) -> bool {
         false
     }
 
-    /// What it takes to find where a line crosses it, in equations of a sphere. Of pictures of one body
-    /// (2026-11-22), what they take longer than one of a sphere, for each line that is tried: half of it to
-    /// twice as much.
+    /// Returns the cost of intersecting a line, relative to solving the equation of a sphere. Measured on
+    /// 2026-11-22 from render times of one body, per tested line, compared with one sphere; accurate within a
+    /// factor of 2.
     fn price(&self) -> u64;
 
-    /// It has no inside: a ray goes through and is neither in it before nor after.
+    /// Returns whether it is a sheet: it has no inside, and a ray that passes through is outside before and
+    /// after.
     fn is_sheet(&self) -> bool {
         false
     }
 
-    /// The normal by which a part is lit at a point, of any length and on either side; `None` where it is
-    /// the surface's own.
+    /// Returns the shading normal of a part at a point, of any length and on either side; `None` where it is
+    /// the geometric normal.
     fn shading_normal(&self, _part: u32, _point: Vector) -> Option<Vector> {
         None
     }
 }
 
-/// A local point's height over a part of a surface, which is where the height is 0.
+/// The height of a local point over a part of a surface; 0 on the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Height {
     /// Negative inside.
     pub value: f64,
-    /// The height's gradient: outward, of any length but 0.
+    /// Gradient of the height: outward, of any length but 0.
     pub gradient: Vector,
-    /// How far rounding may have moved `value`, if the point is exact.
+    /// Bound on the rounding error of `value`, for an exact point.
     pub error: f64,
 }
 
-/// A ray's line as a body sees it.
+/// A ray's line in the local space of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalRay<'a> {
-    /// The point of the line that is nearest to the local origin; s is 0 here.
+    /// The point of the line nearest to the local origin; s is 0 here.
     pub nearest: Vector,
-    /// Of length 1.
+    /// Unit direction.
     pub direction: Vector,
-    /// The line that was meant lies within `blur + turn · |s|` of this one at s.
+    /// At s, the intended line lies within `blur + turn · |s|` of this one.
     pub blur: f64,
     /// See `blur`.
     pub turn: f64,
-    /// A crossing need be found no better than this, of which [`Met::error`] tells; 0 asks for all that
-    /// the arithmetic can tell.
+    /// Error that crossings may have, reported in [`Met::error`]; 0 requests the full precision of the
+    /// arithmetic.
     pub tolerance: f64,
-    /// `None` of a line that nothing in the world is.
+    /// The ray and the placed body; `None` for a line that has no counterpart in world space.
     pub in_world: Option<InWorld<'a>>,
 }
 
-/// The ray itself, and the body where it stands.
+/// A ray in world space, and the placed body that it is tested against.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InWorld<'a> {
     pub ray: &'a Ray,
@@ -129,7 +133,7 @@ pub struct InWorld<'a> {
 }
 
 impl LocalRay<'_> {
-    /// A line that is meant as it is.
+    /// Returns a line without uncertainty.
     pub fn exact(nearest: Vector, direction: Vector) -> Self {
         Self { nearest, direction, blur: 0.0, turn: 0.0, tolerance: 0.0, in_world: None }
     }
@@ -138,34 +142,36 @@ impl LocalRay<'_> {
         self.nearest + self.direction * s
     }
 
-    /// From where on a crossing is certainly ahead of a ray of which `first_crossings` is told that it starts at
-    /// `from`: `Seen::place` tells that as far before the start as that may be off.
+    /// Returns the position from which a crossing is certainly ahead of the ray's start, where `from` is the
+    /// start passed to `first_crossings`: `Seen::place` puts that as far before the start as the start may be
+    /// off.
     pub fn ahead_of(&self, from: f64) -> f64 {
         from + 4.0 * (self.blur + self.turn * self.nearest.length() + 8.0 * U * from.abs())
     }
 
-    /// How far the meant line may be from this one at s.
+    /// Returns how far the intended line may be from this one at s.
     pub fn blur_at(&self, s: f64) -> f64 {
         self.blur + self.turn * s.abs()
     }
 }
 
-/// Where a line passes through a body's surface.
+/// A crossing of a line and a body's surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Met {
-    /// Distance along the line: s for a body, t for a ray in the world.
+    /// Distance along the line: s in local space, t for a ray in world space.
     pub t: f64,
-    /// The true crossing lies within this distance of `t`.
+    /// Error bound: the true crossing lies within this distance of `t`.
     pub error: f64,
-    /// The line leaves the body; for a sheet, it goes the way that the surface faces.
+    /// Whether the line leaves the body; for a sheet, whether it goes in the direction that the surface
+    /// faces.
     pub leaving: bool,
-    /// Which part of the surface: what [`Local::height`] is asked about.
+    /// The part of the surface, as passed to [`Local::height`].
     pub part: u32,
 }
 
 impl Met {
-    /// The part of what is not there to be seen, such as the ends of an open cylinder: the solid ends
-    /// here, and a ray that meets nothing else goes on.
+    /// Part number of invisible surface, such as the ends of an open cylinder: the solid ends here, and a ray
+    /// that hits nothing else continues.
     pub const UNSEEN: u32 = u32::MAX;
 
     pub fn is_seen(&self) -> bool {
@@ -176,27 +182,28 @@ impl Met {
         Crossing { t: self.t, error: self.error }
     }
 
-    /// The one farther along; where rounding may have swapped them, the bound says so.
+    /// Returns the one farther along; where rounding may have swapped the two, the error bound covers both.
     pub(super) fn later(self, other: Self) -> Self {
         let (late, early) = if other.t > self.t { (other, self) } else { (self, other) };
         Self { error: late.error.max(early.error - (late.t - early.t)), ..late }
     }
 
-    /// The one less far along; likewise.
+    /// Returns the one less far along; where rounding may have swapped the two, the error bound covers both.
     pub(super) fn earlier(self, other: Self) -> Self {
         let (early, late) = if other.t < self.t { (other, self) } else { (self, other) };
         Self { error: early.error.max(late.error - (late.t - early.t)), ..early }
     }
 }
 
-/// Crossings in order. Most bodies have few, and need no allocation.
+/// Crossings in order. Most bodies have few, which need no allocation.
 pub type Crossings = SmallVec<[Met; 6]>;
 
-/// Where a line enters something solid, and where it leaves that.
+/// Entry and exit of a line through something solid.
 pub(super) type Span = (Met, Met);
 
-/// Adds where the line enters and leaves all of what it goes through, in any order: spans that overlap or
-/// touch, as far as rounding tells, are one, and what is seen is told where as much ends there unseen.
+/// Adds the entries and exits of the union of `spans`, which are in any order. Spans that overlap, or touch
+/// within rounding, are merged; where a visible and an invisible surface coincide within rounding, the
+/// visible one is reported.
 pub(super) fn unite(spans: &mut [Span], found: &mut Crossings) {
     spans.sort_by(|a, b| a.0.t.total_cmp(&b.0.t));
     let Some((&(mut enter, mut leave), rest)) = spans.split_first() else { return };
@@ -219,20 +226,20 @@ pub(super) fn unite(spans: &mut [Span], found: &mut Crossings) {
     found.extend([enter, leave]);
 }
 
-/// Declares the closed set of bodies, each in a file of its own.
+/// Declares the closed set of bodies, each of which has a file of its own.
 macro_rules! bodies {
     ($($kind:ident $word:literal)*) => {
-        /// A kind of body, and its numbers.
+        /// A body of one kind, with its parameters.
         #[derive(Debug, Clone, PartialEq)]
         pub enum Body {
             $($kind($kind),)*
         }
 
         impl Body {
-            /// The words of all kinds.
+            /// The keywords of all kinds.
             pub const WORDS: &[&str] = &[$($word),*];
 
-            /// The language's word for it.
+            /// Returns the keyword of its kind in the scene language.
             pub fn word(&self) -> &'static str {
                 match self {
                     $(Self::$kind(_) => $word,)*
@@ -357,24 +364,26 @@ bodies! {
     Torus "torus"
 }
 
-/// A ray as a placed body sees it.
+/// A ray in the local space of a placed body.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen<'a> {
     pub line: LocalRay<'a>,
-    /// Where on the line the ray starts.
+    /// Position of the ray's start on the line.
     start: f64,
-    /// Local lengths over those of the ray.
+    /// Ratio of local lengths to those along the ray.
     speed: f64,
-    /// How far `start` may be off.
+    /// Error bound of `start`.
     start_error: f64,
 }
 
 impl<'a> Seen<'a> {
-    /// The ray in local space, slid to its closest approach there. With |L| the matrix of absolute
-    /// values, f the ray's start as seen from the centre, R = ‖|L|·|f|‖ and κ = ‖|L|·|D|‖ / |L·D|, the
-    /// line is off by u·(6R + 6κ·|b|) where it is nearest, and by 6u·κ more for each length along it;
-    /// the start by u·(6R + 6κ·(|b| + m)); every t by 6u·κ of it. (As of an ellipsoid.) Both by
-    /// `moved` more: how far, in local space, the centre may be from where it was meant.
+    /// Transforms the ray to local space and moves its origin to the closest approach there.
+    ///
+    /// With |L| the matrix of absolute values, f the ray's start relative to the centre, R = ‖|L|·|f|‖ and κ
+    /// = ‖|L|·|D|‖ / |L·D|, the line is off by u·(6R + 6κ·|b|) at its closest approach and by 6u·κ more per
+    /// unit of length along it; the start is off by u·(6R + 6κ·(|b| + m)), and every t by 6u·κ·|t|, as for an
+    /// ellipsoid. Both bounds grow by `moved`, the distance in local space between the centre and its
+    /// intended position.
     pub fn new(placed: &'a Placed, ray: &'a Ray, moved: f64) -> Self {
         let Placed { placement, root_tolerance: tolerance, .. } = *placed;
         let matrix = placement.local_from_world;
@@ -396,7 +405,8 @@ impl<'a> Seen<'a> {
         Self { line, start, speed, start_error }
     }
 
-    /// Where on the line the ray is at `t`, as nearly as rounding tells; a little before, or behind.
+    /// Returns the position on the line of the ray's point at `t`; moved by its error bound backward if `way`
+    /// is −1 and forward if it is 1.
     pub fn place(&self, t: f64, way: f64) -> f64 {
         let along = t * self.speed;
         let off = self.start_error
@@ -405,7 +415,7 @@ impl<'a> Seen<'a> {
         self.start + along + way * off
     }
 
-    /// A crossing of the line, as one of the ray.
+    /// Converts a crossing of the line to one of the ray.
     pub fn met(&self, local: Met) -> Met {
         let t = (local.t - self.start) / self.speed;
         let rounded = 2.0 * U * (local.t.abs() + self.start.abs());

@@ -1,23 +1,23 @@
-//! Bounds: boxes along the axes that hold shapes.
+//! Axis-aligned bounding boxes of shapes.
 //!
-//! **Invariant:** rounded outward, all that may be met of a shape lies within.
+//! **Invariant:** bounds that are rounded outward contain every point of the shape that a ray can hit.
 
 use super::U;
 use crate::math::Vector;
 
-/// A box along the axes that holds a shape; a side is at ∞ where that has no end.
+/// An axis-aligned box that contains a shape; a side is at ∞ where the shape is unbounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     pub low: Vector,
     pub high: Vector,
 }
 
-/// What the numbers of bounds are.
+/// How bounds are rounded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rounding {
-    /// The nearest that are known: what people are told.
+    /// To the nearest known values, for display.
     Nearest,
-    /// Farther out, by all that may be rounded wherever the shape is met: what is searched.
+    /// Outward, by all rounding that an intersection with the shape may involve; for searches.
     Outward,
 }
 
@@ -25,8 +25,8 @@ impl Bounds {
     pub const NOWHERE: Self = Self { low: Vector::INFINITY, high: Vector::NEG_INFINITY };
     pub const EVERYWHERE: Self = Self { low: Vector::NEG_INFINITY, high: Vector::INFINITY };
 
-    /// From `low` to `high` as seen from `centre`; outward by `slack`, for what was rounded on the way to
-    /// these, and by a little for their sums.
+    /// Returns the box from `low` to `high` relative to `centre`. With [`Rounding::Outward`], it grows by
+    /// `slack`, which covers the rounding of the arguments, and by a margin for the sums here.
     pub(super) fn around(
         centre: Vector,
         [low, high]: [Vector; 2],

@@ -1,5 +1,5 @@
-//! Box: three pairs of parallel faces, |N_i·(P − C)| ≤ l_i. The normals need not be at right
-//! angles: then it is a parallelepiped.
+//! Box: three pairs of parallel faces, |N_i·(P − C)| ≤ l_i. If the normals are not orthogonal, it is a
+//! parallelepiped.
 
 mod slabs;
 
@@ -11,42 +11,42 @@ use crate::math::{UnitVector, Vector, Vector3};
 use slabs::{Along, through, through_steeply};
 pub use slabs::{Slabs, slabs};
 
-/// **Invariant:** `half_widths` ≥ 0 (a zero makes a flat sheet); the normals are independent.
+/// A box. **Invariant:** `half_widths` ≥ 0 (a zero makes a flat sheet); the normals are linearly independent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Box_ {
     pub centre: Vector,
     /// Outward normals of three faces that share a vertex.
     pub normals: [UnitVector; 3],
-    /// Half the distance between each face and its opposite.
+    /// Half the distance between each face and the opposite one.
     pub half_widths: [f64; 3],
 }
 
-/// One face in the seed's terms.
+/// One face, in the terms of the seed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
     /// N: unit, outward.
     pub normal: UnitVector,
-    /// C_f: the face's centre.
+    /// C_f: the centre of the face.
     pub centre: Vector,
-    /// d_f: signed distance of the face's plane to the origin.
+    /// d_f: signed distance of the face's plane from the origin.
     pub distance: f64,
-    /// C_o: centre of the opposite face.
+    /// C_o: the centre of the opposite face.
     pub opposite_centre: Vector,
-    /// d_o: signed distance of the opposite face's plane (whose normal is −N) to the origin.
+    /// d_o: signed distance of the opposite face's plane (whose normal is −N) from the origin.
     pub opposite_distance: f64,
     /// l: half the distance between the two faces.
     pub half_width: f64,
 }
 
 impl Box_ {
-    /// The normals. Written out, as `map` on an array is a call.
+    /// Returns the normals. Written out because `map` on an array compiles to a call.
     #[inline(always)]
     fn directions(&self) -> [Vector; 3] {
         let [first, second, third] = self.normals;
         [first.get(), second.get(), third.get()]
     }
 
-    /// It has no inside: a line that does not lie in it meets it in one place.
+    /// Returns whether it has no inside: a line that does not lie in it crosses it at one point.
     pub fn is_flat(&self) -> bool {
         self.half_widths.contains(&0.0)
     }
@@ -56,8 +56,8 @@ impl Box_ {
         Some(slabs(self.centre, self.directions(), self.half_widths, ray)?.chord())
     }
 
-    /// As of a part of a whole: a line in a face, as far as rounding tells, that of two solids which touch there
-    /// is the other's, misses it.
+    /// Returns the chord of a part of a CSG solid. If the line lies in a face, within rounding, and would be
+    /// assigned to the other of two solids that touch there, it misses this one.
     #[inline(always)]
     pub fn chord_of_part(&self, ray: &Ray) -> Option<Chord> {
         match through_steeply(self.centre, self.directions(), self.half_widths, ray) {
@@ -69,7 +69,7 @@ impl Box_ {
         }
     }
 
-    /// Of a line that goes nearly along a face.
+    /// [`Self::chord_of_part`] for a line nearly parallel to a face.
     #[cold]
     #[inline(never)]
     fn chord_along(&self, ray: &Ray) -> Option<Chord> {
@@ -78,12 +78,12 @@ impl Box_ {
         Some(all?.chord())
     }
 
-    /// The faces that a line goes along.
+    /// Returns the slabs that a line is parallel to.
     fn along(&self, ray: &Ray) -> Along<f64> {
         Along::of(self.centre, self.directions(), self.half_widths, ray)
     }
 
-    /// As of a part of a whole; `None` where the line is beside the box.
+    /// Returns [`Self::along`] for a part of a CSG solid; `None` where the line is beside the box.
     #[cold]
     fn along_of_part(&self, ray: &Ray) -> Option<Along<f64>> {
         let mut along = self.along(ray);
@@ -96,7 +96,8 @@ impl Box_ {
         Some(along)
     }
 
-    /// Where a line that goes nearly along a slab is in it, exactly; in its face, everywhere or nowhere.
+    /// Returns the exact range in which a line nearly parallel to a slab is inside it; for a line in one of
+    /// its faces, everything or nothing. `None` where it is outside.
     fn within(&self, axis: usize, ray: &Ray) -> Option<[f64; 2]> {
         let double = DoubleVector::from;
         let mut within = [f64::NEG_INFINITY, f64::INFINITY];
@@ -120,10 +121,11 @@ impl Box_ {
         Some(within)
     }
 
-    /// The point where `ray` enters or leaves, put onto the face it crosses there.
+    /// Returns the point where `ray` enters or leaves, projected onto the face that it crosses there.
     ///
-    /// Its distance to the face is at most u·(6·|P − C|₁ + 2·l) and u·|N|·|P|; the same again is
-    /// for the start of the next ray, and u·(6·|P − C|₁ + 3·l + 2·|N|·|C|) for its reading by [`slabs`].
+    /// Its distance to the face is at most u·(6·|P − C|₁ + 2·l) + u·|N|·|P|. The error counts this twice, the
+    /// second time for the start of the next ray, and adds u·(6·|P − C|₁ + 3·l + 2·|N|·|C|) for the
+    /// evaluation by [`slabs`].
     #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
         let (centre, directions, half_widths) = (self.centre, self.directions(), self.half_widths);
@@ -147,7 +149,7 @@ impl Box_ {
         self.surface_of_face(face, ray, t)
     }
 
-    /// As [`Box_::surface`], on a face that is given.
+    /// [`Box_::surface`] for a given face.
     pub fn surface_of_face(&self, face: u32, ray: &Ray, t: f64) -> SurfacePoint {
         let normals = self.directions();
         let axis = (face / 2) as usize;
@@ -162,7 +164,7 @@ impl Box_ {
         SurfacePoint { point, normal, error, face }
     }
 
-    /// Those of its faces that a point on it cannot be told from.
+    /// Returns the faces that rounding cannot separate from a point on the box.
     pub fn faces_at(&self, surface: &SurfacePoint) -> impl Iterator<Item = u32> {
         let local = surface.point - self.centre;
         let room = 8.0 * surface.error;
@@ -173,7 +175,7 @@ impl Box_ {
         })
     }
 
-    /// One of the three faces `normals` belong to, and with it the opposite one.
+    /// Returns the face that `normals[axis]` belongs to, together with the opposite one.
     pub fn face(&self, axis: usize) -> Face {
         let normal = self.normals[axis];
         let to_face = self.face_centre(axis);
@@ -189,8 +191,8 @@ impl Box_ {
         }
     }
 
-    /// From the centre of the box to that of a face: along the edge that the other two normals
-    /// leave free, as far as the face's plane.
+    /// Returns the vector from the centre of the box to that of a face: along the edge that is perpendicular
+    /// to the other two normals, up to the face's plane.
     fn face_centre(&self, axis: usize) -> Vector {
         let [n, next, last] = [0, 1, 2].map(|step| self.normals[(axis + step) % 3].get());
         let edge = next.cross(last);
@@ -206,7 +208,7 @@ impl Box_ {
         })
     }
 
-    /// The square of a radius about the centre within which the box is, with a little to spare.
+    /// Returns the squared radius, with a small margin, of a sphere around the centre that contains the box.
     pub fn reach_squared(&self) -> f64 {
         let edges = [0, 1, 2].map(|axis| self.face_centre(axis));
         let diagonals = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
@@ -214,8 +216,8 @@ impl Box_ {
         diagonals.into_iter().fold(0.0, f64::max) * 1.01
     }
 
-    /// Whether the ray certainly stays outside of the ball of [`Box_::reach_squared`]. The closest
-    /// approach is off by 3u·A (see [`Ray::slide`]), far less than the spare hundredth and 2⁻⁴⁰·A.
+    /// Returns whether the ray certainly stays outside of the sphere of [`Box_::reach_squared`]. The closest
+    /// approach is off by 3u·A (see [`Ray::slide`]), far less than the margins of 1/100 and 2⁻⁴⁰·A.
     #[inline(always)]
     pub fn is_out_of_reach(&self, reach_squared: f64, ray: &Ray) -> bool {
         let near = ray.slide(self.centre);
@@ -239,7 +241,7 @@ impl Box_ {
         Bounds::around(self.centre, [-extent, extent], slack, rounding)
     }
 
-    /// Positive inside: the least of the distances to the six faces' planes.
+    /// Returns the minimum of the signed distances to the planes of the six faces, positive inside.
     pub fn signed_distance(&self, point: Vector) -> f64 {
         let local = point - self.centre;
         (0..3).fold(f64::INFINITY, |least, axis| {

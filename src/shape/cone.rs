@@ -1,8 +1,8 @@
-//! Cone: √(x² + y²) ≤ |w(z)|, |z| ≤ 1 in its own space, where the width w goes from 1 at z = −1 to
-//! `cap` at z = 1. Where `cap` is negative, two cones stand tip to tip.
+//! Cone: in local space, √(x² + y²) ≤ |w(z)|, |z| ≤ 1, where the width w goes from 1 at z = −1 to `cap` at z
+//! = 1. If `cap` is negative, the solid is two cones that touch at their tips.
 //!
-//! **Source:** S. Boyd, L. Vandenberghe, *Convex Optimization* (2004), 3.1.3 (a norm less a linear function is
-//! convex).
+//! **Source:** S. Boyd, L. Vandenberghe, *Convex Optimization* (2004), 3.1.3 (a norm less a linear function
+//! is convex).
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
@@ -10,19 +10,19 @@ use super::cylinder::{BASE, CAP, SIDE, ends};
 use crate::math::Vector;
 use crate::math::roots::bracket::{Sample, root};
 
-/// The line is followed so far to each side; the cone ends at √2.
+/// The line is searched from −`FAR` to `FAR`; the cone ends at √2.
 const FAR: f64 = 2.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cone {
-    /// The width at z = 1, from −1 to less than 1.
+    /// Width at z = 1, from −1 to less than 1.
     pub cap: f64,
-    /// Its ends are not seen, though it is as solid as ever.
+    /// Whether its ends are invisible; it is still solid.
     pub open: bool,
 }
 
 impl Cone {
-    /// How much narrower it gets for each length along the axis.
+    /// Decrease in width per unit length along the axis.
     fn slope(&self) -> f64 {
         0.5 * (1.0 - self.cap)
     }
@@ -31,12 +31,11 @@ impl Cone {
         self.cap + self.slope() * (1.0 - z)
     }
 
-    /// Where the line is in the cone that is wide where `side`·w is positive, without its ends.
+    /// Returns where the line is inside the cone that is wide where `side`·w is positive, ignoring the ends.
     ///
-    /// Along the line, with e and m its speed across the axis and its distance to it, the height
-    /// g = √(e²(s − c)² + m²) − `side`·w is convex: where it is least follows from g′ = 0, and on
-    /// each side of that is one root. **Error:** that of g, for it changes by no more than √2 times
-    /// what a point moves by.
+    /// Along the line, with e its speed across the axis and m its distance from the axis, the height g =
+    /// √(e²(s − c)² + m²) − `side`·w is convex: its minimum follows from g′ = 0, with one root on each side.
+    /// **Error:** that of g, which changes by at most √2 times the displacement of a point.
     fn nappe(&self, ray: &LocalRay, side: f64) -> Option<(Met, Met)> {
         let (n, d) = (ray.nearest, ray.direction);
         let narrowing = side * self.slope() * d.z;
@@ -130,7 +129,7 @@ impl Local for Cone {
         }
     }
 
-    /// Of the two ends, whose convex hull holds it.
+    /// Extent of the two ends, whose convex hull contains the cone.
     fn extent(&self, along: Vector) -> (f64, f64) {
         let across = Vector::new(along.x, along.y, 0.0).length();
         let (base, cap) = (-along.z, along.z);

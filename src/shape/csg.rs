@@ -1,14 +1,14 @@
-//! Constructive solid geometry: which crossings with its parts are crossings with the whole.
+//! Constructive solid geometry: selects the crossings of the parts that are crossings of the combined solid.
 //!
-//! **In:** a tree of operations in postfix order, the crossings of a line with each leaf. **Out:**
-//! those that are kept, in order. **Invariant:** an algebra of what lies before and behind a place
-//! of the line. Crossings that their error bounds cannot tell apart are one place, so coinciding
-//! faces leave nothing thin: A − A is empty, and a hole whose ends lie in the faces is open
+//! **In:** a tree of operations in postfix order, the crossings of a line with each leaf. **Out:** the
+//! crossings that are kept, in order. **Invariant:** the operations evaluate inside and outside before and
+//! after each position on the line. Crossings that their error bounds cannot separate share one position, so
+//! coincident faces leave no thin remainder: A − A is empty, and a hole whose ends lie in the faces is open
 //! (regularised set operations). No recursion.
 //!
-//! **Source:** A. Requicha, "Representations for rigid solids: theory, methods, and systems", ACM
-//! Computing Surveys 12 (1980); S. Roth, "Ray casting for modeling solids", Computer Graphics and
-//! Image Processing 18 (1982).
+//! **Source:** A. Requicha, "Representations for rigid solids: theory, methods, and systems", ACM Computing
+//! Surveys 12 (1980); S. Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18
+//! (1982).
 
 use std::ops::Range;
 
@@ -16,40 +16,40 @@ use smallvec::SmallVec;
 
 use super::body::Met;
 
-/// A node of the tree; those that it holds stand before it. One of no parts is what it is everywhere:
-/// a union nothing, an intersection all.
+/// A node of the tree; its operands precede it. Without operands, a union is empty and an intersection is all
+/// of space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Node {
-    /// The next leaf; `inverse` is what is outside of it.
+    /// The next leaf; its complement if `inverse`.
     Leaf { inverse: bool },
-    /// So many nodes together, each with all of its surface: there may be walls inside.
+    /// The union of this many nodes with all their surfaces, including interior walls.
     Union(u32),
-    /// So many nodes together, without walls inside.
+    /// The union of this many nodes without interior walls.
     Merge(u32),
-    /// What so many nodes share.
+    /// The intersection of this many nodes.
     Intersection(u32),
-    /// The surface of the first node, as far as it lies in the second; `inverse` where the first node is
-    /// what is outside of the solid.
+    /// The surface of the first node, clipped to the second; `inverse` if the first node is the complement of
+    /// the solid.
     Clip { inverse: bool },
 }
 
 /// A crossing with one of the leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
-    /// A line that comes from inside of the leaf enters it at −∞.
+    /// The crossing; a line that comes from inside the leaf enters it at −∞.
     pub met: Met,
-    /// Which leaf, in the order of the nodes.
+    /// Index of the leaf, in the order of the nodes.
     pub leaf: u32,
-    /// It is a crossing with a sheet: there is nothing inside.
+    /// Whether the leaf is a sheet, which has no inside.
     pub sheet: bool,
-    /// Where the same leaf was crossed before; none where it was not.
+    /// Where the same leaf was crossed before; `None` if it was not.
     pub last: Option<f64>,
-    /// Another leaf is crossed in the same place: told of those that are kept.
+    /// Whether another crossing shares this position; set on the events that are kept.
     pub shared: bool,
 }
 
 impl Event {
-    /// Whether its leaf has been crossed at a place that starts so, or behind it.
+    /// Whether its leaf was already crossed at or after `start`.
     fn crosses_again_since(&self, start: &Self) -> bool {
         self.last.is_some_and(|last| (last, self.leaf) >= (start.met.t, start.leaf))
     }
@@ -58,15 +58,15 @@ impl Event {
 /// Events in order.
 pub type Events = SmallVec<[Event; 16]>;
 
-/// What a node is at one place of the line.
+/// The state of a node at one position on the line.
 #[derive(Debug, Clone, Copy)]
 struct State {
-    /// The place right before lies inside.
+    /// Whether the line is inside just before the position.
     before: bool,
-    /// The place right behind does.
+    /// Whether the line is inside just after it.
     after: bool,
-    /// The event whose surface is the node's here: whether it is not there to be seen, which hides nothing
-    /// that is; its leaf, and its place in the list.
+    /// The event that provides the node's surface here: whether it is invisible (which hides no visible one),
+    /// its leaf, and its index in the list.
     shown: Option<(bool, u32, usize)>,
 }
 
@@ -83,35 +83,35 @@ impl State {
         self.before && self.after
     }
 
-    /// Whether it may be anything to what it is a part of.
+    /// Whether it may affect the operation that it is an operand of.
     fn counts(self) -> bool {
         self.changes() || self.shown.is_some()
     }
 }
 
-/// The nodes, each of which knows what it is a part of: where a line crosses few of many leaves, only
-/// what holds these is asked.
+/// The nodes, each with a link to its parent operation: where a line crosses few of many leaves, only the
+/// ancestors of those are evaluated.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tree {
     leaves: Vec<(Part, bool)>,
-    /// Those that a node holds stand before it.
+    /// Operands precede the operation that holds them.
     operations: Vec<Operation>,
-    /// What lies inside of each operation's parts, where the line is in no leaf.
+    /// For each operation, the weight of the operands that a line outside all leaves is inside.
     outside: Vec<u32>,
 }
 
-/// Of which operation something is a part, and what it counts there.
+/// The parent operation of an operand, and its weight there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Part {
     operation: u32,
-    /// 1; of the second part of [`Node::Clip`] 2.
+    /// 1; for the second operand of [`Node::Clip`], 2.
     weight: u32,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Operation {
     node: Node,
-    /// `None` of the last.
+    /// `None` for the root.
     part: Option<Part>,
 }
 
@@ -146,7 +146,7 @@ impl Tree {
         tree
     }
 
-    /// Keeps of `events`, which are in order, those that are crossings with the whole.
+    /// Retains the crossings with the combined solid among `events`, which are in order.
     pub fn keep(&self, events: &mut Events) {
         let mut counts: SmallVec<[u32; 16]> = SmallVec::from_slice(&self.outside);
         let mut changes = SmallVec::new();
@@ -166,7 +166,7 @@ impl Tree {
         events.truncate(kept);
     }
 
-    /// Passes the place of some events; which of them is one with the whole.
+    /// Advances past the events at one position and returns the one that is a crossing of the combined solid.
     fn pass(
         &self,
         counts: &mut [u32],
@@ -198,7 +198,7 @@ impl Tree {
         whole.map(|(_, _, number)| number)
     }
 
-    /// Of one event: in each operation above it one part changes.
+    /// [`Self::pass`] for a single event: in each operation above it, one operand changes.
     fn pass_one(&self, counts: &mut [u32], event: &Event, number: usize) -> Option<usize> {
         let mut change = self.change(event, number);
         loop {
@@ -212,7 +212,7 @@ impl Tree {
         }
     }
 
-    /// What a leaf is at an event of that number.
+    /// Returns the state of the event's leaf; `number` is the event's index.
     fn change(&self, event: &Event, number: usize) -> Change {
         let (part, inverse) = self.leaves[event.leaf as usize];
         let inside = |raw: bool| (raw && !event.sheet) != inverse;
@@ -224,7 +224,7 @@ impl Tree {
         Change { part, state }
     }
 
-    /// What an operation is where some of its parts change, and what it is a part of.
+    /// Updates an operation whose operands change; returns its state and its parent.
     #[inline(always)]
     fn change_operation(
         &self,
@@ -240,24 +240,24 @@ impl Tree {
     }
 }
 
-/// What a part is at a place where it is crossed.
+/// The state of an operand at a position where it is crossed.
 #[derive(Debug, Clone, Copy)]
 struct Change {
     part: Part,
     state: State,
 }
 
-/// Among others, the last operation first.
+/// Inserts a change, in descending order of operation.
 fn push(changes: &mut SmallVec<[Change; 8]>, change: Change) {
     let place = changes.partition_point(|other| other.part.operation >= change.part.operation);
     changes.insert(place, change);
 }
 
-/// How many of an operation's parts, by weight, lie there.
+/// Total weight of an operation's operands that the line is inside of.
 struct Sums {
     before: u32,
     after: u32,
-    /// Those that are there before and after.
+    /// Weight of those that it is inside of both before and after.
     stay: u32,
 }
 
@@ -272,14 +272,14 @@ impl Sums {
         sums
     }
 
-    /// Those that are there before or after.
+    /// Weight of those that it is inside of before or after.
     fn touch(&self) -> u32 {
         self.before + self.after - self.stay
     }
 }
 
 impl Node {
-    /// Of how many; `None` for a leaf.
+    /// Number of operands; `None` for a leaf.
     fn parts(self) -> Option<u32> {
         match self {
             Self::Leaf { .. } => None,
@@ -295,7 +295,7 @@ impl Node {
         }
     }
 
-    /// Whether a place lies inside that lies in so many of its parts, by weight.
+    /// Whether a point is inside that lies in operands of total weight `count`.
     fn holds(self, count: u32) -> bool {
         match self {
             Self::Leaf { inverse } => inverse,
@@ -340,8 +340,8 @@ impl Node {
     }
 }
 
-/// Whether a place lies inside of the whole, where `insides` says whether it lies in each leaf, not
-/// inverted.
+/// Returns whether a point lies inside the combined solid. `insides` yields, for each leaf, whether the point
+/// lies in it, ignoring inversion.
 pub fn contains(nodes: &[Node], insides: impl IntoIterator<Item = bool>) -> bool {
     let mut insides = insides.into_iter();
     let mut stack: SmallVec<[bool; 16]> = SmallVec::new();
@@ -360,15 +360,15 @@ pub fn contains(nodes: &[Node], insides: impl IntoIterator<Item = bool>) -> bool
     stack.pop().unwrap_or(false)
 }
 
-/// Takes so many off the stack.
+/// Pops the last `count` values.
 fn last(stack: &mut SmallVec<[bool; 16]>, count: u32) -> impl Iterator<Item = bool> + use<> {
     let rest = stack.len().saturating_sub(count as usize);
     let parts: SmallVec<[bool; 16]> = stack.drain(rest..).collect();
     parts.into_iter()
 }
 
-/// The end of the run of events that cannot be told from one another. No leaf is in it twice: that
-/// would be a solid too thin to be told, which is there all the same.
+/// Returns the end of the run of events that cannot be separated from one another. No leaf occurs twice in
+/// it: that would be a solid thinner than the error bounds, which nevertheless exists.
 fn end_of_place(events: &[Event], first: usize) -> usize {
     let start = &events[first];
     let mut limit = start.met.t + start.met.error;
@@ -384,8 +384,9 @@ fn end_of_place(events: &[Event], first: usize) -> usize {
     end
 }
 
-/// Puts behind a place what crosses a leaf of it again, and into it what else cannot be told from it: so of two
-/// boxes that share an edge, which a line grazes, both are entered before either is left. Its new end.
+/// Moves events that cross a leaf of the run again behind it, and other events that cannot be separated from
+/// the run into it. For example, if a line grazes the shared edge of two boxes, it enters both before it
+/// leaves either. Returns the new end.
 #[cold]
 fn gather_place(events: &mut [Event], first: usize, mut end: usize) -> usize {
     let start = events[first];

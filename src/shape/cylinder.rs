@@ -1,32 +1,30 @@
-//! Cylinder: x² + y² ≤ 1, |z| ≤ 1 in its own space. Outward is away from the axis; at the ends, along
-//! it.
+//! Cylinder: in local space, x² + y² ≤ 1, |z| ≤ 1. Outward is away from the axis; at the ends, along it.
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::slab::Slab;
 use crate::math::Vector;
 
-/// The parts of its surface.
+/// Part number of the side.
 pub(super) const SIDE: u32 = 0;
-/// At z = 1.
+/// Part number of the end at z = 1.
 pub(super) const CAP: u32 = 1;
-/// At z = −1.
+/// Part number of the end at z = −1.
 pub(super) const BASE: u32 = 2;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
-    /// Its ends are not seen, though it is as solid as ever.
+    /// Whether its ends are invisible; it is still solid.
     pub open: bool,
 }
 
 impl Local for Cylinder {
-    /// The line's part inside the round, which is a circle's chord across the axis, cut by the two
-    /// ends.
+    /// Adds the part of the line inside the infinite cylinder, which projects to the chord of a circle,
+    /// clipped to the two ends.
     ///
-    /// Across the axis, with q the nearest point and e the direction: m = |q × e| / |e| is the
-    /// distance to the axis, and the chord reaches h = √((1 − m)(1 + m)) to each side. **Error** of
-    /// s, B the line's blur there: that of h, which is δ·m/h or √(2δ·m + δ²) for δ = B + 4u·(|q| + |e·s|), and
-    /// δ again, over |e|.
+    /// Across the axis, with q the nearest point and e the direction, m = |q × e| / |e| is the distance to
+    /// the axis, and the chord extends h = √((1 − m)(1 + m)) to each side. **Error** of s, B the line's blur
+    /// there: the error of h, which is δ·m/h or √(2δ·m + δ²) for δ = B + 4u·(|q| + |e·s|), plus δ, over |e|.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let Some((enter, leave)) = round(ray) else { return };
         let Some((first, last)) = ends(ray) else { return };
@@ -74,7 +72,7 @@ impl Local for Cylinder {
     }
 }
 
-/// Where the line is nearer than 1 to the axis.
+/// Returns where the line is nearer to the axis than 1.
 fn round(ray: &LocalRay) -> Option<(Met, Met)> {
     let across = |v: Vector| Vector::new(v.x, v.y, 0.0);
     let (nearest, direction) = (across(ray.nearest), across(ray.direction));
@@ -105,12 +103,12 @@ fn round(ray: &LocalRay) -> Option<(Met, Met)> {
     Some((met(-along - half, false), met(half - along, true)))
 }
 
-/// Where the line is between the ends.
+/// Returns where the line is between the ends.
 pub(super) fn ends(ray: &LocalRay) -> Option<(Met, Met)> {
     between(ray, [-1.0, 1.0])
 }
 
-/// Where the line is between two heights, which are exact, of a body that goes no farther than √2.
+/// Returns where the line is between two exact heights, for a body that extends to at most √2.
 pub(super) fn between(ray: &LocalRay, heights: [f64; 2]) -> Option<(Met, Met)> {
     Slab { axis: 2, heights, far: 2.0, off: 0.0, parts: [BASE, CAP] }.chord(ray)
 }

@@ -1,8 +1,8 @@
-//! Disc: z = 0 between `hole` and 1 from the axis of its own space, as far as it is seen. It is the
-//! surface of the half space z ≤ 0, which is what it means to other solids.
+//! Disc: in local space, the visible part of z = 0 at distances between `hole` and 1 from the axis. In CSG it
+//! acts as the surface of the half-space z ≤ 0.
 //!
-//! **Source:** POV-Ray 3.7 manual, 3.4.5.2.2: "The inside of a disc is the inside of the plane that
-//! contains the disc"; so it is in differences and intersections there.
+//! **Source:** POV-Ray 3.7 manual, 3.4.5.2.2: "The inside of a disc is the inside of the plane that contains
+//! the disc"; this also applies in differences and intersections.
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
@@ -10,14 +10,14 @@ use crate::math::Vector;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
-    /// From 0 to less than 1.
+    /// Radius of the hole, from 0 to less than 1.
     pub hole: f64,
 }
 
 impl Local for Disc {
-    /// The crossing with the plane z = 0, seen or not. **Error:** the line's blur there, and the
-    /// rounding of z, over its speed toward the plane, less what that may be off by: no crossing is
-    /// told of a line that may as well be parallel.
+    /// Adds the crossing with the plane z = 0, visible or not. **Error:** the line's blur there and the
+    /// rounding of z, over the line's speed toward the plane less the error of that speed. A line that may be
+    /// parallel has no crossing.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let (place, speed) = (ray.nearest.z, ray.direction.z);
         let t = -place / speed;
@@ -37,7 +37,7 @@ impl Local for Disc {
         Height { value: point.z, gradient: Vector::Z, error: 0.0 }
     }
 
-    /// Of what is seen, with room for the rounding of a point on it.
+    /// Extent of the visible part, with a margin for the rounding of a point on it.
     fn extent(&self, along: Vector) -> (f64, f64) {
         let (low, high) = self.nearest_extent(along);
         let slack = 64.0 * U * along.z.abs();

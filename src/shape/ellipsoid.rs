@@ -1,4 +1,4 @@
-//! Ellipsoid: the unit sphere under an affine map that keeps no sphere: |L·(P − C)| = 1, L the
+//! Ellipsoid: the unit sphere under an affine map that does not preserve spheres, |L·(P − C)| = 1, L the
 //! placement's `local_from_world`.
 
 use super::sphere::{Blur, Roots};
@@ -12,12 +12,13 @@ pub struct Ellipsoid {
 }
 
 impl Ellipsoid {
-    /// The chord, in local space, where the solid is the unit sphere. The ray is slid there and not
-    /// in the world: the closest approach to a needle's centre may lie a million times as far off as
-    /// the needle. **Error:** that of the sphere, and what the map adds (`blur`), with |L| the matrix
-    /// of absolute values, R = ‖|L|·|f|‖, κ = ‖|L|·|D|‖ / |L·D|, b and m the sphere's:
-    /// u·(6R + 6κ·|b|) across the ray, u·(6R + 6κ·(|b| + m)) along it, 12u·R·|L·f| of |L·f|² − 1, and
-    /// 6u·κ of every t.
+    /// Returns the chord, computed in local space, where the solid is the unit sphere. The ray's origin moves
+    /// to the closest approach there, not in world space: the closest approach to the centre of a needle may
+    /// be a million times as far off as the needle.
+    ///
+    /// **Error:** that of the sphere, plus what the map adds (`blur`). With |L| the matrix of absolute
+    /// values, R = ‖|L|·|f|‖, κ = ‖|L|·|D|‖ / |L·D|, b and m those of the sphere: u·(6R + 6κ·|b|) across the
+    /// ray, u·(6R + 6κ·(|b| + m)) along it, 12u·R·|L·f| of |L·f|² − 1, and 6u·κ of every t.
     #[inline(never)]
     pub fn chord(&self, ray: &Ray) -> Option<Chord> {
         let matrix = self.placement.local_from_world;
@@ -43,9 +44,9 @@ impl Ellipsoid {
         Some(roots.blurred_chord(blur))
     }
 
-    /// The point of the ellipsoid where `ray` crosses it at `t`: what is left of |L·(P − C)| − 1 is
-    /// taken off along the normal, the shortest way in the world. Its distance is bounded by what is
-    /// left then and the rounding of that very sum.
+    /// Returns the point where `ray` crosses the ellipsoid at `t`; the residual of |L·(P − C)| − 1 is
+    /// subtracted along the normal, which is the shortest path in world space. The error bound is the
+    /// remaining residual plus the rounding of this sum.
     #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let Placement { centre, local_from_world, .. } = self.placement;
@@ -67,7 +68,7 @@ impl Ellipsoid {
         SurfacePoint { point, normal, error, face: 0 }
     }
 
-    /// Along each axis the length of that row of `world_from_local`.
+    /// Returns the bounds; along each axis, half their size is the length of that row of `world_from_local`.
     pub fn bounds(&self, rounding: Rounding) -> Bounds {
         let Placement { centre, world_from_local, .. } = self.placement;
         let rows = world_from_local.transpose();
@@ -76,7 +77,7 @@ impl Ellipsoid {
         Bounds::around(centre, [-extent, extent], slack, rounding)
     }
 
-    /// Positive inside, zero on the surface, in units of the local sphere: 1 − |L·(P − C)|.
+    /// Returns 1 − |L·(P − C)|, in units of the local sphere: positive inside, zero on the surface.
     pub fn signed_distance(&self, point: Vector) -> f64 {
         1.0 - self.placement.local_point(point).length()
     }

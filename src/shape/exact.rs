@@ -1,7 +1,7 @@
-//! Crossings in twice the digits of `f64`, to hold the kernels against.
+//! Reference crossings in twice the precision of `f64`, for testing the kernels.
 //!
-//! **Source:** T. Dekker, "A floating-point technique for extending the available precision",
-//! Numerische Mathematik 18 (1971), p. 224; two_sum: D. Knuth, TAOCP vol. 2, §4.2.2.
+//! **Source:** T. Dekker, "A floating-point technique for extending the available precision", Numerische
+//! Mathematik 18 (1971), p. 224; two_sum: D. Knuth, TAOCP vol. 2, §4.2.2.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -44,7 +44,7 @@ impl Double {
 }
 
 impl Double {
-    /// By the Taylor series of a 256th of what powers of two leave.
+    /// Reduces the argument by powers of two, then evaluates the Taylor series at 1/256 of the remainder.
     pub fn exp(self) -> Self {
         let ln_2 = Self(std::f64::consts::LN_2, 2.319_046_813_846_299_6e-17);
         let power = (self.0 / ln_2.0).round();
@@ -60,7 +60,7 @@ impl Double {
         Self(value.0 * scale, value.1 * scale)
     }
 
-    /// Of a positive number: one step of Newton's.
+    /// Logarithm of a positive number, by one Newton step.
     pub fn ln(self) -> Self {
         let near = Self::of(crate::math::elementary::log(self.0));
         near + (self * (-near).exp() - Self::of(1.0))
@@ -128,7 +128,7 @@ pub(super) fn dot(a: Triple, b: Triple) -> Double {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Of a·t² + 2·b·t + c, the discriminant b² − a·c, and the roots in order where it is positive.
+/// Returns the discriminant b² − a·c of a·t² + 2·b·t + c, and the roots in order if it is positive.
 fn quadratic(a: Double, b: Double, c: Double) -> (Double, Option<[Double; 2]>) {
     let discriminant = b * b - a * c;
     if discriminant.0 <= 0.0 {
@@ -140,8 +140,8 @@ fn quadratic(a: Double, b: Double, c: Double) -> (Double, Option<[Double; 2]>) {
     (discriminant, Some(if b.0 > 0.0 { [one, other] } else { [other, one] }))
 }
 
-/// h² in units of r², and where a ray crosses a sphere; the direction is taken as it is, not as if
-/// its length were 1. Everything is scaled by a power of two first.
+/// Returns h² in units of r², and the crossings of a ray with a sphere. The direction is used as it is, not
+/// as if its length were 1. All values are first scaled by a power of two.
 pub(super) fn sphere(centre: Vector, radius: f64, ray: &Ray) -> (f64, Option<[Double; 2]>) {
     let scale = reciprocal_power_of_two(radius);
     let start = minus(triple(ray.origin * scale), triple(centre * scale));
@@ -154,7 +154,7 @@ pub(super) fn sphere(centre: Vector, radius: f64, ray: &Ray) -> (f64, Option<[Do
     (share.0, roots.map(|roots| roots.map(|t| t * up)))
 }
 
-/// Where the line crosses the plane, and how far `point` is off it, outward.
+/// Returns the crossing of the line with the plane.
 pub(super) fn plane(normal: Vector, distance: f64, ray: &Ray) -> Double {
     let normal = triple(normal);
     (Double::of(distance) - dot(normal, triple(ray.origin))) / dot(normal, triple(ray.direction))
@@ -171,7 +171,8 @@ pub(super) fn above_sphere(centre: Vector, radius: f64, point: Vector) -> f64 {
     (dot(start, start).sqrt() - Double::of(radius * scale)).0 / scale
 }
 
-/// Where the line enters and leaves three slabs; it misses where it leaves before it enters.
+/// Returns the entry and exit of the line through three slabs; the line misses if the exit precedes the
+/// entry.
 pub(super) fn slabs(box_: &Box_, ray: &Ray) -> [Double; 2] {
     let start = minus(triple(ray.origin), triple(box_.centre));
     let less = |a: Double, b: Double| (a - b).0 < 0.0;
@@ -197,7 +198,7 @@ pub(super) fn slabs(box_: &Box_, ray: &Ray) -> [Double; 2] {
     [enter, leave]
 }
 
-/// Outward distance of a point from the nearest plane of a given face.
+/// Outward distance of a point from the plane of a given face.
 pub(super) fn above_face(box_: &Box_, face: u32, point: Vector) -> f64 {
     let axis = (face / 2) as usize;
     let place = dot(triple(box_.normals[axis].get()), minus(triple(point), triple(box_.centre)));
@@ -210,7 +211,7 @@ pub(super) fn local(matrix: &Matrix, v: Triple) -> Triple {
     [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| dot(triple(row), v))
 }
 
-/// The same as [`sphere`] for the set |L·(P − C)| = 1.
+/// Returns the equivalent of [`sphere`] for the set |L·(P − C)| = 1.
 pub(super) fn ellipsoid(placement: &Placement, ray: &Ray) -> (f64, Option<[Double; 2]>) {
     let matrix = &placement.local_from_world;
     let start = local(matrix, minus(triple(ray.origin), triple(placement.centre)));
@@ -221,7 +222,7 @@ pub(super) fn ellipsoid(placement: &Placement, ray: &Ray) -> (f64, Option<[Doubl
     ((discriminant / a).0, roots)
 }
 
-/// |L·(P − C)| − 1.
+/// Returns |L·(P − C)| − 1.
 pub(super) fn above_ellipsoid(placement: &Placement, point: Vector) -> f64 {
     let place = minus(triple(point), triple(placement.centre));
     let place = local(&placement.local_from_world, place);

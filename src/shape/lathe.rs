@@ -1,9 +1,10 @@
-//! Lathe: all points whose distance ρ from the z axis and whose z are inside of an outline, in its own space.
-//! What the outline goes around an even number of times is outside.
+//! Lathe: in local space, all points whose distance ρ from the z axis and height z lie inside an outline, by
+//! the even-odd rule.
 //!
-//! In the plane of ρ and z a line is one branch of a hyperbola, ρ² = m² + e²(s − sₘ)². A steep one parts the
-//! outline as it is. Of a flat one the two arms lie close together: each parts the outline by itself, and where
-//! an arm begins, at ρ = m, the outline is cut, so both see the same ends.
+//! In the plane of ρ and z, a line is one branch of a hyperbola, ρ² = m² + e²(s − sₘ)². A steep line is
+//! intersected with the outline as one branch. The two arms of a flat line are close together: each is
+//! intersected separately. The outline is cut where the arms begin, at ρ = m, so that both have the same
+//! ends.
 
 mod level;
 mod line;
@@ -17,7 +18,8 @@ use crate::math::Vector;
 use level::{Beside, Passage, beside, moved};
 use line::{Arm, Line, STEEP, Steep};
 
-/// A line that is less steep to the surface may go its way or against it, as far as a look at the place tells.
+/// Cosine below which the line's direction relative to the surface cannot be determined from the normal at
+/// one point.
 const GRAZING: f64 = 1e-6;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -26,14 +28,14 @@ pub struct Lathe {
     outline: Outline,
 }
 
-/// A crossing.
+/// A crossing with a piece of the outline.
 struct Wall {
     s: f64,
     error: f64,
     piece: usize,
-    /// The line goes the way of the piece's normal.
+    /// Whether the line goes in the direction of the piece's normal.
     along: bool,
-    /// Of what may lie where the arms begin, which way its arm goes; else 0.
+    /// Direction of its arm, if the crossing may lie where the arms begin; else 0.
     begins: f64,
 }
 
@@ -46,11 +48,11 @@ impl Wall {
 }
 
 impl Lathe {
-    /// Curves that are open or closed, in any order; ρ may be negative, and counts as if it were not. What is
-    /// open is closed unseen: level with its ends, and upright where it is nearest to the axis. `None` where
-    /// there is nothing of any size.
+    /// Builds a lathe from open or closed curves, in any order; a negative ρ counts as its absolute value.
+    /// Open curves are closed by invisible pieces: horizontal at their ends, and vertical at the smallest ρ
+    /// of all curves. `None` if nothing has any extent.
     ///
-    /// **Source:** POV-Ray 3.7's behaviour, asked by `inside`.
+    /// **Source:** behaviour of POV-Ray 3.7, measured with `inside`.
     pub fn new(curves: impl IntoIterator<Item = Vec<Piece>>) -> Option<Self> {
         let runs: Vec<Vec<Piece>> = curves.into_iter().flat_map(parts_off_axis).collect();
         let places = || runs.iter().flatten().flat_map(|piece| [piece.first(), piece.last()]);
@@ -141,7 +143,7 @@ impl Lathe {
         walls
     }
 
-    /// The level end that a line goes through.
+    /// Returns the horizontal end that a line passes through.
     fn end_at(&self, passage: &Passage, ray: &LocalRay) -> Option<Wall> {
         let Passage { s, error, height, rises } = *passage;
         let point = ray.at(s);
@@ -158,8 +160,8 @@ impl Lathe {
     }
 }
 
-/// Drops what both arms cross right where they begin, as far as rounding tells: the line may as well only touch it,
-/// as at a tip, or beside an upright wall.
+/// Drops pairs of crossings of both arms right where the arms begin, within rounding: the line may only touch
+/// the surface, as at a tip or beside a vertical wall.
 fn drop_touches(walls: &mut Walls) {
     let mut at = 0;
     while let Some([one, other]) = walls.get(at..at + 2) {
@@ -172,7 +174,7 @@ fn drop_touches(walls: &mut Walls) {
     }
 }
 
-/// A curve without what lies on the axis, turned to its positive side.
+/// Returns the runs of a curve that are off the axis, mirrored to positive ρ.
 fn parts_off_axis(mut curve: Vec<Piece>) -> Vec<Vec<Piece>> {
     curve = curve.into_iter().flat_map(Piece::off_axis).collect();
     let is_closed = match (curve.first(), curve.last()) {
@@ -197,7 +199,7 @@ fn parts_off_axis(mut curve: Vec<Piece>) -> Vec<Vec<Piece>> {
     runs
 }
 
-/// The part of a piece: its outside, or that side seen from within.
+/// Part number of a piece's outside, or of the same surface seen from within.
 fn part_of(piece: usize, is_outside: bool) -> u32 {
     2 * piece as u32 + u32::from(!is_outside)
 }
@@ -215,7 +217,7 @@ impl Local for Lathe {
         }
     }
 
-    /// Where it is certainly on one piece alone.
+    /// Known where the point is certainly on a single piece.
     fn part_at(&self, ray: &LocalRay, s: f64, leaving: bool) -> Option<u32> {
         let point = ray.at(s);
         let off = 64.0 * (ray.blur_at(s) + U * (1.0 + s.abs())) + 2.0 * ray.tolerance;

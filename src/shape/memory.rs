@@ -1,6 +1,6 @@
-//! Memory: what is worked out of a shape so as not to be worked out again.
+//! Cached values that are derived from a shape.
 //!
-//! **Invariant:** it is no part of what the shape is: two that differ in it alone are equal.
+//! **Invariant:** a cached value is not part of the shape: shapes that differ only in it compare equal.
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};

@@ -1,7 +1,8 @@
-//! Solids in canonical form; one file, one shape: its equation, its crossings, its bounds.
+//! Shapes in canonical form: each file holds one shape's equation, ray crossings and bounds.
 //!
-//! **Invariant:** knows only `math`, and `function` for what is made of one. Distances along a ray are in
-//! (0, ∞): there is no least and no greatest distance, each crossing carries its own error bound instead.
+//! **Invariant:** depends only on `math`, and on `function` for shapes defined by functions. Distances along
+//! a ray are in (0, ∞): there is no minimum or maximum distance; instead, each crossing carries its own error
+//! bound.
 
 pub mod algebraic;
 pub mod bicubic_patch;
@@ -68,7 +69,7 @@ pub use torus::Torus;
 
 use crate::math::{Real, Vector, Vector3};
 
-/// Names one shape of the World: its kind, and its place in that kind's list.
+/// Identifies one shape of the world by its kind and its index in that kind's list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Shape {
     Sphere(u32),
@@ -79,7 +80,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// A sphere, a plane or a box.
+    /// Returns whether this is a sphere, a plane or a box.
     #[inline(always)]
     pub fn is_plain(self) -> bool {
         match self {
@@ -91,13 +92,13 @@ impl Shape {
 
 /// A half-line: `origin + t · direction`, t > 0.
 ///
-/// The error bounds of crossings hold for the direction that was meant, too, as long as each of its
-/// components is off by no more than 2 roundoffs of it: a ray aimed at a point crosses the surfaces
-/// through that point there.
+/// The error bounds of crossings also hold for the intended direction, as long as each component of
+/// `direction` is within 2 roundoffs of it. A ray aimed at a point therefore crosses surfaces through that
+/// point there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray<R: Real = f64> {
     pub origin: R::Vector,
-    /// Of length 1 within rounding.
+    /// Unit length, within rounding.
     pub direction: R::Vector,
 }
 
@@ -107,13 +108,14 @@ impl<R: Real> Ray<R> {
         self.origin + self.direction * t
     }
 
-    /// Slides the ray to its closest approach to `centre`, before a curved shape sees it, so that
-    /// what the shape squares is of the shape's own size and not of the distance. Flat shapes need
-    /// none of it: their crossings are linear in the origin, and sliding would add a rounding.
+    /// Returns the ray relative to its closest approach to `centre`.
     ///
-    /// The error of `offset` across the ray is at most 2u·(|along| + |offset|), u the roundoff;
-    /// `along` is off by at most 12u·(|along| + |offset|), as long as the direction's squared
-    /// length is 1 within 8u.
+    /// Curved shapes start from this so that the terms they square have the size of the shape, not of the
+    /// distance. Flat shapes do not need it: their crossings are linear in the origin, and the shift would
+    /// add a rounding.
+    ///
+    /// **Error:** across the ray, `offset` is within 2u·(|along| + |offset|), u the roundoff; `along` is
+    /// within 12u·(|along| + |offset|), as long as the direction's squared length is 1 within 8u.
     ///
     /// **Source:** E. Haines, J. Günther, T. Akenine-Möller, "Precision improvements for ray/sphere
     /// intersection", Ray Tracing Gems (2019), ch. 7.
@@ -125,28 +127,29 @@ impl<R: Real> Ray<R> {
     }
 }
 
-/// A ray as seen from a centre.
+/// A ray relative to a centre; see [`Ray::slide`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approach<R: Real = f64> {
-    /// From the centre to the ray's origin.
+    /// Vector from the centre to the ray's origin.
     pub start: R::Vector,
-    /// From the closest approach to the origin, along the ray: positive when the ray moves away.
+    /// Signed distance along the ray from the closest approach to the origin: positive when the ray moves
+    /// away.
     pub along: R,
-    /// From the centre to the closest approach, across the ray.
+    /// Vector from the centre to the closest approach; perpendicular to the ray.
     pub offset: R::Vector,
 }
 
-/// Where a ray passes through a surface.
+/// A point where a ray passes through a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing<R: Real = f64> {
     /// Distance along the ray.
     pub t: R,
-    /// The true crossing lies within this distance of `t`.
+    /// Error bound: the true crossing lies within this distance of `t`.
     pub error: R,
 }
 
-/// The part of a ray inside a convex solid: where it enters and where it leaves; `enter.t` may be
-/// negative or −∞, `leave.t` may be +∞.
+/// The part of a line inside a convex solid, from entry to exit; `enter.t` may be negative or −∞, `leave.t`
+/// may be +∞.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Chord<R: Real = f64> {
     pub enter: Crossing<R>,
@@ -154,7 +157,7 @@ pub struct Chord<R: Real = f64> {
 }
 
 impl<R: Real> Chord<R> {
-    /// Of a line that is inside all along.
+    /// The chord of a line that lies entirely inside.
     pub const WHOLE: Self = Self { enter: Crossing::BEFORE_ALL, leave: Crossing::BEYOND_ALL };
 }
 
@@ -162,37 +165,38 @@ impl<R: Real> Crossing<R> {
     pub const BEFORE_ALL: Self = Self { t: R::NEG_INFINITY, error: R::ZERO };
     pub const BEYOND_ALL: Self = Self { t: R::INFINITY, error: R::ZERO };
 
-    /// Certainly ahead of the ray's start, at a finite distance. A crossing that cannot be told
-    /// from the start is the surface the ray starts on.
+    /// Returns whether the crossing is certainly ahead of the ray's start, at a finite distance. A crossing
+    /// that rounding cannot separate from the start belongs to the surface the ray starts on.
     #[inline]
     pub fn is_ahead(&self) -> bool {
         self.t > self.error && self.t < R::INFINITY
     }
 }
 
-/// The surface where a ray hit it.
+/// The point of a surface that a ray hits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
-    /// The hit, put back onto the surface.
+    /// The hit point, projected onto the surface.
     pub point: Vector,
-    /// Of length 1, out of the solid.
+    /// Outward unit normal.
     pub normal: Vector,
-    /// The true surface lies within this distance of `point`, along the normal.
+    /// Error bound: the true surface lies within this distance of `point` along the normal.
     pub error: f64,
-    /// Which flat face was hit, for shapes that have such: plane 0; box 2i for face i, 2i + 1 for
-    /// the one opposite.
+    /// The flat face that was hit, for shapes that have faces: 0 for a plane; for face i of a box, 2i, and
+    /// for the opposite face, 2i + 1.
     pub face: u32,
 }
 
 impl SurfacePoint {
-    /// How far `point`, which was found at `t`, may be along each axis from where `ray` was meant to
-    /// cross the surface; `crossing` is the kernel's.
+    /// Returns, for each axis, a bound on the distance from `point`, found at `t`, to the exact crossing of
+    /// the intended `ray`; `crossing` is the kernel's result.
     ///
-    /// Along the ray it is the crossing's error, twice, as start and direction are no better than
-    /// that; of a flat face 4u·t/|N·D| more, as the camera's or a mirror's vectors may nearly have cancelled
-    /// in a component: a direction is then off by its length's roundoffs, and not by its component's. The
-    /// bounds of others count that, and that they bend away: along them |N·D| may be nothing. The rest is what
-    /// rounding start, direction and point adds, and putting the point onto the surface.
+    /// Along the ray, the bound is twice the crossing's error, as start and direction are known no better
+    /// than that. Flat faces add 4u·t/|N·D|: the vectors of the camera or of a mirror may nearly have
+    /// cancelled in a component, so that a direction is off by roundoffs of its length, not of its component.
+    /// The error bounds of curved shapes include that term, and those surfaces bend away where |N·D| may
+    /// be 0. The remaining terms cover the rounding of start, direction and point, and of the projection onto
+    /// the surface.
     pub fn spread(&self, ray: &Ray, t: f64, crossing: &Crossing, is_flat: bool) -> Vector {
         let turned = 4.0 * U * t / self.normal.dot(ray.direction).abs();
         let along =
@@ -201,11 +205,11 @@ impl SurfacePoint {
         ray.direction.abs() * along + across + self.normal.abs() * self.error
     }
 
-    /// A distance that [`SurfacePoint::spread`] exceeds along no axis, by far but easily computed;
-    /// `error` bounds the crossing's. It has room for 16u·|P| more along each axis, P the point.
+    /// Returns a cheap upper bound on [`SurfacePoint::spread`] along every axis; `error` bounds the
+    /// crossing's error. The result leaves room for 16u·|P| more along each axis, P the point.
     ///
-    /// The crossing's bound counts four times: the kernel's own t may be off as well. The start is
-    /// at most |P| + t from the origin, along each axis.
+    /// The crossing's bound counts four times, as the kernel's own t may be off as well. Along each axis, the
+    /// start is at most |P| + t from the origin.
     #[inline]
     pub fn spread_at_most(&self, ray: &Ray, t: f64, error: f64) -> f64 {
         let slope = self.normal.dot(ray.direction).abs();
@@ -213,9 +217,9 @@ impl SurfacePoint {
         4.0 * error + 4.0 * U * t / slope + 32.0 * U * size + self.error
     }
 
-    /// Where the ray that goes on from here toward `direction` starts: moved along the normal, to
-    /// the side on which it leaves, by the error bound and by nothing else. The bound has room for
-    /// the rounding of this very sum.
+    /// Returns the origin of a ray that continues from here toward `direction`: `point`, moved along the
+    /// normal by the error bound alone, to the side on which the ray leaves. The bound leaves room for the
+    /// rounding of this sum.
     #[inline]
     pub fn spawn(&self, direction: Vector) -> Vector {
         let side = if direction.dot(self.normal) < 0.0 { -self.error } else { self.error };
@@ -223,7 +227,7 @@ impl SurfacePoint {
     }
 }
 
-/// The roundoff of `f64`, 2⁻⁵³.
+/// Unit roundoff of `f64`, 2⁻⁵³.
 const U: f64 = f64::EPSILON / 2.0;
 
 #[cfg(test)]

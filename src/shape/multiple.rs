@@ -1,43 +1,44 @@
-//! Multiple: which way a surface faces where its function has several roots in one, so that its gradient is 0
-//! there as well.
+//! Surface orientation at multiple roots, where the gradient of the function vanishes on the surface.
 //!
-//! **In:** the function and its gradient near a point. **Out:** the mean gradient around the point, at the least
-//! distance where it is more than rounding. **Invariant:** what faces away on both sides, as at the tip of a cone
-//! or where two sheets cross, faces no way.
+//! **In:** the function and its gradient near a point. **Out:** the mean gradient around the point, at the
+//! smallest distance at which it exceeds rounding. **Invariant:** there is no orientation where the surface
+//! faces away on both sides, as at the tip of a cone or where two sheets cross.
 //!
-//! Of f = hⁿ with an odd n the gradient n·hⁿ⁻¹·∇h goes one way on both sides of the surface, as that of h; what
-//! h is bent by changes its sign from one side of the point to the other, and leaves the mean as it is.
+//! If f = hⁿ with an odd n, the gradient n·hⁿ⁻¹·∇h has the same direction as ∇h on both sides of the surface.
+//! The curvature of h changes sign from one side of the point to the other and cancels in the mean.
 
 use super::body::Height;
 use crate::math::Vector;
 
-/// So often the distance is doubled.
+/// Maximum number of times that the distance is doubled.
 const DOUBLED: u32 = 24;
 
-/// The gradient is more than rounding where the value rises by so many errors within the distance, and the
-/// gradient is so many times its own.
+/// The gradient exceeds rounding where the value rises by this many errors within the distance, and where the
+/// gradient is this many times its own error.
 const TOLD: (f64, f64) = (16.0, 1024.0);
 
-/// Of that distance, so many times the surface may be off that has up to eleven roots in one: the value rises so
-/// much faster farther out.
+/// Error of the surface's position, as a multiple of the distance, for up to eleven coincident roots: farther
+/// out, the value rises that much faster.
 const FARTHEST: f64 = 4.0;
 
-/// Of how far off a point is: where rounding moves the surface by as much, one gradient may not tell where it is.
+/// Relative to the point's distance: where rounding moves the surface by this much, a single gradient may not
+/// locate it.
 pub(super) const MOVED: f64 = 1.0 / 1_048_576.0;
 
-/// Where rounding may have moved the surface of hⁿ to, the gradient is other by more than this part of itself: by
-/// (1 + 1/n)ⁿ⁻¹ - 1 of it at least, 7/9 where n is 3.
+/// At a multiple root, the gradient where rounding may have moved the surface of hⁿ to differs by more than
+/// this fraction of itself: by at least (1 + 1/n)ⁿ⁻¹ - 1, which is 7/9 for n = 3.
 const STEADY: f64 = 0.75;
 
-/// Of how far off a point is: the least distance at which the gradient is asked for.
+/// Relative to the point's distance: the smallest distance at which the gradient is sampled.
 pub(super) const NEAREST: f64 = 1.0 / 67_108_864.0;
 
-/// A height, and how far its gradient may be off.
+/// A height, and the error bound of its gradient.
 pub(super) type Told = (Height, f64);
 
 const UNKNOWN: Height = Height { value: 0.0, gradient: Vector::ZERO, error: f64::INFINITY };
 
-/// Whether the gradient stays nearly as it is where the surface may be; of roots that are many in one it does not.
+/// Returns whether the gradient stays nearly constant across the uncertainty of the surface; at multiple
+/// roots it does not.
 #[cold]
 pub(super) fn is_steady(
     point: Vector,
@@ -54,8 +55,8 @@ pub(super) fn is_steady(
     is_near(point + step) && is_near(point - step)
 }
 
-/// The height near `point`, which is 0 as far as is told: by the gradient at the least distance from `nearest` on
-/// that tells one. `sample` is `None` where nothing is known.
+/// Returns the height near `point`, where it is 0 within its error, from the mean gradient at the smallest
+/// conclusive distance not below `nearest`. `sample` returns `None` where the function is unknown.
 #[cold]
 pub(super) fn height(
     point: Vector,
@@ -97,7 +98,7 @@ mod tests {
 
     const LEAST: f64 = 1e-16;
 
-    /// (r² − 1)ⁿ, as if it were a sum of terms that are rounded.
+    /// (r² − 1)ⁿ, with the rounding error of a sum of terms.
     fn power_of_ball(n: i32) -> impl Fn(Vector) -> Option<Told> {
         move |p: Vector| {
             let h = p.length_squared() - 1.0;

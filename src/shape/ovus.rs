@@ -1,11 +1,12 @@
-//! Ovus: two balls on the z axis, `bottom` up from z = −1 and `top` down from z = 1, and what an arc that
-//! touches both from outside draws around that axis.
+//! Ovus: two spheres on the z axis, of radius `bottom` up from z = −1 and `top` down from z = 1, joined by
+//! the surface that an arc tangent to both sweeps around the axis.
 //!
-//! The top ball's centre lies on the bottom one. The arc's radius is twice that of the greater ball, its
-//! centre lies beyond the axis: the surface it draws is the inner part of a spindle torus. The whole is
-//! convex, and its normal turns steadily.
+//! The centre of the top sphere lies on the bottom one. The radius of the arc is twice that of the larger
+//! sphere, and its centre lies beyond the axis: the swept surface is the inner part of a spindle torus. The
+//! body is convex, and its normal is continuous.
 //!
-//! **Source:** POV-Ray 3.7 manual, 3.4.5.1.9; the arc's radius by POV-Ray's behaviour, asked by `trace`.
+//! **Source:** POV-Ray 3.7 manual, 3.4.5.1.9; the radius of the arc: behaviour of POV-Ray, measured with
+//! `trace`.
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
@@ -14,26 +15,26 @@ use crate::math::double::Double;
 use crate::math::roots::bracket::{Root, Sample};
 use crate::math::roots::convex::{Tangent, chord};
 
-/// The line is followed so far to each side; the body ends at 1.
+/// The line is searched from −`FAR` to `FAR`; the body ends at 1.
 const FAR: f64 = 2.0;
 
-/// How far rounding may turn a normal, or the slope along a line.
+/// Error, from rounding, of a normal or of the slope along a line.
 const TURN: f64 = 16.0 * U;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ovus {
-    /// The radii of the balls: `bottom` + `top`/2 is 1, `top` less than twice `bottom`.
+    /// The radii of the spheres: `bottom` + `top`/2 is 1, `top` is less than twice `bottom`.
     pub bottom: f64,
     pub top: f64,
-    /// How far the centre of the arc lies beyond the axis.
+    /// Distance of the arc's centre beyond the axis.
     beyond: f64,
-    /// How high.
+    /// Height of the arc's centre.
     centre: f64,
-    /// The radius of the arc.
+    /// Radius of the arc.
     arc: f64,
 }
 
-/// Which part of the surface is nearest.
+/// The part of the surface that is nearest.
 #[derive(Clone, Copy)]
 enum Part {
     Bottom,
@@ -42,11 +43,12 @@ enum Part {
 }
 
 impl Ovus {
-    /// `top` and `bottom` at any size.
+    /// Builds an ovus from `top` and `bottom` at any scale.
     ///
-    /// The arc's centre is as far from those of the balls as its radius is greater than theirs. With b and
-    /// t the radii, it is (4bt − t² − 2b²)/2b above that of the bottom ball and (2b − t)·√(t(4b − t))/2b
-    /// beyond the axis where b ≥ t, else (3t² − 4bt + 2b²)/2b and t·√(3(3t − 2b)(2b − t))/2b.
+    /// The distance of the arc's centre from that of each sphere is the difference of their radii. With b and
+    /// t the radii of the spheres, the arc's centre is (4bt − t² − 2b²)/2b above that of the bottom sphere
+    /// and (2b − t)·√(t(4b − t))/2b beyond the axis if b ≥ t, else (3t² − 4bt + 2b²)/2b and t·√(3(3t − 2b)(2b
+    /// − t))/2b.
     pub fn new(bottom: Double, top: Double) -> Self {
         let n = Double::from;
         let half = bottom + top * n(0.5);
@@ -70,12 +72,12 @@ impl Ovus {
         }
     }
 
-    /// Heights of the balls' centres.
+    /// Heights of the centres of the spheres.
     fn centres(&self) -> [f64; 2] {
         [self.bottom - 1.0, 1.0 - self.top]
     }
 
-    /// Which part has a normal along (`out`, `up`).
+    /// Returns the part whose normal is along (`out`, `up`).
     fn faces(&self, out: f64, up: f64) -> Part {
         let [low, high] = self.centres().map(|end| self.beyond * up - (end - self.centre) * out);
         if low < 0.0 {
@@ -87,8 +89,8 @@ impl Ovus {
         }
     }
 
-    /// The distance to the surface, and the way out. Two of the circles that it is made of touch where they
-    /// join, so it does not matter much which of them is taken there.
+    /// Returns the distance to the surface and the outward direction. Adjacent circles of the profile are
+    /// tangent where they join, so either may be used there.
     fn distance(&self, point: Vector) -> (f64, Vector) {
         let across = Vector::new(point.x, point.y, 0.0);
         let radius = across.length();
@@ -124,10 +126,10 @@ impl Ovus {
 }
 
 impl Local for Ovus {
-    /// The height over it is its distance, which is convex.
+    /// The height is the distance to the surface, which is convex.
     ///
-    /// **Error** of the height: how far the point may be off, and the roundings of three squares, a root and
-    /// the numbers of the balls and the arc, whose greatest is 4.
+    /// **Error** of the height: the error of the point, and the roundings of three squares, a root, and the
+    /// parameters of the spheres and the arc, the largest of which is 4.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let slope_error = TURN + ray.turn;
         let tangent = |s: f64| {
@@ -176,7 +178,7 @@ impl Local for Ovus {
 
 #[cfg(test)]
 impl Ovus {
-    /// Its distance in twice the digits.
+    /// Its distance in twice the precision.
     pub(super) fn exactly(&self, [x, y, z]: super::exact::Triple) -> super::exact::Double {
         use super::exact::Double;
         let n = Double::of;

@@ -1,4 +1,4 @@
-//! Placed: a body where it stands in the world. Many may share one body.
+//! Bodies placed in world space. Several can share one body.
 
 use std::sync::Arc;
 
@@ -13,14 +13,15 @@ pub struct Placed {
     /// Stored once, however often it is placed.
     pub body: Arc<Body>,
     pub placement: Placement,
-    /// How near its crossings must be found, of its own size: [`super::body::LocalRay::tolerance`].
+    /// Tolerance of crossings, relative to the size of the body; see [`super::body::LocalRay::tolerance`].
     pub root_tolerance: f64,
-    /// The placement again, of bodies whose edges or flat ends others may share.
+    /// The placement in exact form, for bodies whose edges or flat ends may coincide with those of others.
     pub exact: Option<Box<ExactPlacement>>,
 }
 
 impl Body {
-    /// Whether it has ends, faces or edges that others may share: where it stands is kept exactly.
+    /// Returns whether it has ends, faces or edges that may coincide with those of others, so that an exact
+    /// placement is kept.
     pub fn keeps_exact_place(&self) -> bool {
         match self {
             Self::Cone(_)
@@ -48,29 +49,31 @@ impl Body {
 }
 
 impl Placed {
-    /// All crossings of the whole line, in order; `t` is negative behind the ray's start.
+    /// Returns all crossings of the entire line, in order; `t` is negative behind the ray's start.
     pub fn crossings(&self, ray: &Ray) -> Crossings {
         self.found(ray, self.edges_moved(), |seen, found| self.body.crossings(&seen.line, found))
     }
 
-    /// The same of a part of a solid, whose line is blurred by as much as its centre was rounded: nothing is between
-    /// two parts that share a face, however far off they stand.
+    /// Returns [`Self::crossings`] for a part of a CSG solid: the line's blur includes the rounding of the
+    /// centre, so that no gap appears between parts that share a face, however far they are from the origin.
     pub fn crossings_of_part(&self, ray: &Ray) -> Crossings {
         self.found(ray, self.moved(), |seen, found| self.body.crossings(&seen.line, found))
     }
 
-    /// How far it stands from where it was meant, as its centre was rounded.
+    /// Bound, in local space, on how far rounding of the centre moved the body.
     fn moved(&self) -> f64 {
         let Placement { centre, local_from_world, .. } = self.placement;
         U * (local_from_world.abs() * centre.abs()).length()
     }
 
-    /// The same, of sheets alone: their edges are others', too, and nothing may show between.
+    /// [`Self::moved`] for sheets, 0 for other bodies: sheets share edges, and no gap may appear between
+    /// them.
     fn edges_moved(&self) -> f64 {
         if self.exact.is_none() && self.body.is_sheet() { self.moved() } else { 0.0 }
     }
 
-    /// In order, those ahead of the ray's start and not beyond `limit`, at least the first that is seen.
+    /// Returns, in order, the crossings ahead of the ray's start and not beyond `limit`, at least up to the
+    /// first visible one.
     #[inline(never)]
     pub fn first_crossings(&self, ray: &Ray, limit: f64) -> Crossings {
         self.found(ray, self.edges_moved(), |seen, found| {
@@ -79,12 +82,14 @@ impl Placed {
         })
     }
 
-    /// A crossing of what stands alone, its error as if the line were blurred by as much as the centre was rounded:
-    /// of faces that two share the first is seen, however far off they stand. But whether the line meets the body, and
-    /// ahead, is not told so: a ray that starts on a surface keeps off it by less.
+    /// Widens the error of a crossing as if the line were blurred by the rounding of the centre: of two
+    /// coincident faces, the first is then visible, however far they are from the origin. This applies only
+    /// to a body outside CSG solids, and not to the decision whether the line crosses the body ahead of the
+    /// start: a ray that starts on a surface is offset from it by less.
     ///
-    /// With f the ray's start as seen from the centre C, the error is in proportion to the line's blur, of at least
-    /// 6u·‖|L|·|f|‖, and to what a body of size 1 rounds by, of at least 2u; where it only touches, less than so.
+    /// With f the ray's start relative to the centre C, the error is proportional to the line's blur, at
+    /// least 6u·‖|L|·|f|‖, plus the rounding of a body of size 1, at least 2u; less where the line is only
+    /// tangent.
     pub fn shared(&self, ray: &Ray, met: &Met) -> Crossing {
         let Placement { centre, local_from_world, .. } = self.placement;
         let sizes = local_from_world.abs();
@@ -110,14 +115,15 @@ impl Placed {
         found
     }
 
-    /// The part of the surface that the ray crosses at `t`.
+    /// Returns the part of the surface that the ray crosses at `t`.
     fn part_at(&self, ray: &Ray, t: f64, leaving: bool) -> u32 {
         let seen = Seen::new(self, ray, 0.0);
         let found = || self.crossing_at(ray, t, leaving).map_or(0, |met| met.part);
         self.body.part_at(&seen.line, seen.place(t, 0.0), leaving).unwrap_or_else(found)
     }
 
-    /// The crossing at `t`, or the nearest to it. That of a part may be none of what stands alone.
+    /// Returns the crossing at `t`, or the nearest one. A crossing of a part of a CSG solid may be missing
+    /// from the body's own crossings.
     pub fn crossing_at(&self, ray: &Ray, t: f64, leaving: bool) -> Option<Met> {
         let off = |met: &Met| (met.t - t).abs();
         let same = |met: &Met| met.leaving == leaving;
@@ -130,9 +136,9 @@ impl Placed {
         }
     }
 
-    /// The point of the surface where `ray` crosses it at `t`: the height of what is at t is taken off
-    /// along the normal, the shortest way in the world. The distance to the true surface is bounded
-    /// by the height that is left, the rounding of that very sum, and what a ray that goes on sees triangles off by.
+    /// Returns the surface point where `ray` crosses at `t`. The height of the point at t is subtracted along
+    /// the normal, which is the shortest path in world space. The error bound is the sum of the remaining
+    /// height, the rounding of this sum, and the error of triangles as a continued ray sees them.
     #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
         let part = self.part_at(ray, t, leaving);
@@ -175,9 +181,10 @@ impl Placed {
         surface
     }
 
-    /// The same where what is left of the height is more than rounding: the line is known less well than the surface
-    /// bends. The shortest way in the world may pass a flattened body by; steps along the local normal lead there.
-    /// `None` of what is farther from the line's crossing than that may be off.
+    /// Returns the surface point where the remaining height exceeds rounding, because the line's uncertainty
+    /// exceeds the surface's radius of curvature. The shortest path in world space may miss a flattened body;
+    /// steps along the local normal reach it. `None` where the result is farther from the line's crossing
+    /// than the crossing's error allows.
     #[cold]
     #[inline(never)]
     fn settled(&self, part: u32, ray: &Ray, t: f64, leaving: bool) -> Option<Vector> {
@@ -194,10 +201,10 @@ impl Placed {
         (is_near && error.is_finite()).then_some(point)
     }
 
-    /// How far triangles may be off as a ray from there sees them.
+    /// Returns the error of triangles as seen by a ray that starts at `from`.
     ///
-    /// With a and b a corner's coordinates across the ray and m the one along the axis that the ray is nearest to, each
-    /// rounded once on the way there, b − shear·m is off by u·(2|b| + 4|m|), and a likewise.
+    /// With a and b a corner's coordinates across the ray, and m the coordinate along the ray's dominant
+    /// axis, each rounded once on the way there, b − shear·m is off by u·(2|b| + 4|m|), and a likewise.
     fn seen_off(&self, normal: Vector, from: Vector) -> f64 {
         let reach = if let Body::Mesh(mesh) = &*self.body {
             mesh.reach()
@@ -212,8 +219,8 @@ impl Placed {
         6.0 * U * normal.abs().element_sum() * far.max_element()
     }
 
-    /// The unit normal by which the surface is lit at a point of it, on either side; `None` where it is the
-    /// surface's own, as of most.
+    /// Returns the unit shading normal at a surface point, on either side; `None` where it is the geometric
+    /// normal, as for most bodies.
     #[inline(never)]
     pub fn shading_normal(&self, surface: &SurfacePoint) -> Option<Vector> {
         let local = self.placement.local_point(surface.point);
@@ -221,25 +228,25 @@ impl Placed {
         Some(UnitVector::from_direction(self.placement.world_normal(normal))?.get())
     }
 
-    /// Whether the normal of a surface was turned outward there: that of a solid mesh whose corners turn the
-    /// other way.
+    /// Returns whether the geometric normal was flipped to point outward: in a solid mesh, for a triangle
+    /// with the opposite winding.
     pub fn is_turned(&self, surface: &SurfacePoint) -> bool {
         matches!(*self.body, Body::Mesh(_)) && surface.face % 2 == 1
     }
 
-    /// Of a painted mesh, what a point of its surface is painted with, and how much of each.
+    /// Returns the paints of a painted mesh at a surface point, each with its weight.
     pub fn paint(&self, surface: &SurfacePoint) -> Option<[(u32, f64); 3]> {
         let Body::Mesh(mesh) = &*self.body else { return None };
         mesh.paint(surface.face, self.placement.local_point(surface.point))
     }
 
-    /// How long the local gradient is of which this is the world's.
+    /// Length of the local gradient that corresponds to this gradient in world space.
     fn steepness(&self, gradient: Vector) -> f64 {
         (self.placement.world_from_local.transpose() * gradient).length()
     }
 
-    /// `None` where it has no end. Along each axis the body's extent along that row of
-    /// `world_from_local`.
+    /// Returns the bounds; `None` where it is unbounded. Along each axis, they are the body's extent along
+    /// that row of `world_from_local`.
     pub fn bounds(&self, rounding: Rounding) -> Option<Bounds> {
         let rows = self.placement.world_from_local.transpose();
         let extent = |row: Vector| match rounding {
@@ -249,7 +256,7 @@ impl Placed {
         self.around([rows.x_axis, rows.y_axis, rows.z_axis].map(extent), rounding)
     }
 
-    /// As [`Self::bounds`], of what of a quadric lies on the inner sides of planes.
+    /// Returns [`Self::bounds`] of the part of a quadric on the inner sides of `planes`.
     pub fn clipped_bounds(&self, planes: &[Plane], rounding: Rounding) -> Option<Bounds> {
         let Body::Algebraic(quadric) = &*self.body else { return None };
         let Placement { centre, world_from_local, .. } = self.placement;
@@ -265,7 +272,7 @@ impl Placed {
         self.around(extents, rounding)
     }
 
-    /// The box that goes so far from the centre along each axis; `None` where that has no end.
+    /// Returns the box with these extents around the centre along each axis; `None` where it is unbounded.
     fn around(&self, extents: [(f64, f64); 3], rounding: Rounding) -> Option<Bounds> {
         let low = Vector::from_array(extents.map(|(low, _)| low));
         let high = Vector::from_array(extents.map(|(_, high)| high));
@@ -278,8 +285,8 @@ impl Placed {
         self.body.contains(self.placement.local_point(point))
     }
 
-    /// Whether a line that does not cross the surface lies inside, but for where it touches the surface: at the
-    /// tip of a cone, say. The ray may start just there, so that its start tells nothing.
+    /// Returns whether a line that does not cross the surface lies inside. The line may touch the surface, as
+    /// at the tip of a cone; the ray may start at that point, so the start alone is inconclusive.
     pub fn holds(&self, ray: &Ray) -> bool {
         let certainly = |point| self.body.certainly_contains(self.placement.local_point(point));
         self.contains(ray.origin) || [1.0, -1.0].into_iter().any(|t| certainly(ray.at(t)))

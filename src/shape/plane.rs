@@ -1,4 +1,4 @@
-//! Plane: N·P = d; its inside is the half space N·P < d, and N points out of it.
+//! Plane: N·P = d; the inside is the half-space N·P < d, and N points outward.
 
 use super::slab::{falls_inside, lies_in};
 use super::{Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
@@ -18,8 +18,8 @@ impl Plane {
         chord(self.normal.get(), self.distance, ray)
     }
 
-    /// As of a part of a whole: of two that share the plane, one has a line in it, as far as rounding tells
-    /// within some distance of the ray's start and the origin.
+    /// Returns the chord of a part of a CSG solid. If two parts share the plane and the line lies in it,
+    /// within rounding near the ray's start and the origin, exactly one of them contains the line.
     #[inline(always)]
     pub fn chord_of_part(&self, ray: &Ray) -> Option<Chord> {
         let speed = self.normal.get().dot(ray.direction);
@@ -29,8 +29,10 @@ impl Plane {
         }
     }
 
-    /// **Error:** as of [`chord`]. What leaves the plane by so small a slope may be told to lie in it: it brings
-    /// no light.
+    /// Returns the chord of a line nearly parallel to the plane.
+    ///
+    /// **Error:** as for [`chord`]. A line that leaves the plane at such a small slope may be classified as
+    /// lying in it: it contributes no light.
     #[cold]
     fn chord_along(&self, ray: &Ray) -> Option<Chord> {
         let normal = self.normal.get();
@@ -41,22 +43,22 @@ impl Plane {
         self.chord(ray)
     }
 
-    /// Whether the ray moves toward the plane.
+    /// Returns whether the ray moves toward the plane.
     #[inline(always)]
     pub fn is_ahead(&self, ray: &Ray) -> bool {
         self.signed_distance(ray.origin) * self.normal.get().dot(ray.direction) > 0.0
     }
 
-    /// N·D and t of the crossing of a ray that moves toward the plane.
+    /// Returns N·D and the t of the crossing, for a ray that moves toward the plane.
     #[inline(always)]
     pub fn pass(&self, ray: &Ray) -> Option<(f64, f64)> {
         let speed = self.normal.get().dot(ray.direction);
         self.is_ahead(ray).then(|| (speed, self.signed_distance(ray.origin) / speed))
     }
 
-    /// With an error bound that is easily computed and larger than that of [`Plane::chord`]; `None`
-    /// where it would be no bound. With |v| > 2⁻¹⁰ and |S|₁ + |d| < 2¹⁴·t, that of [`chord`] is below
-    /// 2⁻²⁶·t.
+    /// Returns the crossing at `t` with a cheap error bound that is larger than that of [`Plane::chord`];
+    /// `None` where it would not be a bound. With |v| > 2⁻¹⁰ and |S|₁ + |d| < 2¹⁴·t, the bound of [`chord`]
+    /// is below 2⁻²⁶·t.
     #[inline(always)]
     pub fn roughly(&self, ray: &Ray, speed: f64, t: f64) -> Option<Crossing> {
         let size = ray.origin.abs().element_sum() + self.distance.abs();
@@ -65,11 +67,10 @@ impl Plane {
         (steep && near).then_some(Crossing { t, error: t / 67_108_864.0 })
     }
 
-    /// The point of the plane where `ray` crosses it at `t`: what is left of N·P − d is taken off
-    /// along N.
+    /// Returns the point where `ray` crosses the plane at `t`; the residual of N·P − d is subtracted along N.
     ///
-    /// Its distance to the plane is at most 4u·|N|·|P| + u·|d|: twice, the reading of N·P, here and
-    /// by the next [`chord`], and u·|N|·|P| for each of the two sums that round P.
+    /// Its distance to the plane is at most 4u·|N|·|P| + u·|d|: N·P is evaluated twice, here and by the next
+    /// [`chord`], and each of the two sums that round P adds u·|N|·|P|.
     #[inline(always)]
     pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let normal = self.normal.get();
@@ -79,13 +80,13 @@ impl Plane {
         SurfacePoint { point, normal, error, face: 0 }
     }
 
-    /// What is outside of it.
+    /// Returns the complement of the half-space.
     pub fn complement(&self) -> Self {
         Self { normal: -self.normal, distance: -self.distance }
     }
 
-    /// Where the normal lies along an axis, the half space ends along that axis, on one side, at the plane:
-    /// no coordinate of a place in the plane is rounded by more than a step or two.
+    /// Returns the bounds. Where the normal is along an axis, the half-space ends at the plane, on one side
+    /// of that axis: a point's coordinate in the plane is rounded by at most one or two steps.
     pub fn bounds(&self, rounding: Rounding) -> Bounds {
         let (normal, mut bounds) = (self.normal.get(), Bounds::EVERYWHERE);
         let axes = [Vector::X, Vector::Y, Vector::Z];
@@ -100,7 +101,7 @@ impl Plane {
         bounds
     }
 
-    /// Positive inside: d − N·P.
+    /// Returns d − N·P, positive inside.
     #[inline]
     pub fn signed_distance(&self, point: Vector) -> f64 {
         self.distance - self.normal.get().dot(point)
@@ -111,10 +112,10 @@ impl Plane {
     }
 }
 
-/// Slower than this a ray may be along the plane.
+/// Speed toward the plane up to which a ray counts as nearly parallel.
 const NEARLY_ALONG: f64 = 1.0 / 1_048_576.0;
 
-/// How far d − N·S may be off.
+/// Error bound of d − N·S.
 #[inline(always)]
 fn inside_error<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> R {
     let number = R::from_f64;
@@ -122,13 +123,13 @@ fn inside_error<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> R {
     R::UNIT_ROUNDOFF * size
 }
 
-/// The part of the ray's line inside the half space: from −∞, or to +∞, or both when the line runs
-/// inside and parallel (v not to be told from ±0, or the crossing farther off than any number); outside,
-/// it misses, and in the plane itself it is inside of the one half space or of the other.
+/// Returns the part of the ray's line inside the half-space: from −∞, to +∞, or both if the line is parallel
+/// and inside (v is 0 within its error, or the crossing overflows). Outside, the line misses; a line in the
+/// plane is inside exactly one of the two half-spaces.
 ///
-/// t = a / v with a = d − N·S, v = N·D. **Error:** a is off by α = u·(4·|N|·|S| + 2·|d|) and v by
-/// ν = 6u·|N|·|D| (sums of absolute products: nothing is lost for a normal along an axis), so t by
-/// (α + |t|·ν) / (|v| − ν) + 2u·|t|.
+/// t = a / v with a = d − N·S, v = N·D. **Error:** a is off by α = u·(4·|N|·|S| + 2·|d|) and v by ν =
+/// 6u·|N|·|D| (sums of absolute products: a normal along an axis loses nothing), so t is off by (α + |t|·ν) /
+/// (|v| − ν) + 2u·|t|.
 ///
 /// **Source:** γₙ bounds: Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §3.1.
 #[inline]

@@ -1,11 +1,11 @@
-//! Polygon: that part of z = 0 in its own space around which its closed lines go an odd number of times.
-//! It is a sheet, and faces along z.
+//! Polygon: in local space, the part of z = 0 that its closed lines enclose by the even-odd rule. It is a
+//! sheet and faces along z.
 //!
-//! **Invariant:** its edges belong to it: a line that rounding cannot tell from one through an edge meets
-//! it, so that nothing shows between two that share one.
+//! **Invariant:** its edges belong to it: a line that rounding cannot separate from one through an edge hits
+//! the polygon, so no gap appears between polygons that share an edge.
 //!
-//! **Source:** M. Shimrat, "Algorithm 112: position of point relative to polygon", Communications of the ACM 5
-//! (1962), p. 434.
+//! **Source:** M. Shimrat, "Algorithm 112: position of point relative to polygon", Communications of the ACM
+//! 5 (1962), p. 434.
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
@@ -13,12 +13,12 @@ use crate::math::Vector;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
-    /// Where each edge begins and ends; z is 0.
+    /// Start and end of each edge; z is 0.
     pub(super) edges: Vec<[Vector; 2]>,
     reach: f64,
 }
 
-/// How a polygon lies about a point of its plane.
+/// Where a point of the plane lies relative to a polygon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Around {
     Inside,
@@ -27,8 +27,8 @@ enum Around {
 }
 
 impl Polygon {
-    /// Of lines that close: each goes on from its last corner to its first. `None` where not one is longer
-    /// than a point.
+    /// Builds a polygon from closed lines: each continues from its last corner to its first. `None` if every
+    /// line is a single point.
     pub fn new(lines: &[Vec<[f64; 2]>]) -> Option<Self> {
         let corner = |[x, y]: [f64; 2]| Vector::new(x, y, 0.0);
         let closed = |line: &Vec<[f64; 2]>| {
@@ -41,12 +41,11 @@ impl Polygon {
         (reach > 0.0).then_some(Self { edges, reach: reach * (1.0 + 4.0 * U) })
     }
 
-    /// Whether a point of the plane lies inside, where `off` is how far from it the point that was meant
-    /// may be.
+    /// Classifies a point of the plane, where `off` is its distance from the intended point.
     ///
-    /// The line from the point along x crosses an edge that begins and ends on different sides of it
-    /// where the point is on the left of the upward edge. That sign is sure where the point is farther
-    /// from the edge than `off` and the rounding of a cross product, 8u of the lengths.
+    /// The ray from the point along x crosses an edge whose ends are on different sides of the ray if the
+    /// point is to the left of the upward edge. That sign is certain if the point is farther from the edge
+    /// than `off` plus the rounding of a cross product, 8u of the lengths.
     fn around(&self, point: Vector, off: f64) -> Around {
         if point.length() > self.reach + 2.0 * off {
             return Around::Outside;
@@ -68,8 +67,8 @@ impl Polygon {
     }
 }
 
-/// Where a line crosses z = 0, and how far that may be off in the plane; `None` where it goes so nearly along
-/// the plane that this is more than `reach`.
+/// Returns the crossing of a line with z = 0, and its error in the plane; `None` if the line is so nearly
+/// parallel that the error exceeds `reach`.
 pub(super) fn on_the_plane(ray: &LocalRay, reach: f64) -> Option<(Met, f64)> {
     let (place, speed) = (ray.nearest.z, ray.direction.z);
     let t = -place / speed;
@@ -86,7 +85,7 @@ pub(super) fn on_the_plane(ray: &LocalRay, reach: f64) -> Option<(Met, f64)> {
 }
 
 impl Local for Polygon {
-    /// The crossing with the plane z = 0, where the polygon is there. **Error:** as of a disc.
+    /// Adds the crossing with the plane z = 0 if it lies in the polygon. **Error:** as for a disc.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let Some((met, drift)) = on_the_plane(ray, self.reach) else { return };
         if self.around(ray.at(met.t).with_z(0.0), drift) != Around::Outside {
@@ -98,7 +97,7 @@ impl Local for Polygon {
         Height { value: point.z, gradient: Vector::Z, error: 0.0 }
     }
 
-    /// With room for the rounding of a point on it.
+    /// Includes a margin for the rounding of a point on it.
     fn extent(&self, along: Vector) -> (f64, f64) {
         let slack = 64.0 * U * self.reach * along.length();
         let (low, high) = self.nearest_extent(along);
@@ -112,7 +111,7 @@ impl Local for Polygon {
         })
     }
 
-    /// Not measured: as of shapes like it.
+    /// Not measured: assumed from similar shapes.
     fn price(&self) -> u64 {
         8 + self.edges.len() as u64
     }

@@ -1,8 +1,9 @@
-//! Prism: all (x, y, z) with (x, y) inside of an outline, or (x/z, y/z) where it narrows to the origin, and
-//! z between two heights, in its own space. What the outline goes around an even number of times is outside.
+//! Prism: in local space, all (x, y, z) with (x, y) inside an outline, or (x/z, y/z) if it narrows to the
+//! origin, and z between two heights. The even-odd rule applies.
 //!
-//! A wall is made of lines, one through each place of the outline; on which side of such a line the ray passes
-//! is a polynomial of the outline's own degree, so the ray meets the walls where the outline changes sides.
+//! A wall is ruled by lines, one through each point of the outline. The side on which the ray passes such a
+//! line is a polynomial of the degree of the outline, so the ray crosses the walls where the sign of that
+//! polynomial changes along the outline.
 
 mod ends;
 mod ruled;
@@ -21,27 +22,27 @@ use wall::{aside, beside, tip};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prism {
-    /// Closed runs, no farther than 1 from the origin.
+    /// Closed runs, within 1 of the origin.
     pub outline: Outline,
-    /// It narrows to the origin, and widens again beyond.
+    /// Whether it narrows to the origin and widens again beyond it.
     pub conic: bool,
     /// From low to high, within −1 … 1.
     pub heights: [f64; 2],
-    /// Its ends are not seen, though it is as solid as ever.
+    /// Whether its ends are invisible; it is still solid.
     pub open: bool,
 }
 
-/// How far to the side a line goes of which it is asked first whether it meets a wall at all: as it costs
-/// time only, any would do.
+/// Sideways speed below which a line is first tested for missing all walls. Affects only the running time.
 const STEEP: f64 = 1.0 / 1024.0;
 
-/// A line that is less steep to a wall may go its way or against it, as far as a look at the place tells; nor is
-/// one in a wall moved any farther where that moves it from there more slowly.
+/// Cosine below which the line's direction relative to a wall cannot be determined from the normal at one
+/// point. Also limits how far a line in a wall is displaced, where the displacement moves it away from the
+/// wall more slowly than this.
 const GRAZING: f64 = 1e-6;
 
 impl Prism {
-    /// Parts of the line between walls, in order; and if it lies in a wall, as far as rounding tells, how far it
-    /// has to be moved at least.
+    /// Returns the parts of the line between walls, in order, and, if it lies in a wall within rounding, its
+    /// minimum displacement.
     fn spans(&self, ray: &LocalRay) -> (Spans, Option<f64>) {
         let tilt = (ray.direction.x * ray.direction.x + ray.direction.y * ray.direction.y).sqrt();
         if !self.conic
@@ -86,13 +87,14 @@ impl Prism {
         (spans, ruled.beside.get())
     }
 
-    /// The normal of a wall, by that of its outline.
+    /// Returns the normal of a wall, given that of the outline.
     fn normal(&self, [x, y]: Point, [a, b]: Point) -> Vector {
         Vector::new(a, b, if self.conic { -(a * x + b * y) } else { 0.0 })
     }
 
-    /// Of a line that goes nearly straight up, where all of it between the ends is on one side of the walls;
-    /// or, as far as rounding tells, goes straight up: then what cannot be told is outside.
+    /// Returns the spans of a nearly vertical line, if all of it between the ends is on one side of the
+    /// walls. A line that is vertical within rounding always has a result: what is uncertain counts as
+    /// outside.
     fn upright(&self, ray: &LocalRay, tilt: f64) -> Option<(Spans, Option<f64>)> {
         let error = ray.blur_at(2.0) + 2.0 * tilt + 16.0 * U;
         let told = self.outline.is_inside([ray.nearest.x, ray.nearest.y], error);
@@ -104,10 +106,11 @@ impl Prism {
         Some((spans, told.is_none().then_some(0.0)))
     }
 
-    /// Of a line through the origin, as good as: it comes from inside and goes on inside, or never is.
+    /// Returns the spans of a line through the origin, within rounding: it is inside both before and after
+    /// the origin, or outside throughout.
     ///
-    /// **Error:** at the height z it is `off`/z from its place in the outline, which is less than that is
-    /// clear of the outline. Where that is so nowhere in the body, it lies in a wall.
+    /// **Error:** at height z, the line is `off`/z from its point in the outline, which is less than the
+    /// clearance of that point. If there is no such z in the body, the line lies in a wall.
     fn through_apex(&self, ray: &LocalRay) -> (Spans, Option<f64>) {
         let (n, d) = (ray.nearest, ray.direction);
         let mut spans = Spans::new();
@@ -131,8 +134,8 @@ impl Prism {
         (spans, None)
     }
 
-    /// How far a line through the origin has to be moved to be told from the walls that it lies in, which are all
-    /// that a place of the outline is on.
+    /// Returns how far a line through the origin must be displaced to be separable from the walls that it
+    /// lies in, which are all those through `place` in the outline.
     #[cold]
     fn beside_walls(&self, ray: &LocalRay, place: Point) -> f64 {
         let aside = aside(ray);
@@ -153,7 +156,7 @@ impl Prism {
 /// Parts of a line.
 type Spans = SmallVec<[(Met, Met); 3]>;
 
-/// Walls are entered and left in turn.
+/// Pairs the crossings: entries and exits alternate.
 fn pair(walls: &[Wall], spans: &mut Spans) {
     for pair in walls.chunks_exact(2) {
         spans.push((pair[0].met(false), pair[1].met(true)));
@@ -161,15 +164,15 @@ fn pair(walls: &[Wall], spans: &mut Spans) {
 }
 
 impl Prism {
-    /// Whether a place on the line lies within the walls, if rounding tells.
+    /// Returns whether a point on the line lies within the walls; `None` if rounding decides.
     fn is_within(&self, ray: &LocalRay, s: f64) -> Option<bool> {
         let off = ray.blur_at(s) + 16.0 * U * (1.0 + s.abs());
         let (place, error) = self.seen_from_tip(ray.at(s), off)?;
         self.outline.is_inside(place, error)
     }
 
-    /// Where a point is in the outline, and how far it may be off there, if it is by `off`; `None` too near to
-    /// the tip.
+    /// Projects a point into the outline; also returns its error there, given the error `off` of the point.
+    /// `None` if it is too near to the tip.
     fn seen_from_tip(&self, point: Vector, off: f64) -> Option<(Point, f64)> {
         if !self.conic {
             return Some(([point.x, point.y], off));
@@ -180,7 +183,8 @@ impl Prism {
         (error > 0.0).then_some((place, error))
     }
 
-    /// What of the line between two walls is between the ends. What rounding cannot tell from a miss is missed.
+    /// Clips the part of the line between two walls to the two ends. What rounding cannot separate from a
+    /// miss is dropped.
     fn cut(&self, ray: &LocalRay, [first, last]: [Met; 2], walls: (Met, Met)) -> Option<[Met; 2]> {
         let (enter, leave) = walls;
         let is_within = |s: f64| self.is_within(ray, s);
@@ -204,7 +208,7 @@ impl Prism {
 }
 
 impl Prism {
-    /// Whether the line, between two places, may be as near to the outline as a box about it.
+    /// Returns whether the line, between two positions, may approach the bounding box of the outline.
     fn may_be_near(&self, ray: &LocalRay, from: f64, to: f64) -> bool {
         let (n, d) = (ray.nearest, ray.direction);
         let off = ray.blur_at(2.0) + 16.0 * U;
@@ -270,7 +274,7 @@ impl Local for Prism {
         }
     }
 
-    /// At an end certainly within the walls, or certainly apart from both and on one wall alone.
+    /// Known at an end certainly within the walls, or certainly apart from both ends on a single wall.
     fn part_at(&self, ray: &LocalRay, s: f64, leaving: bool) -> Option<u32> {
         let point = ray.at(s);
         let off = 64.0 * (ray.blur_at(s) + U * (1.0 + s.abs())) + 2.0 * ray.tolerance;

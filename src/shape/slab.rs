@@ -1,7 +1,7 @@
-//! Slab: what of a line lies between two planes across an axis of local space.
+//! Slabs: the part of a line between two planes perpendicular to an axis of local space.
 //!
-//! A line that cannot be told from one in such a plane is inside of one, and not of the other, of two solids that
-//! touch there: as if it were moved by [`NUDGE`], a way of the world that is the same for all.
+//! If rounding cannot separate a line from a plane in which two solids touch, the line is inside exactly one
+//! of them: the one that the point lies in after moving by [`NUDGE`], a fixed direction in world space.
 //!
 //! **Source:** H. Edelsbrunner, E. Mücke, "Simulation of simplicity", ACM Transactions on Graphics 9(1),
 //! 1990, p. 66.
@@ -11,39 +11,40 @@ use super::body::{InWorld, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::placement::Rise;
 
-/// 1, ∛3 and ∛5: at right angles to no way that scenes have, not even to one turned by 30°, as 1 and √3 are.
+/// 1, ∛3 and ∛5: not perpendicular to any direction common in scenes, including rotations by 30°, which
+/// contain 1 and √3.
 pub(super) const NUDGE: Vector = Vector::new(1.0, 1.442_249_570_307_408_3, 1.709_975_946_676_697);
 
-/// Whether what is moved a little from a plane comes to the side that `normal`, a way of the world, points away
-/// from.
+/// Returns whether a point in a plane is on the inner side of the plane after the nudge; `normal` is the
+/// outward normal in world space.
 #[cold]
 pub fn falls_inside(normal: Vector) -> bool {
     normal.dot(NUDGE) < 0.0
 }
 
-/// [`NUDGE`] as the body sees it.
+/// Returns [`NUDGE`] in local space.
 #[cold]
 pub(super) fn nudge(ray: &LocalRay) -> Vector {
     ray.in_world.map_or(NUDGE, |world| world.placed.placement.local_from_world * NUDGE)
 }
 
-/// Two planes across an axis.
+/// Two planes perpendicular to an axis.
 pub(super) struct Slab {
     pub axis: usize,
     pub heights: [f64; 2],
-    /// The body ends nearer than half of this to the local origin.
+    /// Twice the distance from the local origin within which the body lies.
     pub far: f64,
-    /// How far the heights may be off, as the body holds them.
+    /// Error bound of the stored heights.
     pub off: f64,
-    /// The parts that the lower and the higher are of the surface.
+    /// Part numbers of the lower and the upper plane.
     pub parts: [u32; 2],
 }
 
 impl Slab {
-    /// Where the line enters and leaves.
+    /// Returns the entry and exit of the line.
     ///
-    /// **Error:** B + 2u·(far/2 + |z|) over |d.z|, with B the line's blur there; of a line that goes nearly along,
-    /// that of [`Level`]. What is certainly met beyond all of the body is met nowhere.
+    /// **Error:** B + 2u·(far/2 + |z|) over |d.z|, with B the line's blur there; for a line nearly parallel
+    /// to the planes, that of [`Level`]. A crossing that is certainly beyond the body is put at ±∞.
     pub fn chord(&self, ray: &LocalRay) -> Option<(Met, Met)> {
         let Self { axis, heights: [low, high], far, parts: [base, cap], .. } = *self;
         let (place, speed) = (ray.nearest[axis], ray.direction[axis]);
@@ -66,7 +67,7 @@ impl Slab {
         })
     }
 
-    /// Of a line that goes nearly along the planes.
+    /// [`Self::chord`] for a line nearly parallel to the planes.
     #[cold]
     #[inline(never)]
     fn chord_along(&self, ray: &LocalRay) -> Option<(Met, Met)> {
@@ -90,31 +91,32 @@ impl Slab {
     }
 }
 
-/// A line is asked how it lies to a plane in the world where rounding may move its crossing by a
-/// sixty-fourth of the body.
+/// Lines are classified against a plane in world space where rounding may move the crossing by 1/64 of the
+/// body.
 pub(super) const NEARLY_ALONG: f64 = 64.0;
 
-/// How far a plane may be off as a line at `place` along its axis sees it.
+/// Error of a plane's position for a line at `place` along its axis.
 fn rounding(far: f64, place: f64) -> f64 {
     2.0 * U * (0.5 * far + place.abs())
 }
 
-/// How a line that goes nearly along a plane lies to it, as the world has it: of two solids that touch there, both
-/// are told the same.
+/// Position of a nearly parallel line relative to a plane, determined in world space, so that two solids that
+/// touch there get the same answer.
 pub(super) enum Level {
-    /// In the plane, as far as is known of a ray whose numbers were rounded.
+    /// In the plane, within the rounding of the ray.
     In,
-    /// As far as the body goes, up from it or down, by the sign.
+    /// On one side throughout the body: above if positive, below if negative.
     Beside(f64),
-    /// It goes through the plane, up or down.
+    /// Crosses the plane, upward or downward.
     Through { s: f64, error: f64, rise: f64 },
 }
 
-/// So many roundings may be behind the start and the direction of a ray that was meant to lie in a plane. One that
-/// leaves the plane by so small a slope may be told to be in it: it goes along the surface, and brings it no light.
+/// Number of roundings that may be in the start and direction of a ray that was meant to lie in a plane. A
+/// ray that leaves the plane at such a small slope may be classified as in it: it runs along the surface and
+/// contributes no light to it.
 const MEANT: f64 = 16.0 * U;
 
-/// How far from a plane a line may be that is told to lie in it, as the body sees it.
+/// Returns how far from a plane, in local space, a line classified as lying in it may be.
 pub(super) fn meant(ray: &LocalRay) -> f64 {
     ray.in_world.map_or(0.0, |InWorld { ray, placed }| {
         let greatest = ray.origin.abs().max(placed.placement.centre.abs()).max_element();
@@ -123,15 +125,16 @@ pub(super) fn meant(ray: &LocalRay) -> f64 {
     })
 }
 
-/// Whether a line starts as near to a plane, and goes as level, as rounding makes them of one that was meant to lie
-/// there: the ray's own rounding, and that of the plane, which may be `off`.
+/// Returns whether a line's start is as near to a plane, and its direction as parallel, as rounding leaves a
+/// line that was meant to lie in it. This includes the ray's own rounding and that of the plane, which may be
+/// `off`.
 #[cold]
 pub(super) fn lies_in(rise: &Rise, off: f64) -> bool {
     rise.up.abs() <= MEANT * rise.up_size + off && rise.speed.abs() <= MEANT * rise.speed_size
 }
 
 impl Level {
-    /// Of a body that goes no farther than `far`, whose end may be `off`.
+    /// Classifies a line for a body that extends to at most `far` and whose end may be `off`.
     #[cold]
     pub fn of(ray: &LocalRay, axis: usize, end: f64, (far, off): (f64, f64)) -> Self {
         let in_world = ray.in_world.and_then(|InWorld { ray, placed }| {
@@ -156,7 +159,8 @@ impl Level {
         }
     }
 
-    /// Of a line that is `up` from the plane at `start`. **Error:** `off` over the speed, and 4u·(|start| + |s|).
+    /// Classifies a line that is `up` from the plane at `start`. **Error:** `off` over the speed, and
+    /// 4u·(|start| + |s|).
     fn beside_or_through(up: f64, speed: f64, start: f64, (far, off): (f64, f64)) -> Self {
         // What could as well not rise at all is judged where it is nearest.
         if far * speed.abs() <= off {

@@ -1,9 +1,9 @@
-//! Sphere: |P − C| = r. Outward is away from the centre.
+//! Sphere: |P − C| = r. The outside is away from the centre.
 
 use super::{Approach, Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
 use crate::math::{Real, Vector, Vector3, reciprocal_power_of_two};
 
-/// **Invariant:** `radius` > 0.
+/// A sphere. **Invariant:** `radius` > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
     pub centre: Vector,
@@ -16,10 +16,11 @@ impl Sphere {
         chord(self.centre, self.radius, ray)
     }
 
-    /// The point of the sphere where `ray` crosses it at `t`: C + r·n.
+    /// Returns the point where `ray` crosses the sphere at `t`: C + r·n.
     ///
-    /// Its distance to the sphere is at most 4u·r (the length of n, the product) and u·|n|·|P| (the
-    /// sum); the same again is for the start of the next ray, and 4u·r for its reading by [`chord`].
+    /// Its distance to the sphere is at most 4u·r (length of n, product) plus u·|n|·|P| (sum). The error
+    /// counts this twice, the second time for the start of the next ray, and adds 4u·r for the evaluation by
+    /// [`chord`].
     #[inline(always)]
     pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let rough = ray.at(t);
@@ -35,11 +36,12 @@ impl Sphere {
         SurfacePoint { point, normal, error, face: 0 }
     }
 
-    /// The point of a planet below or above `rough`, which is nearly on it: what is left of
-    /// |P − C| − r is taken off along the normal.
+    /// Returns the surface point of a planet near `rough`, which is almost on it: the residual of |P − C| − r
+    /// is subtracted along the normal.
     ///
-    /// Its distance to the sphere is at most u·|n|·|P| (the sum), 6u of what was taken off and
-    /// 16u²·r (see [`fine_power`]); the same again is for the start of the next ray and its reading.
+    /// Its distance to the sphere is at most u·|n|·|P| (sum), 6u of the residual, and 16u²·r (see
+    /// [`fine_power`]). The error counts this twice, the second time for the start of the next ray and its
+    /// evaluation.
     #[cold]
     fn ground(&self, rough: Vector) -> SurfacePoint {
         let from_centre = rough - self.centre;
@@ -57,7 +59,7 @@ impl Sphere {
         Bounds::around(self.centre, [-extent, extent], extent * (8.0 * U), rounding)
     }
 
-    /// Positive inside: r − |P − C|.
+    /// Returns r − |P − C|, positive inside.
     pub fn signed_distance(&self, point: Vector) -> f64 {
         let scale = reciprocal_power_of_two(self.radius);
         self.radius - ((point - self.centre) * scale).length() / scale
@@ -68,29 +70,29 @@ impl Sphere {
     }
 }
 
-/// The chord of a sphere; `None` when the ray's line misses or touches it.
+/// Returns the chord of a sphere; `None` if the ray's line misses or touches it.
 ///
-/// With f = S − C, b = f·D, q = f − b·D and m = |q|, half the chord is h = √((r − m)(r + m)). The
-/// crossing farther from the start is at |b| + h, on the side of −b; the nearer one is the constant
-/// term |f|² − r² divided by it, so its sign, whether the start is inside, is right up to 4u·r of
-/// the surface, however flat the ray.
+/// With f = S − C, b = f·D, q = f − b·D and m = |q|, half the chord is h = √((r − m)(r + m)). The crossing
+/// farther from the start is at |b| + h, on the side of −b. The nearer crossing is the constant term |f|² −
+/// r² divided by it, so its sign, which says whether the start is inside, is correct down to 4u·r from the
+/// surface, however flat the ray.
 ///
-/// **Domain:** radii from 1e-150 to 1e150, starts to 1e8 radii away. **Error:** see [`Roots::chord`].
+/// **Domain:** radii from 1e-150 to 1e150, starts up to 1e8 radii away. **Error:** see [`Roots::chord`].
 ///
-/// **Source:** Haines, Günther, Akenine-Möller, Ray Tracing Gems (2019), ch. 7; the pair of roots:
-/// N. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §1.8.
+/// **Source:** Haines, Günther, Akenine-Möller, Ray Tracing Gems (2019), ch. 7; the pair of roots: N. Higham,
+/// Accuracy and Stability of Numerical Algorithms, 2nd ed., §1.8.
 #[inline(always)]
 pub fn chord<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Chord<R>> {
     Some(roots(centre, radius, ray)?.chord())
 }
 
-/// As [`chord`], its error bounds not yet computed.
+/// Returns the roots for [`chord`], without computing their error bounds.
 #[inline(always)]
 pub fn roots<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Roots<R>> {
     Some(Roots::of(&ray.slide(centre), radius)?.refined(centre, radius, ray))
 }
 
-/// As [`roots`], but `None` too when the ray starts outside and moves away.
+/// Returns [`roots`], but also `None` if the ray starts outside and moves away.
 #[inline(always)]
 pub fn roots_ahead<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Roots<R>> {
     let near = ray.slide(centre);
@@ -100,8 +102,8 @@ pub fn roots_ahead<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Optio
     Some(Roots::of(&near, radius)?.refined(centre, radius, ray))
 }
 
-/// Whether a sphere is so much larger than the distance of a place from the origin that roundings
-/// of r would blur what is there.
+/// Returns whether the sphere is so much larger than the distance of `place` from the origin that roundings
+/// of r would blur the surface there.
 #[inline(always)]
 fn is_planet<R: Real>(radius: R, place: R::Vector) -> bool {
     let is_larger = |axis| radius > R::from_f64(1024.0) * place.component(axis).abs();
@@ -109,11 +111,11 @@ fn is_planet<R: Real>(radius: R, place: R::Vector) -> bool {
     (0..3).all(is_larger) && square > R::SAFE_SQUARES.0 && square < R::SAFE_SQUARES.1
 }
 
-/// |S − C|² − r² in twice the digits, rounded once: within u of itself and 32u²·r² of the truth,
+/// |S − C|² − r² in twice the precision, rounded once: within u of itself plus 32u²·r² of the exact value,
 /// where S is within 2r of C.
 ///
-/// **Source:** T. Ogita, S. Rump, S. Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26
-/// (2005), algorithm 5.3; T. Dekker, Numerische Mathematik 18 (1971).
+/// **Source:** T. Ogita, S. Rump, S. Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005),
+/// algorithm 5.3; T. Dekker, Numerische Mathematik 18 (1971).
 fn fine_power<R: Real>(start: R::Vector, centre: R::Vector, radius: R) -> R {
     let (square, mut rest) = square(radius);
     let (mut sum, mut low) = (-square, R::ZERO);
@@ -130,14 +132,14 @@ fn fine_power<R: Real>(start: R::Vector, centre: R::Vector, radius: R) -> R {
     sum + (low + rest)
 }
 
-/// a + b, and what the sum rounds off.
+/// a + b, and the rounding error of the sum.
 fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// a², and what it rounds off.
+/// a², and its rounding error.
 fn square<R: Real>(a: R) -> (R, R) {
     let square = a * a;
     let spread = a * R::SPLITTER;
@@ -146,42 +148,42 @@ fn square<R: Real>(a: R) -> (R, R) {
     (square, ((high * high - square) + R::from_f64(2.0) * high * low) + low * low)
 }
 
-/// What a map into the sphere's space adds to the errors there.
+/// Error that a transformation into the sphere's space adds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Blur<R: Real = f64> {
-    /// Across the ray.
+    /// Error across the ray.
     pub miss: R,
-    /// Along the ray.
+    /// Error along the ray.
     pub along: R,
-    /// Of |f|² − r².
+    /// Error of |f|² − r².
     pub power: R,
-    /// Of every distance, relative.
+    /// Relative error of every distance.
     pub scale: R,
 }
 
-/// The two crossings, and what their error bounds are made of.
+/// The two crossings, and the terms of their error bounds.
 #[derive(Debug, Clone, Copy)]
 pub struct Roots<R: Real = f64> {
     enter: R,
     leave: R,
-    /// h.
+    /// h, half the chord.
     half: R,
-    /// m.
+    /// m, the distance of the line from the centre.
     miss: R,
     along: R,
-    /// |f|² − r², and what its roundings are proportional to: 6|f|² + 2r², where nothing is refined.
+    /// |f|² − r², and the quantity its roundings are proportional to: 6|f|² + 2r² where nothing is refined.
     power: R,
     squares: R,
-    /// All of these are lengths in this unit, in terms of the ray's.
+    /// The unit of all these lengths, in the ray's units.
     unit: R,
 }
 
 impl Roots {
-    /// The crossing at `t`, one of the two, with a bound that is not the tightest but easily had;
-    /// `None` so near the start that only the tightest tells whether it is ahead.
+    /// Returns the crossing at `t`, one of the two, with a loose but cheap bound; `None` so near the start
+    /// that only the tight bound can decide whether it is ahead.
     ///
-    /// With S = |b| + m + h ≥ |f|, r: the far crossing's bound F is at most √(14u)·S + 40u·S, and
-    /// the near one's, where the far one is at S/1024 or beyond, 17·1024·u·S + F + 2u·S and a little
+    /// With S = |b| + m + h ≥ |f|, r: the far crossing's bound F is at most √(14u)·S + 40u·S. The near one's
+    /// bound, where the far one is at S/1024 or beyond, is at most 17·1024·u·S + F + 2u·S and a little more
     /// (see [`Roots::chord`]). Both are below S/2²⁰.
     #[inline(always)]
     pub fn roughly(&self, t: f64) -> Option<Crossing> {
@@ -208,7 +210,8 @@ impl<R: Real> Roots<R> {
         }
     }
 
-    /// `miss` ≥ 0 is the distance of the line to the centre, `start_squared` that of the start.
+    /// Solves for the crossings. `miss` ≥ 0 is the distance of the line to the centre, `start_squared` the
+    /// squared distance of the start.
     #[inline(always)]
     pub(super) fn solve(along: R, miss: R, radius: R, start_squared: R, unit: R) -> Option<Self> {
         let half = ((radius - miss) * (radius + miss)).sqrt();
@@ -227,8 +230,8 @@ impl<R: Real> Roots<R> {
         Some(Self { enter, leave, half, miss, along, power, squares, unit })
     }
 
-    /// The nearer crossing, computed anew where the ray starts just above or below the ground of a
-    /// planet: there |f|² − r² is all rounding.
+    /// Recomputes the nearer crossing where the ray starts just above or below the ground of a planet: there
+    /// |f|² − r² is dominated by rounding.
     #[inline(always)]
     fn refined(self, centre: R::Vector, radius: R, ray: &Ray<R>) -> Self {
         let number = R::from_f64;
@@ -249,7 +252,7 @@ impl<R: Real> Roots<R> {
         Self { enter, leave, power, squares, ..self }
     }
 
-    /// Sizes whose squares leave the range of exponents: all is scaled by a power of two.
+    /// Solves for sizes whose squares overflow or underflow: all values are scaled by a power of two.
     #[cold]
     fn rescaled(near: &Approach<R>, radius: R) -> Option<Self> {
         let size = (0..3).fold(radius, |size, axis| size.max(near.start.component(axis).abs()));
@@ -273,16 +276,16 @@ impl<R: Real> Roots<R> {
         self.leave * self.unit
     }
 
-    /// Adds the error bounds, u the roundoff and A = |b| + m ≥ |f|:
-    /// * h² is off by δ = u·(14·m·A + 4·h²) + (16·u·A)², so h by min(δ/h, √δ) + 8u·h;
-    /// * the far crossing by F = that + 16u·A;
-    /// * |f|² − r² by P = u·(6|f|² + 2r² + 9·||f|² − r²|), so the near crossing by
-    ///   (P + |near|·F) / (far − F) + 2u·|near|; or, when far ≤ 2F, by F and the distance to the
-    ///   same crossing found as a sum.
+    /// Returns the chord with error bounds, u the roundoff and A = |b| + m ≥ |f|:
+    /// * h² is off by δ = u·(14·m·A + 4·h²) + (16·u·A)², so h is off by min(δ/h, √δ) + 8u·h;
+    /// * the far crossing is off by F = that + 16u·A;
+    /// * |f|² − r² is off by P = u·(6|f|² + 2r² + 9·||f|² − r²|), so the near crossing is off by (P +
+    ///   |near|·F) / (far − F) + 2u·|near|; or, if far ≤ 2F, by F and the distance to the same crossing found
+    ///   as a sum.
     ///
-    /// The bounds of a map before it (`blur`) are added to A's, h²'s and P's.
+    /// The bounds of a preceding transformation (`blur`) are added to those of A, h² and P.
     ///
-    /// The terms are those of [`Ray::slide`] and of γₙ = n·u/(1 − n·u) for sums and products.
+    /// The terms follow from [`Ray::slide`] and from γₙ = n·u/(1 − n·u) for sums and products.
     #[inline]
     pub fn chord(&self) -> Chord<R> {
         let none = Blur { miss: R::ZERO, along: R::ZERO, power: R::ZERO, scale: R::ZERO };

@@ -1,10 +1,10 @@
-//! Superellipsoid: ((|x|^2/e + |y|^2/e)^e/n + |z|^2/n)^n/2 ≤ 1, its *gauge*, which grows in proportion to
-//! the distance from the origin. `east` is e, `north` n.
+//! Superellipsoid: the *gauge* ((|x|^2/e + |y|^2/e)^e/n + |z|^2/n)^n/2 is at most 1. The gauge is
+//! proportional to the distance from the origin. `east` is e, `north` is n.
 //!
-//! No power is taken of a number above 1 but to an exponent below 1, so however small the exponents, there
-//! is nothing that overflows or vanishes. Where both are 2 or less, the gauge is a norm, and convex; else
-//! the body is hollowed out toward its axes, and a line may cross it often, but only where it is in the *hull*,
-//! the body of the same exponents or 2. Where both are 2 or more, the gauge is concave in each eighth of space.
+//! Numbers above 1 are raised only to exponents below 1, so that nothing overflows or vanishes, however small
+//! the exponents. If both are at most 2, the gauge is a norm and convex. Otherwise, the body is concave
+//! toward its axes and a line may cross it often, but only within the *hull*, the body whose exponents are
+//! limited to 2. If both are at least 2, the gauge is concave in each octant.
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
@@ -15,16 +15,17 @@ use crate::math::roots::bracket::{Root, Sample};
 use crate::math::roots::convex::{Dip, Tangent, dip};
 use crate::math::roots::monotone::Walk;
 
-/// The line is followed in a box so much greater than the body's.
+/// Size, relative to the body's, of the box in which the line is searched.
 const AROUND: f64 = 1.0625;
 
-/// A greater gauge is as good as this.
+/// Upper limit of a gauge; larger values are clamped.
 const MOST: f64 = 1e100;
 
-/// From this part on, the two sides of a plate that is too thin to be told from its plane, axis by axis.
+/// First part number of the two sides of plates that are too thin to be separated from their planes, axis by
+/// axis.
 const PLATES: u32 = 1;
 
-/// Exponents that its equation does not name but its slope takes: p − 1, q − 1 and q − p.
+/// Exponents that occur only in the derivatives: p − 1, q − 1 and q − p.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Slopes {
     round: Power,
@@ -36,38 +37,38 @@ struct Slopes {
 pub struct Superellipsoid {
     norms: Norms,
     slopes: Slopes,
-    /// Of the least convex body of such a kind around it.
+    /// The smallest convex body of this kind that contains it.
     hull: Norms,
 }
 
-/// A gauge.
+/// The exponents of a gauge, and its two norms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Norms {
     east: f64,
     north: f64,
-    /// Of x and y, with p = 2/e.
+    /// Norm of x and y, with p = 2/e.
     round: Norm,
-    /// Of that and z, with q = 2/n.
+    /// Norm of that and z, with q = 2/n.
     tall: Norm,
 }
 
-/// (aᵖ + bᵖ)^1/p for a, b ≥ 0.
+/// The norm (aᵖ + bᵖ)^1/p for a, b ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Norm {
-    /// p
+    /// p.
     exponent: f64,
     power: Power,
     root: Power,
 }
 
 impl Norm {
-    /// With 1/p = `share`.
+    /// Builds the norm with 1/p = `share`.
     fn new(share: f64) -> Self {
         let exponent = 1.0 / share;
         Self { exponent, power: Power::new(exponent), root: Power::new(share) }
     }
 
-    /// The norm, and what part of the sum each of the two is.
+    /// Returns the norm, and the fraction of the sum that each of the two contributes.
     fn of(self, a: f64, b: f64) -> (f64, [f64; 2]) {
         let (most, least) = if a > b { (a, b) } else { (b, a) };
         if most == 0.0 {
@@ -80,7 +81,7 @@ impl Norm {
     }
 }
 
-/// The gauge at a point of no negative coordinate, and what part of it each coordinate makes.
+/// The gauge at a point with no negative coordinate, and the fraction that each coordinate contributes.
 struct Gauge {
     value: f64,
     parts: Vector,
@@ -95,7 +96,7 @@ impl Norms {
         self.east.max(self.north) <= 2.0
     }
 
-    /// In each eighth of space.
+    /// Returns whether the gauge is concave in each octant.
     fn is_concave(&self) -> bool {
         self.east.min(self.north) >= 2.0
     }
@@ -106,14 +107,15 @@ impl Norms {
         Gauge { value, parts: Vector::new(of_round * of_x, of_round * of_y, of_z) }
     }
 
-    /// How far rounding may move a gauge, over its value. With 1/p = e/2, the ratio's power is off by 2p + 5
-    /// roundings and makes half of the sum at most; the root of the sum by e/2 as many and 1, and by 5 + e/2
-    /// of its own; of the second norm likewise.
+    /// Relative rounding error of a gauge. With 1/p = e/2, the power of the ratio is off by 2p + 5 roundings
+    /// and is at most half of the sum; the root of the sum is off by e/2 times as many plus 1, and by 5 + e/2
+    /// of its own; likewise for the second norm.
     fn rounding(&self) -> f64 {
         U * (16.0 + 4.0 * self.east + 4.0 * self.north)
     }
 
-    /// How far the line's blur may move a gauge. A norm of vectors of length `blur` is √3 of it at most.
+    /// Error that the line's blur causes in a gauge. A norm of vectors of length `blur` is at most √3 times
+    /// that.
     fn blurred(&self, place: Vector, Gauge { value, parts }: Gauge, blur: f64) -> f64 {
         if self.is_convex() {
             return 2.0 * blur;
@@ -157,7 +159,7 @@ impl Norms {
 }
 
 impl Superellipsoid {
-    /// Both exponents are more than 0.
+    /// Builds a superellipsoid; both exponents must be positive.
     pub fn new(east: f64, north: f64) -> Self {
         let norms = Norms::new(east, north);
         let (p, q) = (norms.round.exponent, norms.tall.exponent);
@@ -169,7 +171,8 @@ impl Superellipsoid {
         Self { norms, slopes, hull: Norms::new(east.min(2.0), north.min(2.0)) }
     }
 
-    /// The least and the greatest of each coordinate's size between two places; none changes its sign there.
+    /// Minimum and maximum absolute value of each coordinate between two positions; none changes its sign
+    /// there.
     fn sizes(ray: &LocalRay, Interval { low, high }: Interval) -> [Vector; 2] {
         let far = high.max(-low);
         let (a, b) = (ray.at(low).abs(), ray.at(high).abs());
@@ -177,15 +180,15 @@ impl Superellipsoid {
         [(a.min(b) - blur).max(Vector::ZERO), a.max(b) + blur]
     }
 
-    /// What the gauge may be, less 1: it grows with each coordinate's size.
+    /// Range of the gauge less 1: it increases with the absolute value of each coordinate.
     fn range(&self, sizes: [Vector; 2]) -> Interval {
         let [least, most] = sizes.map(|place| self.norms.gauge(place).value);
         let rounding = self.norms.rounding();
         Interval { low: least * (1.0 - rounding) - 1.0, high: most * (1.0 + rounding) - 1.0 }
     }
 
-    /// What has the sign of the gauge's slope: with N = (xᵖ + yᵖ)^1/p,
-    /// N^(q−p)·(xᵖ⁻¹x′ + yᵖ⁻¹y′) + zᵠ⁻¹z′. `ways` are the signs of the coordinates.
+    /// Range of an expression with the sign of the gauge's slope: with N = (xᵖ + yᵖ)^1/p, N^(q−p)·(xᵖ⁻¹x′ +
+    /// yᵖ⁻¹y′) + zᵠ⁻¹z′. `ways` are the signs of the coordinates.
     fn slopes(&self, ray: &LocalRay, ways: Vector, [least, most]: [Vector; 2]) -> Interval {
         // As much as a product of `Power` is rounded at most.
         let wide = |Interval { low, high }: Interval| Interval {
@@ -206,7 +209,7 @@ impl Superellipsoid {
         power(round, tall_over_round) * (slope(0, across) + slope(1, across)) + slope(2, tall)
     }
 
-    /// Where the line is in the box around the body.
+    /// Returns where the line is in the box around the body.
     fn around(&self, ray: &LocalRay) -> Option<(f64, f64)> {
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
         for axis in 0..3 {
@@ -224,7 +227,7 @@ impl Superellipsoid {
         (enter < leave).then_some((enter, leave))
     }
 
-    /// Where the line enters what is convex, or leaves it.
+    /// Returns where the line enters or leaves a convex body.
     fn end(&self, ray: &LocalRay, dip: &Dip, leaving: bool) -> Met {
         let tangent = |s| self.norms.tangent(ray, s);
         let Root { t, error } = match leaving {
@@ -234,12 +237,12 @@ impl Superellipsoid {
         Met { t, error, leaving, part: 0 }
     }
 
-    /// Where the line is in the hull, at most; it is certainly outside at both ends.
+    /// Returns an enclosure of where the line is in the hull; the line is certainly outside at both ends.
     fn in_hull(&self, ray: &LocalRay) -> Option<Dip> {
         dip(|s| self.hull.tangent(ray, s), self.around(ray)?)
     }
 
-    /// Its parts in the eight corners of space are met one by one.
+    /// Finds the crossings of a body that is not convex, octant by octant.
     fn hollow(&self, ray: &LocalRay, found: &mut Crossings) {
         let Some((low, high)) = self.in_hull(ray).map(|dip| dip.around()) else { return };
         let zero = |axis: usize| -ray.nearest[axis] / ray.direction[axis];
@@ -277,8 +280,9 @@ impl Superellipsoid {
         self.plates(ray, (low, high), found);
     }
 
-    /// Where the exponents are great, the body is a plate in the plane of two axes, so thin that of no number beside
-    /// 0 the third coordinate is in it; a line that passes the plane there passes it all the same.
+    /// Adds the crossings with plates. If the exponents are large, the body is a plate in the plane of two
+    /// axes, so thin that no third coordinate except 0 is inside; a line through that plane crosses it
+    /// nevertheless.
     fn plates(&self, ray: &LocalRay, (low, high): (f64, f64), found: &mut Crossings) {
         let walked = found.len();
         for axis in 0..3 {
@@ -357,7 +361,7 @@ impl Local for Superellipsoid {
         Height { value: value - 1.0, gradient, error: self.norms.rounding() * value }
     }
 
-    /// The dual norm; of a body that is hollowed out, that of the least convex one around it.
+    /// The dual norm; for a body that is not convex, that of the smallest convex body of this kind around it.
     ///
     /// **Source:** S. Boyd, L. Vandenberghe, *Convex Optimization* (2004), A.1.6: 1/p + 1/p′ = 1.
     fn extent(&self, along: Vector) -> (f64, f64) {
@@ -394,14 +398,14 @@ impl Local for Superellipsoid {
     }
 }
 
-/// (aᵖ + bᵖ)^1/p for 1/p = `share`; the greater of the two where that is 0.
+/// Returns (aᵖ + bᵖ)^1/p for 1/p = `share`; the larger of the two if that is 0.
 fn largest(a: f64, b: f64, share: f64) -> f64 {
     if share > 0.0 { Norm::new(share).of(a, b).0 } else { a.max(b) }
 }
 
 #[cfg(test)]
 impl Superellipsoid {
-    /// The gauge, less 1, in twice the digits.
+    /// The gauge, less 1, in twice the precision.
     pub(super) fn exactly(&self, [x, y, z]: super::exact::Triple) -> super::exact::Double {
         use super::exact::Double;
         let one = Double::of(1.0);

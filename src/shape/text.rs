@@ -1,7 +1,7 @@
-//! Text: letters side by side, each a prism of its own from z = −1 to 1, in one space; or all of them flat, a
-//! sheet at z = 0. Where they overlap they are one.
+//! Text: a row of letters in one local space, each a prism from z = −1 to 1; or, if flat, a sheet at z = 0.
+//! Overlapping letters are merged.
 //!
-//! **Invariant:** a line asks only the letters whose boxes it goes through.
+//! **Invariant:** a line is tested only against the letters whose boxes it passes through.
 //!
 //! **Source:** POV-Ray 3.7 manual, 3.4.5.1.16; how outlines are filled: the OpenType specification, `glyf`.
 
@@ -16,7 +16,7 @@ use super::tree::Tree;
 use super::{Bounds, U};
 use crate::math::Vector;
 
-/// A letter, and what of the parts is its own.
+/// A letter, and its range of part numbers.
 #[derive(Debug, Clone, PartialEq)]
 struct Letter {
     prism: Prism,
@@ -33,7 +33,7 @@ pub struct Text {
 }
 
 impl Text {
-    /// `None` of no letters, or of more than can be numbered.
+    /// Builds the text; `None` if there are no letters, or more than part numbers allow.
     pub fn new(outlines: Vec<Outline>, is_flat: bool) -> Option<Self> {
         if outlines.is_empty() {
             return None;
@@ -61,14 +61,14 @@ impl Text {
         Some(Self { letters, tree, reach, is_flat })
     }
 
-    /// The letter that a part is of, and what it calls it.
+    /// Returns the letter that a part belongs to, and the part's number within the letter.
     fn letter_of(&self, part: u32) -> (&Letter, u32) {
         let after = self.letters.partition_point(|letter| letter.first_part <= part);
         let letter = &self.letters[after.saturating_sub(1)];
         (letter, part - letter.first_part)
     }
 
-    /// Where a line meets flat letters; their outlines belong to them.
+    /// Returns the crossing of a line with flat letters, whose outlines belong to them.
     fn met_flat(&self, ray: &LocalRay) -> Option<Met> {
         let (met, drift) = on_the_plane(ray, self.reach)?;
         let Vector { x, y, .. } = ray.at(met.t);
@@ -103,7 +103,7 @@ impl Local for Text {
         unite(&mut spans, found);
     }
 
-    /// Where only one letter may be.
+    /// Known where only one letter is possible.
     fn part_at(&self, ray: &LocalRay, s: f64, leaving: bool) -> Option<u32> {
         if self.is_flat {
             return None;
@@ -133,7 +133,7 @@ impl Local for Text {
         })
     }
 
-    /// Not measured: as of shapes like it.
+    /// Not measured: assumed from similar shapes.
     fn price(&self) -> u64 {
         100 + 7 * u64::from(self.letters.len().max(1).ilog2())
     }

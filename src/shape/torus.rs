@@ -1,11 +1,12 @@
-//! Torus: √((ρ − `major`)² + z²) ≤ `minor`, ρ = √(x² + y²), in its own space. Where `minor` is more
-//! than `major` the tube runs into itself, and there is no surface inside of it.
+//! Torus: in local space, √((ρ − `major`)² + z²) ≤ `minor`, ρ = √(x² + y²). If `minor` exceeds `major`, the
+//! tube intersects itself, and the surface inside of it is omitted.
 //!
-//! A line crosses it where a polynomial of degree 4 is 0. Its coefficients are of the size of
-//! `major`², which is too much for a thin tube; so no polynomial is made: the height over the surface
-//! is itself taken apart into pieces that have one root each.
+//! The crossings of a line are the roots of a polynomial of degree 4, whose coefficients have the size of
+//! `major`². For a thin tube that is too large, so no polynomial is formed: the height over the surface is
+//! split into pieces with one root each.
 //!
-//! **Source:** for where it is convex S. Boyd, L. Vandenberghe, "Convex Optimization" (2004), 3.1.3 and 3.1.4.
+//! **Source:** for where it is convex, S. Boyd, L. Vandenberghe, "Convex Optimization" (2004), 3.1.3 and
+//! 3.1.4.
 
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay, Met};
@@ -13,20 +14,20 @@ use crate::math::Vector;
 use crate::math::elementary::cbrt;
 use crate::math::roots::bracket::{Sample, root};
 
-/// The line is followed so far to each side; the torus ends at 1.
+/// The line is searched from −`FAR` to `FAR`; the torus ends at 1.
 const FAR: f64 = 2.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Torus {
-    /// From the axis to the middle of the tube.
+    /// Distance from the axis to the middle of the tube.
     pub major: f64,
-    /// Of the tube; with `major` it makes 1.
+    /// Radius of the tube; `major` + `minor` is 1.
     pub minor: f64,
 }
 
-/// A torus and a line. As s goes from the closest approach to the centre, h = (ρ − R)² + z² − r² =
-/// s² + n² + R² − r² − 2Rρ, of which ρ = √(e²(s − c)² + m²) is convex: half of h′ is s − R·ρ′, and
-/// half of h″ is 1 − R·e²m²/ρ³. So h is convex but for the piece where ρ³ < R·e²m² around c.
+/// A line, and the torus that it is intersected with. With s measured from the closest approach to the
+/// centre, h = (ρ − R)² + z² − r² = s² + n² + R² − r² − 2Rρ, where ρ = √(e²(s − c)² + m²) is convex: half of
+/// h′ is s − R·ρ′, and half of h″ is 1 − R·e²m²/ρ³. So h is convex except where ρ³ < R·e²m², around c.
 struct Line<'a> {
     torus: &'a Torus,
     ray: &'a LocalRay<'a>,
@@ -38,17 +39,17 @@ struct Line<'a> {
     cross2: f64,
 }
 
-/// Where a line is certainly inside, on the two hands of where h is greatest; and a place between
-/// them, certainly outside.
+/// Points where the line is certainly inside, on either side of the maximum of h, and a point between them
+/// where it is certainly outside.
 struct Parts {
     left: Option<Found>,
     crest: Option<f64>,
     right: Option<Found>,
 }
 
-/// Where the line is at one place.
+/// Values at one point of the line.
 struct Place {
-    /// The height over the surface, with its slope.
+    /// Height over the surface, and its slope.
     height: Sample,
     /// h, and half of its first two derivatives.
     h: f64,
@@ -56,7 +57,7 @@ struct Place {
     bend: f64,
 }
 
-/// Minima or maxima of h.
+/// Whether to search for a minimum or a maximum of h.
 #[derive(Clone, Copy, PartialEq)]
 enum Seek {
     Dip,
@@ -105,8 +106,10 @@ impl<'a> Line<'a> {
         Parts { left, crest: crest.map(|crest| crest.s), right }
     }
 
-    /// **Error** of the height, a distance to a circle: how far the point may be off, and the
-    /// roundings of three squares and two roots.
+    /// Returns the values at `s`.
+    ///
+    /// **Error** of the height, which is a distance to a circle: the error of the point, and the roundings of
+    /// three squares and two roots.
     fn place(&self, s: f64) -> Place {
         let Torus { major, minor } = *self.torus;
         let (point, direction) = (self.ray.at(s), self.ray.direction);
@@ -130,9 +133,9 @@ impl<'a> Line<'a> {
         self.place(s).height
     }
 
-    /// A place between `low` and `high` where the line is certainly inside, for a dip, or outside, for
-    /// a crest; and a guess how far from it the surface is on each hand. `None` where there is no such
-    /// place, as far as rounding tells. h must be convex between them, for a crest concave.
+    /// Searches between `low` and `high` for a point where the line is certainly inside (dip) or outside
+    /// (crest). `None` if there is no such point, within rounding. h must be convex in that range for a dip,
+    /// and concave for a crest.
     fn seek(&self, what: Seek, (mut low, mut high): (f64, f64), start: f64) -> Option<Found> {
         let mut s = if low < start && start < high { start } else { 0.5 * (low + high) };
         let mut step = f64::INFINITY;
@@ -175,7 +178,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// What is known where a line is inside.
+/// A point found by [`Line::seek`], with h and half of its first two derivatives.
 struct Found {
     s: f64,
     h: f64,
@@ -184,7 +187,7 @@ struct Found {
 }
 
 impl Found {
-    /// Where h would be 0 if it were a parabola.
+    /// Returns where h would be 0 if it were a parabola, in the direction `way`.
     fn guess(&self, way: f64) -> f64 {
         let root = (self.turn * self.turn - self.bend * self.h).sqrt();
         self.s + (way * root - self.turn) / self.bend
@@ -192,8 +195,8 @@ impl Found {
 }
 
 impl Local for Torus {
-    /// The minima of h that lie inside, and the maximum between them that lies outside, part the line
-    /// into pieces with one root each, which the bracket finds.
+    /// The minima of h inside, and the maximum between them outside, divide the line into pieces with one
+    /// root each, which are then bracketed.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let line = Line::new(self, ray);
         let Parts { left, crest, right } = line.parts();

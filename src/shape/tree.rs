@@ -1,8 +1,8 @@
-//! A tree of boxes over the pieces of one body: which of them a line may meet.
+//! Bounding volume hierarchy over the pieces of one body; finds the pieces that a line may intersect.
 //!
-//! **In:** the pieces' bounds. **Out:** the tree, and the pieces in the order its leaves name them.
-//! **Invariant:** no box that the line passes within the given distance of is skipped; no recursion; the
-//! tree depends on the bounds and their order alone.
+//! **In:** the bounds of the pieces. **Out:** the tree, and the order of the pieces in its leaves.
+//! **Invariant:** never skips a box within the given distance of the line; no recursion; the tree depends
+//! only on the bounds and their order.
 //!
 //! **Source:** I. Wald, "On fast construction of SAH-based bounding volume hierarchies", RT 2007.
 
@@ -15,37 +15,38 @@ use super::body::LocalRay;
 use crate::math::Vector;
 
 const BINS: usize = 16;
-/// No more pieces in a leaf, unless they cannot be told apart or each costs much.
+/// Maximum number of pieces in a leaf, unless they cannot be separated or each is expensive.
 const LEAF: usize = 4;
-/// From here on splits are by halves.
+/// Depth from which on splits halve the number of pieces.
 const DEPTH: usize = 40;
-/// So many nodes are looked at for what touches a box; what is in others counts as a whole.
+/// Maximum number of nodes visited for pieces that touch a box; the remaining nodes count in full.
 const MOST_NODES: usize = 256;
-/// Stands for 1/0.
+/// Replaces 1/0.
 const STEEPEST: f64 = 1e300;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tree {
-    /// The first is the root; there is at least one.
+    /// The first node is the root; there is at least one.
     nodes: Vec<Node>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Node {
     bounds: Bounds,
-    /// A leaf's first piece, or the first of two nodes side by side.
+    /// A leaf's first piece, or the first of two adjacent child nodes.
     first: u32,
-    /// Pieces of a leaf; 0 of an inner node.
+    /// Number of pieces of a leaf; 0 for an inner node.
     count: u32,
 }
 
 impl Tree {
-    /// Of finite bounds, at least one.
+    /// Builds the tree and returns it with the order of the pieces. `bounds` are finite, and there is at
+    /// least one.
     pub fn build(bounds: &[Bounds]) -> (Self, Vec<u32>) {
         Self::with_leaves(bounds, LEAF)
     }
 
-    /// Over pieces of which each costs more than its box.
+    /// Builds the tree for pieces that each cost more than testing a box.
     pub fn of_costly(bounds: &[Bounds]) -> (Self, Vec<u32>) {
         Self::with_leaves(bounds, 1)
     }
@@ -73,7 +74,7 @@ impl Tree {
         (Self { nodes }, order)
     }
 
-    /// Shows `leaf` every run of pieces whose box the line passes within `slack` of.
+    /// Calls `leaf` with each run of pieces whose box lies within `slack` of the line.
     pub fn along(&self, ray: &LocalRay, slack: f64, mut leaf: impl FnMut(Range<usize>)) {
         let LocalRay { nearest, direction, .. } = *ray;
         let steepest = Vector::splat(STEEPEST);
@@ -97,7 +98,7 @@ impl Tree {
         }
     }
 
-    /// Shows `leaf` every run of pieces whose box touches the given one.
+    /// Calls `leaf` with each run of pieces whose box touches `wanted`.
     pub fn touching(&self, wanted: &Bounds, mut leaf: impl FnMut(Range<usize>)) {
         let mut stack: SmallVec<[u32; 64]> = SmallVec::new();
         stack.push(0);
@@ -113,7 +114,7 @@ impl Tree {
         }
     }
 
-    /// Of each node the sum of what its pieces weigh, to be asked by [`Self::weight_touching`].
+    /// Returns, for each node, the sum of the weights of its pieces, for [`Self::weight_touching`].
     pub fn weights(&self, piece: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut weights = vec![0.0; self.nodes.len()];
         // Children stand behind their parents.
@@ -127,8 +128,8 @@ impl Tree {
         weights
     }
 
-    /// What all pieces weigh whose boxes touch the given one, or more; and how many nodes were looked at, which is
-    /// [`MOST_NODES`] and a few at most.
+    /// Returns an upper bound on the total weight of the pieces whose boxes touch `wanted`, and the number of
+    /// visited nodes, which is at most slightly more than [`MOST_NODES`].
     pub fn weight_touching(&self, wanted: &Bounds, weights: &[f64]) -> (f64, usize) {
         let mut queue: SmallVec<[u32; 64]> = SmallVec::new();
         queue.push(0);
@@ -148,8 +149,8 @@ impl Tree {
         (sum, seen)
     }
 
-    /// The greatest of what `leaf` says of runs of pieces, which is no more, but for rounding, than
-    /// `along`·P comes to in their box.
+    /// Returns the maximum of `leaf` over runs of pieces. Up to rounding, `leaf` must not exceed the maximum
+    /// of `along`·P over the box of its run.
     pub fn greatest(&self, along: Vector, leaf: impl Fn(Range<usize>) -> f64) -> f64 {
         let most = |Bounds { low, high }: &Bounds| (*low * along).max(*high * along).element_sum();
         let mut best = f64::NEG_INFINITY;
@@ -174,7 +175,7 @@ impl Tree {
     }
 }
 
-/// Half the surface; 0 of nothing.
+/// Half the surface area; 0 for an empty box.
 fn area(Bounds { low, high }: &Bounds) -> f64 {
     let size = *high - *low;
     if size.x < 0.0 { 0.0 } else { size.x * size.y + size.y * size.z + size.z * size.x }
@@ -185,7 +186,7 @@ fn centre(Bounds { low, high }: &Bounds) -> Vector {
     *low + *high
 }
 
-/// Sorts some pieces into two parts, and returns how many are in the first; `None` for a leaf.
+/// Partitions some pieces in two and returns the size of the first part; `None` for a leaf.
 fn split(bounds: &[Bounds], pieces: &mut [u32], most: usize, depth: usize) -> Option<usize> {
     if pieces.len() <= most {
         return None;

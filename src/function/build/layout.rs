@@ -1,7 +1,7 @@
-//! Laying a tape out: which operations run, in which order, in which registers.
+//! Tape layout: selects the operations, their order and their registers.
 //!
-//! The order is a list of events. A register is free for another once its number is read for the
-//! last time; a number from outside a loop that is read inside lives until the loop's last turn.
+//! The order is a list of events. A register becomes free once its value is read for the last time; a value
+//! from outside of a loop that is read inside lives until the loop ends.
 
 use super::{Builder, Kind, Node};
 use crate::function::tape::{Function, Register, Repeat, Step};
@@ -9,13 +9,13 @@ use crate::function::tape::{Function, Register, Repeat, Step};
 #[derive(Clone, Copy)]
 enum Event {
     Run(Node),
-    /// A loop reads its ends and starts counting; the events until it closes are its body.
+    /// A loop reads its limits and starts counting; the events until it closes are its body.
     Open(Node),
-    /// It has the value of a turn; after the last one its own is known.
+    /// The value of an iteration is known; after the last one, so is the value of the loop.
     Close(Node),
 }
 
-/// The tape of one node's value.
+/// Returns the tape that computes one node.
 pub(super) fn lay_out(builder: &Builder, result: Node) -> Function {
     let reached = reached(builder, result);
     let mut events = Vec::new();
@@ -73,7 +73,7 @@ pub(super) fn lay_out(builder: &Builder, result: Node) -> Function {
     }
 }
 
-/// Whether the result needs it, of each node.
+/// Returns, for each node, whether the result depends on it.
 fn reached(builder: &Builder, result: Node) -> Vec<bool> {
     let mut reached = vec![false; builder.nodes.len()];
     reached[result.index()] = true;
@@ -86,8 +86,8 @@ fn reached(builder: &Builder, result: Node) -> Vec<bool> {
     reached
 }
 
-/// What belongs to one loop (home 0: to none), in order. Loops are no deeper than
-/// [`super::DEEPEST_LOOP`], so this may call itself.
+/// Adds the events of one loop (home 0: of none), in order. Loops are nested at most [`super::DEEPEST_LOOP`]
+/// deep, so recursion is safe.
 fn arrange(
     builder: &Builder,
     reached: &[bool],
@@ -115,7 +115,7 @@ fn arrange(
     }
 }
 
-/// At each event, the nodes that are read there for the last time.
+/// Returns, for each event, the nodes that are read there for the last time.
 fn dying(builder: &Builder, events: &[Event], result: Node) -> Vec<Vec<Node>> {
     let mut closes = vec![0; events.len()];
     let mut open = Vec::new();
@@ -170,7 +170,7 @@ fn dying(builder: &Builder, events: &[Event], result: Node) -> Vec<Vec<Node>> {
     dying
 }
 
-/// Who lives where.
+/// Assigns registers to nodes.
 struct Registers {
     of: Vec<Register>,
     constants: Vec<f64>,
@@ -179,7 +179,7 @@ struct Registers {
 }
 
 impl Registers {
-    /// Parameters and constants have a register of their own throughout.
+    /// Parameters and constants keep their own registers throughout.
     fn settled(builder: &Builder, reached: &[bool]) -> Self {
         let mut of = vec![0; builder.nodes.len()];
         let mut constants = Vec::new();
@@ -214,7 +214,7 @@ impl Registers {
         register
     }
 
-    /// The step of an operation, but for where its result goes.
+    /// Returns the step of an operation, without the register of its result.
     fn step(&self, kind: &Kind, asked: &mut Vec<Register>) -> Option<Step> {
         let to = 0;
         Some(match kind {

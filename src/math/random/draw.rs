@@ -1,10 +1,10 @@
-//! Sizes, directions and maps drawn at random, and how long tests run.
+//! Random sizes, directions and matrices, and the number of test cases.
 
 use super::Random;
 use crate::math::{Matrix, UnitVector, Vector, elementary};
 
 impl Random {
-    /// 10^U(low, high).
+    /// Returns 10^x, x uniform from `low` to `high`.
     pub fn size(&mut self, low: f64, high: f64) -> f64 {
         elementary::pow(10.0, self.number(low, high))
     }
@@ -24,7 +24,7 @@ impl Random {
         }
     }
 
-    /// One of the 26 directions of faces, edges and corners, its zeros of either sign.
+    /// Returns one of the 26 directions of a cube's faces, edges and corners, with zeros of either sign.
     pub fn structured_direction(&mut self) -> UnitVector {
         loop {
             let v = Vector::from_array([0; 3].map(|_| [-1.0, -0.0, 0.0, 1.0][self.below(4)]));
@@ -44,18 +44,18 @@ impl Random {
     }
 }
 
-/// How many rays, places or maps a property is tried on: 10,000, and ten millions in
-/// `LUCARNE_LONG=1000 cargo test --release`.
+/// Number of cases on which a property is tested: 10,000, and ten million with `LUCARNE_LONG=1000 cargo test
+/// --release`.
 pub(crate) fn tries() -> usize {
     10_000 * long()
 }
 
-/// How many in each of so many worlds.
+/// Number of cases in each of `worlds` worlds.
 pub(crate) fn tries_in(worlds: usize) -> usize {
     tries().div_ceil(worlds)
 }
 
-/// How many times as much to test.
+/// Multiplier for the number of test cases.
 pub(crate) fn long() -> usize {
     std::env::var("LUCARNE_LONG").ok().and_then(|times| times.parse().ok()).unwrap_or(1)
 }

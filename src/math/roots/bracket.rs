@@ -1,30 +1,30 @@
-//! Bracket: the root between a place where a function is certainly positive and one where it is
+//! Bracketed root finding between a position where a function is certainly positive and one where it is
 //! certainly negative.
 //!
-//! **In:** a function that says how far its own value may be off. **Out:** a root, and a bound on its
-//! error. **Invariant:** within the bound, on each side, the function has been found certain of its
-//! sign; so the bound holds for the function that was meant, whatever rounding made of this one.
+//! **In:** a function that reports the error of its value. **Out:** a root with an error bound.
+//! **Invariant:** within the bound, the function's sign is certain on each side; so the bound holds for the
+//! exact function, despite rounding.
 
-/// The roundoff of `f64`.
+/// Unit roundoff of `f64`.
 const U: f64 = f64::EPSILON / 2.0;
 
-/// A function at one place.
+/// A function at one position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     pub value: f64,
-    /// The value's slope. Where it is wrong or no number, the root is found later but as well.
+    /// The function's slope. If it is wrong or NaN, the root is found as accurately, but later.
     pub slope: f64,
-    /// How far `value` may be from the value that was meant.
+    /// Error bound of `value`.
     pub error: f64,
 }
 
 impl Sample {
-    /// Certainly positive.
+    /// Returns whether the value is certainly positive.
     pub fn is_outside(&self) -> bool {
         self.value > self.error
     }
 
-    /// Certainly negative.
+    /// Returns whether the value is certainly negative.
     pub fn is_inside(&self) -> bool {
         self.value < -self.error
     }
@@ -33,14 +33,16 @@ impl Sample {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Root {
     pub t: f64,
-    /// The true root lies within this distance of `t`.
+    /// Error bound: the true root lies within this distance of `t`.
     pub error: f64,
 }
 
-/// The root between `outside`, where the function is certainly positive, and `inside`, where it is
-/// certainly negative, in either order; `start` is a guess, and `tolerance` how far the root may be off
-/// beyond what the samples' errors ask for. Newton's steps, and half of the bracket
-/// where one would leave it or come on too slowly; then the bound, sought outward from the root.
+/// Returns the root between `outside`, where the function is certainly positive, and `inside`, where it is
+/// certainly negative, in either order. `start` is a guess; `tolerance` is the error that the root may have
+/// in addition to that caused by the errors of the samples.
+///
+/// Uses Newton's method, with bisection where a step would leave the bracket or converges too slowly; then
+/// searches outward from the root for the error bound.
 ///
 /// **Source:** W. Press et al., "Numerical Recipes in C", 2nd ed. (1992), § 9.4 (`rtsafe`).
 pub fn root(
@@ -108,7 +110,7 @@ mod tests {
     use super::*;
     use crate::math::random::{Random, tries};
 
-    /// x³ − a, off by up to `error`.
+    /// x³ − a, with an error up to `error`.
     fn cube(a: f64, error: f64) -> impl Fn(f64) -> Sample {
         move |x| Sample { value: x * x * x - a, slope: 3.0 * x * x, error }
     }

@@ -1,26 +1,26 @@
-//! Convex function: the piece of the line where it is negative, which is one piece or none.
+//! The interval where a convex function is negative; there is at most one.
 //!
-//! **In:** a convex function with its slope, which both say how far off they may be; two places where it is
-//! positive. **Out:** the two roots between them, each with a bound on its error. **Invariant:** none are
-//! found only where no place between is certainly negative, as far as rounding tells.
+//! **In:** a convex function and its slope, both with their errors; two positions where it is positive.
+//! **Out:** the two roots between them, each with an error bound. **Invariant:** the result is empty only if
+//! no position between them is certainly negative, within rounding.
 //!
 //! **Source:** J. Kelley, "The cutting-plane method for solving convex programs", Journal of the SIAM 8
 //! (1960), in one dimension: the function is nowhere below its tangents.
 
 use super::bracket::{Root, Sample, root};
 
-/// A convex function's tangent at one place.
+/// The tangent of a convex function at one position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tangent {
     pub at: Sample,
-    /// How far the slope may be off.
+    /// Error bound of the slope.
     pub slope_error: f64,
 }
 
 type Place = (f64, Tangent);
 
-/// A place where the function is certainly negative, and the nearest known around it where it is certainly
-/// positive.
+/// A position where the function is certainly negative, with the nearest known positions on both sides where
+/// it is certainly positive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dip {
     before: Place,
@@ -28,8 +28,8 @@ pub struct Dip {
     behind: Place,
 }
 
-/// Where the function becomes negative and where it ceases to be; `tolerance` is how far each may be off
-/// beyond what the samples' errors ask for.
+/// Returns where the function becomes negative and where it becomes positive again; `tolerance` is the error
+/// that each may have in addition to that caused by the errors of the samples.
 pub fn chord(
     tangent: impl Fn(f64) -> Tangent,
     ends: (f64, f64),
@@ -39,7 +39,7 @@ pub fn chord(
     Some([dip.enter(&tangent, tolerance), dip.leave(&tangent, tolerance)])
 }
 
-/// Where the function is negative, if it is anywhere between two places.
+/// Returns where the function is negative, if anywhere between two positions.
 pub fn dip(tangent: impl Fn(f64) -> Tangent, (low, high): (f64, f64)) -> Option<Dip> {
     let (mut before, mut behind) = ((low, tangent(low)), (high, tangent(high)));
     if !(before.1.at.is_outside() && behind.1.at.is_outside()) {
@@ -68,22 +68,22 @@ pub fn dip(tangent: impl Fn(f64) -> Tangent, (low, high): (f64, f64)) -> Option<
 }
 
 impl Dip {
-    /// It certainly holds what is negative.
+    /// Returns an interval that certainly contains all negative values.
     pub fn around(&self) -> (f64, f64) {
         (self.before.0, self.behind.0)
     }
 
-    /// It is negative there.
+    /// Returns a position where the function is negative.
     pub fn inside(&self) -> f64 {
         self.inside
     }
 
-    /// Where the function becomes negative.
+    /// Returns where the function becomes negative.
     pub fn enter(&self, tangent: impl Fn(f64) -> Tangent, tolerance: f64) -> Root {
         self.end(self.before, tangent, tolerance)
     }
 
-    /// Where it ceases to be.
+    /// Returns where the function becomes positive again.
     pub fn leave(&self, tangent: impl Fn(f64) -> Tangent, tolerance: f64) -> Root {
         self.end(self.behind, tangent, tolerance)
     }
@@ -100,8 +100,8 @@ impl Dip {
     }
 }
 
-/// Where to look next: where the tangents of two places cross, or in the middle where that comes on too
-/// slowly. `None` where the function cannot be negative between the two.
+/// Returns the next position to evaluate: the intersection of the two tangents, or the middle if that
+/// converges too slowly. `None` if the function cannot be negative between the two.
 fn between((a, at_a): Place, (b, at_b): Place, width: &mut f64) -> Option<f64> {
     let (down, up) = (-at_a.at.slope, at_b.at.slope);
     // How far it may be below its value at each, at most.
@@ -127,7 +127,7 @@ mod tests {
     use crate::math::elementary::pow;
     use crate::math::random::{Random, tries};
 
-    /// |x − c|ᵖ − `depth`, flatter on one hand; off by up to `error`.
+    /// |x − c|ᵖ − `depth`, flatter on one side; with an error up to `error`.
     fn valley(random: &mut Random, depth: f64, error: f64) -> (f64, impl Fn(f64) -> Tangent) {
         let power = [1.0, 1.5, 2.0, 4.0, 9.0][random.below(5)];
         let lean = [1.0, random.size(-4.0, 0.0)][random.below(2)];

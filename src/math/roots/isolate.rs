@@ -1,12 +1,13 @@
-//! Isolate: where a function changes its sign, by bounds on its values and slopes over whole intervals.
+//! Isolates sign changes of a function, given bounds on its values and slopes over intervals.
 //!
-//! **In:** a function's bounds over an interval or at a place. **Out:** the changes of its sign, each between
-//! two places where its sign is certain. **Invariant:** none is left out where the bounds decide; where they
-//! are infinite, the function is looked at in places no farther apart than the resolution; where it is not
-//! defined it has no sign.
+//! **In:** a function's bounds over an interval or at a position. **Out:** its changes of sign, each between
+//! two positions where the sign is certain. **Invariant:** none is missed where the bounds are conclusive;
+//! where they are infinite, the function is evaluated at positions no farther apart than the resolution;
+//! where it is undefined, it has no sign.
 //!
-//! An interval has no root where the bounds, or the slopes from its ends on, say so; one at most where the
-//! function rises or falls throughout; any other is cut to what the ends' slopes leave of it, or into two.
+//! An interval has no root if the bounds, or the slopes starting from its ends, exclude one; it has at most
+//! one if the function is monotone in it. Any other interval is reduced to what the slopes at its ends leave
+//! of it, or divided in two.
 //!
 //! **Source:** R. E. Moore, R. B. Kearfott, M. J. Cloud, *Introduction to Interval Analysis* (2009), chapter
 //! 8; D. Mitchell, "Robust ray intersection with interval arithmetic", Graphics Interface (1990), p. 68.
@@ -15,17 +16,17 @@ use smallvec::SmallVec;
 
 use crate::math::interval::Interval;
 
-/// What a function can come to in an interval.
+/// Bounds of a function in an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// [`Bounds::UNDEFINED`] has no number here.
+    /// Range of the values; NaN in [`Bounds::UNDEFINED`].
     pub value: Interval,
-    /// Kinks have the slopes of both sides, jumps everything.
+    /// Range of the slopes; a kink has the slopes of both sides, a jump is unbounded.
     pub slope: Interval,
 }
 
 impl Bounds {
-    /// Of a function that is not defined anywhere in the interval.
+    /// Bounds of a function that is undefined throughout the interval.
     pub const UNDEFINED: Self =
         Self { value: Interval { low: f64::NAN, high: f64::NAN }, slope: Interval::EVERYTHING };
 
@@ -37,37 +38,37 @@ impl Bounds {
 /// A change of sign.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
-    /// Certainly of the one sign, and the last place that was found to be.
+    /// The last known position with the old sign.
     pub before: f64,
-    /// Certainly of the other, and the first.
+    /// The first known position with the new sign.
     pub after: f64,
-    /// From negative to positive.
+    /// Whether the sign changes from negative to positive.
     pub rising: bool,
 }
 
 /// The changes of sign in an interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Changes {
-    /// The first place of certain sign, and whether it is negative there; likewise the last.
+    /// The first and the last position with a certain sign, and whether the function is negative there.
     pub first: Option<(f64, bool)>,
     pub last: Option<(f64, bool)>,
     pub all: SmallVec<[Change; 4]>,
 }
 
-/// How finely to look.
+/// How finely to search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fineness {
-    /// What infinite bounds leave undecided is cut no finer.
+    /// Minimum width for dividing an interval with infinite bounds.
     pub resolution: f64,
-    /// Nothing is cut finer: what rounding leaves.
+    /// Minimum width for dividing any interval, given by rounding.
     pub least: f64,
 }
 
-/// After so many intervals none is cut that is no longer than the resolution, and after eight times as many
-/// none at all.
+/// Number of intervals after which only those longer than the resolution are divided; after eight times as
+/// many, none is.
 const MOST: u32 = 4_096;
 
-/// Where cells are cut: seldom where anything is.
+/// Fractions at which intervals are divided: uneven, so that they rarely coincide with a feature.
 const CUTS: [f64; 3] = [0.4934, 0.5481, 0.4127];
 
 #[derive(Debug, Clone, Copy)]
@@ -77,7 +78,7 @@ struct End {
 }
 
 impl End {
-    /// Whether it is negative, if that is certain.
+    /// Whether it is negative; `None` if uncertain.
     fn sign(&self) -> Option<bool> {
         sign(self.value)
     }
@@ -91,19 +92,19 @@ fn sign(value: Interval) -> Option<bool> {
     }
 }
 
-/// A search that goes on from interval to interval, each after the one before.
+/// A search that proceeds from interval to interval, in order.
 pub struct Search<F> {
     function: F,
     fineness: Fineness,
     cells: u32,
     found: Changes,
-    /// Where it was looked at last.
+    /// The last position evaluated.
     end: Option<End>,
-    /// What is not searched yet, the nearest last.
+    /// Intervals yet to be searched, the nearest last.
     left: SmallVec<[(End, End); 64]>,
 }
 
-/// The changes of sign of a function from one place to another.
+/// Returns the changes of sign of a function in an interval.
 pub fn changes(
     function: &impl Fn(Interval) -> Bounds,
     from: f64,
@@ -125,13 +126,13 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         &self.found
     }
 
-    /// Looks from one place to another.
+    /// Searches an interval.
     pub fn through(&mut self, from: f64, to: f64) {
         self.begin(from, to);
         while self.goes_on() {}
     }
 
-    /// Is to look from one place to another, as far as [`Search::goes_on`] is asked to.
+    /// Starts the search of an interval; [`Search::goes_on`] performs it.
     pub fn begin(&mut self, from: f64, to: f64) {
         let first = self.look_again(from);
         let last = self.look(to);
@@ -140,7 +141,7 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         self.left.push((first, last));
     }
 
-    /// Looks on, to the next change; `false` where there is none, and all is searched.
+    /// Continues to the next change; returns `false` if there is none and the interval is done.
     pub fn goes_on(&mut self) -> bool {
         let told = self.found.all.len();
         while let Some((a, b)) = self.left.pop() {
@@ -162,7 +163,7 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         self.found.all.len() > told
     }
 
-    /// The same, where the function is known to rise or to fall throughout.
+    /// Like [`Search::through`], for an interval where the function is known to be monotone.
     pub fn through_slope(&mut self, from: f64, to: f64) {
         let first = self.look_again(from);
         let last = self.look(to);
@@ -175,7 +176,7 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         self.note(to, last.sign());
     }
 
-    /// The function is known to be of one sign from one place to another.
+    /// Records that the function has a constant sign in an interval.
     pub fn certain(&mut self, from: f64, to: f64, negative: bool) {
         self.note(from, Some(negative));
         self.note(to, Some(negative));
@@ -189,7 +190,7 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         End { s, value: (self.function)(Interval::point(s)).value }
     }
 
-    /// Of certain sign, if any, at a place after all others.
+    /// Records the sign, if certain, at a position after all others.
     fn note(&mut self, s: f64, negative: Option<bool>) {
         let Some(negative) = negative else { return };
         if let Some((before, was_negative)) = self.found.last
@@ -201,7 +202,7 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         self.found.last = Some((s, negative));
     }
 
-    /// What is left of an interval, and where it is cut; `None` where it need not be.
+    /// Returns the reduced interval and the position at which to divide it; `None` if it need not be divided.
     fn part(&mut self, a: End, b: End) -> Option<([End; 2], End)> {
         let Fineness { resolution, least } = self.fineness;
         let width = b.s - a.s;
@@ -265,7 +266,7 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         Some(([first, last], cut))
     }
 
-    /// An end moved to where its sign is still the same; it stays where rounding leaves nothing of that.
+    /// Moves an end inward while its sign is certain; returns it unchanged if rounding prevents that.
     fn nearer(&self, end: End, s: f64) -> End {
         let moved = self.look(s);
         if moved.sign() == end.sign() { moved } else { end }
@@ -279,7 +280,7 @@ mod tests {
 
     const FINE: Fineness = Fineness { resolution: 1e-3, least: 1e-14 };
 
-    /// The product of x − r over some roots, by intervals.
+    /// The product of x − r over the roots, in interval arithmetic.
     fn polynomial(roots: &[f64]) -> impl Fn(Interval) -> Bounds {
         move |x| {
             let (mut value, mut slope) = (Interval::point(1.0), Interval::point(0.0));

@@ -1,4 +1,4 @@
-//! Roots of functions of one number, each with a bound on its error.
+//! Roots of functions of one variable, each with an error bound.
 
 pub mod bracket;
 pub mod convex;

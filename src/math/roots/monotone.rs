@@ -1,10 +1,9 @@
-//! Monotone pieces: the roots of a function of which one can tell, over any piece of the line, between what
-//! it and its slope lie.
+//! Roots of a function with bounds on its value and slope, found by dividing the line into monotone pieces.
 //!
-//! **In:** the function at places, and over pieces. **Out:** where it certainly changes its sign, in order.
-//! **Invariant:** between two neighbouring roots there is a place of certain sign; up to a
-//! great number of pieces, none is let go in which the function could have a certain sign other than at its
-//! ends.
+//! **In:** the function at positions, and its bounds over pieces. **Out:** where it certainly changes its
+//! sign, in order. **Invariant:** between two consecutive roots there is a position with a certain sign. Up
+//! to a maximum number of pieces, no piece is skipped in which the function may certainly have a sign other
+//! than at its ends.
 //!
 //! **Source:** R. E. Moore, R. B. Kearfott, M. J. Cloud, *Introduction to Interval Analysis*, 2009, ch. 8.
 
@@ -13,18 +12,19 @@ use smallvec::SmallVec;
 use super::bracket::{Root, Sample, root};
 use crate::math::interval::Interval;
 
-/// A line may lie in a surface, and could be parted for ever: of so many pieces only the ends are looked at.
+/// Maximum number of pieces, beyond which only their ends are evaluated: a line that lies in a surface would
+/// be divided without end.
 const MOST: usize = 1024;
 
-/// From where to where, and whether it need not be parted.
+/// Start and end of each piece, and whether it is final.
 type Pieces = SmallVec<[(f64, f64, bool); 32]>;
 
-/// Finds roots along a line, piece after piece.
+/// Finds roots along a line, piece by piece.
 pub struct Walk<S> {
     sample: S,
-    /// How far a root may be off beyond what the samples' errors ask for.
+    /// Error that a root may have in addition to that caused by the errors of the samples.
     tolerance: f64,
-    /// The last place of certain sign, and whether it was positive.
+    /// The last position with a certain sign, and whether it was positive.
     last: Option<(f64, bool)>,
 }
 
@@ -33,7 +33,8 @@ impl<S: Fn(f64) -> Sample> Walk<S> {
         Self { sample, tolerance, last: None }
     }
 
-    /// Goes on to `s`; shows the root that lies before, and whether the function is positive behind it.
+    /// Advances to `s`; calls `found` with a root before it, and with whether the function is positive after
+    /// that root.
     pub fn advance(&mut self, s: f64, found: &mut impl FnMut(Root, bool)) {
         let here = (self.sample)(s);
         if here.is_outside() || here.is_inside() {
@@ -41,7 +42,7 @@ impl<S: Fn(f64) -> Sample> Walk<S> {
         }
     }
 
-    /// Goes on to `s`, where the function is known to be certain of its sign.
+    /// Advances to `s`, where the sign is known.
     pub fn note(&mut self, s: f64, is_outside: bool, found: &mut impl FnMut(Root, bool)) {
         if let Some((before, was_outside)) = self.last.replace((s, is_outside))
             && was_outside != is_outside
@@ -51,14 +52,15 @@ impl<S: Fn(f64) -> Sample> Walk<S> {
         }
     }
 
-    /// Whether the function is certain of its sign at `s`, where it has been last, and positive.
+    /// Returns whether the function is positive at `s`, if `s` is the last position and the sign there is
+    /// certain.
     pub fn sign_at(&self, s: f64) -> Option<bool> {
         self.last.filter(|(last, _)| *last == s).map(|(_, is_outside)| is_outside)
     }
 
-    /// Goes on from `low` to `high`, where it has been, by pieces in which the function has one sign or
-    /// goes one way: `value` and `slope` tell what it and its slope may come to over a piece, whatever
-    /// function was meant.
+    /// Advances from `low`, the current position, to `high`, by pieces in which the function has a constant
+    /// sign or is monotone. `value` and `slope` return the range of the function and of its slope over a
+    /// piece, including all errors.
     pub fn through(
         &mut self,
         ends: (f64, f64),

@@ -1,14 +1,14 @@
-//! All real roots of a polynomial of which each coefficient is known to within a bound.
+//! All real roots of a polynomial whose coefficients are known to within error bounds.
 //!
-//! **In:** coefficients up to degree 15, lowest first, and how far each may be off. **Out:** where it
-//! certainly changes its sign, in order, on the whole line. **Invariant:** neighbouring roots go in
-//! opposite ways; whatever polynomial was meant has an odd number of roots within each bound. What could
-//! as well be no root (it touches zero within its bound) is none.
+//! **In:** coefficients up to degree 15, lowest first, and the error bound of each. **Out:** where the
+//! polynomial certainly changes its sign, in order, on the entire line. **Invariant:** consecutive roots have
+//! opposite directions; every polynomial within the bounds has an odd number of roots within each root's
+//! error. A possible root that may not exist (the polynomial touches zero within its bound) is omitted.
 //!
-//! Pieces whose Bernstein coefficients change their sign once at most have no more roots than that. In
-//! others, from the last derivative up, each has one root at most between two neighbours of the one before:
-//! between the roots of its derivative a polynomial is monotone. The line is followed to its very end: what
-//! lies beyond ±σ are the roots of the reversed polynomial between −1 and 1.
+//! A piece whose Bernstein coefficients change sign at most once has at most one root. Other pieces are
+//! divided at the roots of the derivative, found recursively from the last derivative up: between these
+//! roots, the polynomial is monotone. The search covers the entire line: roots beyond ±σ are those of the
+//! reversed polynomial between −1 and 1.
 //!
 //! **Source:** C. Yuksel, "High-performance polynomial root finding for graphics", Proceedings of the ACM on
 //! Computer Graphics 5 (2022); N. Higham, *Accuracy and Stability of Numerical Algorithms* (2002), ch. 5.
@@ -23,60 +23,59 @@ use crate::math::double::{power_of_two, power_of_two_near};
 use bernstein::{Form, Signs};
 pub use turning::turning_points;
 
-/// The greatest degree.
+/// The maximum degree.
 pub const MOST: usize = 15;
 
 /// Coefficients of 1, s, s², …
 pub type Coefficients = [f64; MOST + 1];
 
-/// The roundoff of `f64`.
+/// Unit roundoff of `f64`.
 const U: f64 = f64::EPSILON / 2.0;
 
-/// A place where the polynomial changes its sign.
+/// A change of the polynomial's sign.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Root {
     pub s: f64,
-    /// The root that was meant is within this distance.
+    /// Error bound: the exact root is within this distance.
     pub error: f64,
-    /// From negative to positive.
+    /// Whether the sign changes from negative to positive.
     pub rising: bool,
 }
 
 /// At most one for each degree.
 pub type Roots = SmallVec<[Root; 6]>;
 
-/// What is asked of a polynomial.
+/// Parameters of a search for roots.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Asked {
-    /// About how far from 0 most roots are to be expected: it costs time where it is far from right, and nothing
-    /// else.
+    /// Expected magnitude of most roots. Affects only the running time.
     pub size: f64,
-    /// Whatever polynomial was meant, it has no root farther from 0 than this; ∞ where that is not known.
+    /// Upper bound on the magnitude of any root, for every polynomial within the error bounds; ∞ if unknown.
     pub end: f64,
-    /// A root nearer than the size need be found no better than this.
+    /// Error that roots of magnitude below `size` may have.
     pub tolerance: f64,
-    /// Those that are certainly elsewhere may be left out. It changes no bit of others.
+    /// Roots certainly outside of this range may be omitted; this does not affect the others.
     pub between: (f64, f64),
 }
 
 type Brackets = SmallVec<[Bracket; 6]>;
-/// Places at which it is looked.
+/// Positions at which the polynomial is evaluated.
 type Marks = SmallVec<[f64; 16]>;
 
-/// How often a piece is halved before it is looked for turning points.
+/// Number of times that a piece is halved before its extrema are computed.
 const HALVED: u32 = 3;
 
-/// A polynomial and the rounding that it carries.
+/// A polynomial with its error bounds.
 #[derive(Debug, Clone)]
 pub struct Polynomial {
     values: Coefficients,
-    /// Σ slackₖ·|s|ᵏ bounds how far a computed value may be from the one that was meant.
+    /// Σ slackₖ·|s|ᵏ bounds the error of a computed value.
     slack: Coefficients,
     degree: usize,
 }
 
 impl Polynomial {
-    /// Where a parabola turns, if rounding does not tell whether it reaches 0 there.
+    /// Returns the position of a parabola's vertex, if rounding decides whether it reaches 0 there.
     pub fn doubtful_vertex(&self) -> Option<f64> {
         let ([c, b, a, ..], [slack_c, slack_b, slack_a, ..]) = (&self.values, &self.slack);
         if self.degree != 2 || a.abs() <= 4.0 * slack_a {
@@ -87,7 +86,7 @@ impl Polynomial {
         (((a * s + b) * s + c).abs() <= slack).then_some(s)
     }
 
-    /// `errors` holds how far each of `values` may be off.
+    /// Builds a polynomial; `errors` are the error bounds of `values`.
     pub fn new(values: Coefficients, errors: Coefficients) -> Self {
         let known = |k: &usize| values[*k] != 0.0 || errors[*k] != 0.0;
         let degree = (0..=MOST).rev().find(known).unwrap_or(0);
@@ -99,7 +98,7 @@ impl Polynomial {
         Self { values, slack, degree }
     }
 
-    /// Shows where it changes its sign, in order, as long as `show` wants more.
+    /// Calls `show` with the changes of sign, in order, until it returns `false`.
     pub fn roots(&self, asked: &Asked, show: &mut impl FnMut(Root) -> bool) {
         let Asked { size, end, tolerance, between: (from, to) } = *asked;
         if let Some(guesses) = self.by_formula() {
@@ -131,8 +130,8 @@ impl Polynomial {
         }
     }
 
-    /// The polynomial of s/σ, and a power of two σ near `size` where it is certainly not 0, nor at −σ. `None`
-    /// where there is none: it may be 0 everywhere.
+    /// Returns the polynomial of s/σ, and σ: a power of two near `size` such that the polynomial is certainly
+    /// not 0 at ±σ. `None` if there is none, in which case it may be 0 everywhere.
     fn parted(&self, size: f64) -> Option<(Self, f64)> {
         let start = power_of_two_near(size);
         // More places than there can be roots near them.
@@ -167,12 +166,12 @@ impl Polynomial {
         reversed
     }
 
-    /// The sign at s; 0 where the bound does not tell it.
+    /// The sign at s; 0 if uncertain.
     fn sign(&self, s: f64) -> i8 {
         self.sign_beyond(0.0, s)
     }
 
-    /// The sign at s if the value is farther from 0 than `least`, and the bound tells that.
+    /// The sign at s; 0 unless the value certainly exceeds `least` in magnitude.
     fn sign_beyond(&self, least: f64, s: f64) -> i8 {
         let value = value(&self.values[..=self.degree], s);
         let slack = value_of_positive(&self.slack[..=self.degree], s.abs()) + least;
@@ -183,7 +182,7 @@ impl Polynomial {
         }
     }
 
-    /// All certain changes of sign from `low` to `high`, in order: −1, 0 or 1.
+    /// Returns all certain changes of sign between two ends, each of which is −1, 0 or 1, in order.
     fn all_between(&self, ends: (f64, f64)) -> Brackets {
         let mut all = Brackets::new();
         self.between(ends, 0.0, (f64::NEG_INFINITY, f64::INFINITY), &mut |bracket| {
@@ -193,8 +192,8 @@ impl Polynomial {
         all
     }
 
-    /// Shows those that are not certainly elsewhere than asked, as long as `show` wants more; whether there may
-    /// be others that are asked for behind.
+    /// Calls `show` with the changes of sign that are not certainly outside of the requested range, until it
+    /// returns `false`; returns whether there may be more behind.
     fn between(
         &self,
         (low, high): (f64, f64),
@@ -228,7 +227,7 @@ impl Polynomial {
         true
     }
 
-    /// Adds places of a piece, the last its end, between which there is one root at most.
+    /// Adds positions in a piece, the last of them its end, such that at most one root lies between any two.
     fn mark(&self, form: &Form, (low, high): (f64, f64), halved: u32, marks: &mut Marks) {
         match form.signs() {
             Signs::Same | Signs::Change => marks.push(high),
@@ -252,7 +251,7 @@ impl Polynomial {
         }
     }
 
-    /// Goes on to `at`, if its sign is certain there.
+    /// Advances to `at`, if the sign there is certain.
     fn advance(&self, before: &mut Option<(f64, i8)>, at: f64) -> Option<Change> {
         let sign = self.sign(at);
         if sign == 0 {
@@ -262,8 +261,8 @@ impl Polynomial {
         (old != sign).then_some(Change { low, high: at, rising: sign > 0 })
     }
 
-    /// The root at a change of sign, perhaps near `guess`, with as little around it as has certain signs at its
-    /// ends, or no more than `tolerance` to each side.
+    /// Returns the root at a change of sign, starting at `guess` if that is in range, with the smallest
+    /// interval around it whose ends have certain signs, or within `tolerance` on each side.
     fn near(&self, guess: f64, change: Change, tolerance: f64) -> Bracket {
         let values = &self.values[..=self.degree];
         // That of a parabola is no guess.
@@ -295,7 +294,7 @@ impl Polynomial {
     }
 }
 
-/// Two places of certain and opposite signs.
+/// Two positions with certain and opposite signs.
 #[derive(Debug, Clone, Copy)]
 struct Change {
     low: f64,
@@ -303,7 +302,7 @@ struct Change {
     rising: bool,
 }
 
-/// A root and two places that it is certainly between.
+/// A root between two certain bounds.
 #[derive(Debug, Clone, Copy)]
 struct Bracket {
     low: f64,
@@ -319,8 +318,8 @@ impl Bracket {
         Root { s: s * scale, error: error * scale, rising }
     }
 
-    /// A root of the reversed polynomial as one of the line; `None` where it could as well be beyond ∞.
-    /// `odd` where the signs of the two polynomials differ.
+    /// Converts a root of the reversed polynomial to one of the original; `None` if it may be beyond ∞. `odd`
+    /// is set if the signs of the two polynomials differ.
     fn outer(self, scale: f64, odd: bool) -> Option<Root> {
         let Self { low, s: w, high, rising } = self;
         let s = scale / w;
@@ -332,9 +331,9 @@ impl Bracket {
     }
 }
 
-/// Where a polynomial changes its sign between two places at which it has opposite ones, perhaps near `guess`, or
-/// about within `tolerance` of it: by Newton's steps while each is half as long as the one before and stays
-/// between the places known best, else by halves.
+/// Returns the root between two positions with opposite signs, to about `tolerance`, starting at `guess` if
+/// that is in range: by Newton's method while each step is at most half as long as the previous one and stays
+/// in the bracket, else by bisection.
 fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64) -> f64 {
     let Change { mut low, mut high, rising } = change;
     let mut s = if low < guess && guess < high { guess } else { 0.5 * (low + high) };
@@ -365,7 +364,7 @@ fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64) -> f64 
     s
 }
 
-/// Where a polynomial changes its sign between two places, to rounding, if it has opposite ones there.
+/// Returns the root between two positions, to rounding, if the signs there are opposite.
 pub fn root_between_ends(values: &[f64], (low, high): (f64, f64)) -> Option<f64> {
     let (below, above) = (value(values, low), value(values, high));
     let change = Change { low, high, rising: above > 0.0 };

@@ -1,8 +1,9 @@
-//! Along a line: a polynomial in x, y and z as one in the line's s, with what its errors are made of, at once.
+//! Restricts a polynomial in x, y and z to a line, as a polynomial in the line's s, and computes the terms of
+//! its error bounds at the same time.
 //!
-//! **Out:** coefficients of 1, s, s², … of three polynomials: the one with its terms along the line itself,
-//! and the one with the absolute values of its terms along two others. The three go through the same steps
-//! side by side. What is 0 is not carried along.
+//! **Out:** the coefficients of 1, s, s², … of three polynomials: one with the original terms along the line
+//! itself, and one with the absolute values of the terms along each of two other lines. All three go through
+//! the same steps side by side. Zeros are skipped.
 
 use super::Algebraic;
 use crate::math::Vector;
@@ -14,10 +15,10 @@ pub struct Line {
     pub steps: [Vector; 3],
 }
 
-/// One number of each of the three, and one that is 0, for processors that work on pairs.
+/// One number for each of the three polynomials, padded with a 0 for processors that work on pairs.
 type Side = [f64; 4];
 
-/// How many terms of each row are 0 before the first that is not.
+/// Returns the number of leading zero terms in each row.
 pub fn zeros(degree: usize, terms: &[f64]) -> Vec<u8> {
     let mut terms = terms;
     let lengths = (0..=degree).flat_map(|i| (0..=i).map(|j| j + 1));
@@ -78,7 +79,7 @@ impl Algebraic {
 
 /// Three polynomials in s.
 struct Sum<const ROOM: usize> {
-    /// From `length` on all are 0.
+    /// All are 0 from `length` on.
     values: [Side; ROOM],
     length: usize,
 }
@@ -86,7 +87,7 @@ struct Sum<const ROOM: usize> {
 impl<const ROOM: usize> Sum<ROOM> {
     const NOTHING: Self = Self { values: [[0.0; 4]; ROOM], length: 0 };
 
-    /// Times start + s · step.
+    /// Multiplies by start + s · step.
     #[inline(always)]
     fn multiply(&mut self, (start, step): (Side, Side)) {
         if self.length == 0 {

@@ -1,9 +1,9 @@
-//! Clipped quadric: where one without an end ends between planes, such as a bar, a bowl or a cooling tower.
+//! Bounds of an unbounded quadric that is clipped by planes, such as a bar, a bowl or a cooling tower.
 //!
-//! Inside of it q ≤ 0, and on the sides that count of two planes a ≤ 0 and b ≤ 0; so q − ν·a·b ≤ 0 in all that
-//! the three hold, for any ν ≥ 0, and for some that is an ellipsoid.
+//! Inside it, q ≤ 0, and on the inner sides of two planes, a ≤ 0 and b ≤ 0. So q − ν·a·b ≤ 0 in the
+//! intersection of the three for any ν ≥ 0, and for some ν this is an ellipsoid.
 //!
-//! **Invariant:** all that is inside of the quadric and on these sides lies within what is said.
+//! **Invariant:** the bounds contain everything inside the quadric and on the inner sides of the planes.
 //!
 //! **Source:** S. Boyd, L. Vandenberghe, *Convex Optimization* (2004), B.2 (the S-procedure).
 
@@ -14,24 +14,25 @@ use super::{Algebraic, U};
 use crate::math::Vector;
 use crate::math::double::power_of_two;
 
-/// Of so many planes pairs are tried, and each with so many multipliers to either side of the likeliest.
+/// Maximum number of planes of which pairs are tried, and the number of multipliers tried with each pair on
+/// either side of the likeliest.
 const MOST_PLANES: usize = 6;
 const MULTIPLIERS: i32 = 3;
-/// How often a coefficient is rounded on the way, at most, of the size of what it is made of.
+/// Maximum number of roundings of a coefficient, relative to the size of its terms.
 const ROUNDINGS: f64 = 64.0;
 
-/// Where normal · P ≤ offset.
+/// The half-space normal · P ≤ offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfSpace {
     pub normal: Vector,
     pub offset: f64,
-    /// How large the numbers are that the offset is made of: of them it is rounded.
+    /// Size of the numbers that the offset is computed from, which determines its rounding.
     pub size: f64,
 }
 
 impl Algebraic {
-    /// The least and the greatest of each direction · P over what is inside and in all of the half-spaces,
-    /// or of something around that; infinite where that has no end.
+    /// Returns the minimum and maximum of each direction · P over the part of the inside that lies in all
+    /// half-spaces, or over a superset of it; infinite where it is unbounded.
     pub fn clipped(&self, spaces: &[HalfSpace], directions: [Vector; 3]) -> [(f64, f64); 3] {
         let mut extents = [(f64::NEG_INFINITY, f64::INFINITY); 3];
         let Ok(terms) = <&[f64; 10]>::try_from(self.terms.as_slice()) else { return extents };
@@ -61,7 +62,7 @@ fn largest(terms: &[f64]) -> f64 {
     terms.iter().fold(0.0, |most: f64, term| most.max(term.abs()))
 }
 
-/// The terms of q − ν·a·b, less what rounding may have added to it anywhere.
+/// The terms of q − ν·a·b, less the maximum that rounding may have added.
 fn less_product(terms: &[f64; 10], multiplier: f64, a: HalfSpace, b: HalfSpace) -> [f64; 10] {
     let (m, n) = (a.normal, b.normal);
     let mixed = |i: usize, j: usize| m[i] * n[j] + m[j] * n[i];
@@ -91,7 +92,8 @@ fn less_product(terms: &[f64; 10], multiplier: f64, a: HalfSpace, b: HalfSpace) 
     all
 }
 
-/// The half-space that holds a paraboloid along a local axis, or a bar: one of no square of that axis.
+/// Returns the half-space that contains a paraboloid along a local axis, or a bar; such quadrics have no
+/// square term of that axis.
 fn own_half_space(terms: &[f64; 10]) -> Option<HalfSpace> {
     let &[xx, xy, xz, x, yy, yz, y, zz, z, constant] = terms;
     // Of each axis: what must be 0, its own term, and the form and the terms of the two others.

@@ -1,31 +1,32 @@
-//! Closed quadric: an ellipsoid written as a polynomial, and where it ends.
+//! Bounds of a closed quadric: an ellipsoid given by a polynomial.
 //!
-//! **Invariant:** all of the surface lies within what is said; what is nearly open counts as open.
+//! **Invariant:** the bounds contain the entire surface; nearly open quadrics count as open.
 
 use super::super::U;
 use crate::math::singular::singular_values;
 use crate::math::{Matrix, Vector};
 
-/// How many times as long as wide what counts as closed may be, squared: as many times a rounding is the
-/// matrix's inverse off.
+/// Maximum squared ratio of length to width for a quadric that counts as closed; the inverse of the matrix is
+/// off by this many roundings.
 const MOST_STRETCHED: f64 = 1_048_576.0;
-/// How often a number is rounded on the way, at most.
+/// Maximum number of roundings of a computed value.
 const ROUNDINGS: f64 = 64.0;
 
-/// (P − centre)ᵀ · inverse⁻¹ · (P − centre) ≤ depth.
+/// The ellipsoid (P − centre)ᵀ · inverse⁻¹ · (P − centre) ≤ depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closed {
     centre: Vector,
     inverse: Matrix,
-    /// As near as it is known, and at most.
+    /// Best estimate, and upper bound.
     depths: [f64; 2],
-    /// The longest half axis, and what all that was computed may be off by.
+    /// The longest half axis, and the error bound of all computed values.
     longest: f64,
     slack: f64,
 }
 
 impl Closed {
-    /// Of x², xy, xz, x, y², yz, y, z², z, 1; `None` where its inside has an end nowhere, or nearly so.
+    /// Builds it from the coefficients of x², xy, xz, x, y², yz, y, z², z, 1; `None` if the inside is
+    /// unbounded, or nearly so.
     pub fn of(terms: &[f64]) -> Option<Self> {
         let &[xx, xy, xz, x, yy, yz, y, zz, z, constant] = terms else { return None };
         let row = Vector::new;
@@ -52,12 +53,12 @@ impl Closed {
         (closed.centre.is_finite() && longest.is_finite() && slack.is_finite()).then_some(closed)
     }
 
-    /// The least and the greatest `along`·P, at most.
+    /// Returns bounds on the minimum and maximum of `along`·P.
     pub fn extent(&self, along: Vector) -> (f64, f64) {
         self.around(along, self.half(along, self.depths[1]) + self.slack * along.length())
     }
 
-    /// The same, as near as it is known.
+    /// Returns the best estimate of [`Self::extent`].
     pub fn nearest_extent(&self, along: Vector) -> (f64, f64) {
         self.around(along, self.half(along, self.depths[0]))
     }
@@ -71,7 +72,7 @@ impl Closed {
         (middle - half, middle + half)
     }
 
-    /// The radius of a ball around the origin that holds it.
+    /// Returns the radius of a sphere around the origin that contains it.
     pub fn reach(&self) -> f64 {
         self.centre.length() + self.longest + self.slack
     }

@@ -1,11 +1,12 @@
-//! Ends: the box, and the ball, that a surface of any degree lies in, if it has an end at all.
+//! Bounds of a surface of any degree: a box and a sphere that contain it, if it is bounded.
 //!
-//! **In:** the terms. **Out:** [`Ends`]; `None` where the surface has no end, or it takes too long to tell.
-//! **Invariant:** outside of what is said, the polynomial is proven to be nowhere 0.
+//! **In:** the terms. **Out:** [`Ends`]; `None` if the surface is unbounded, or if the search takes too long.
+//! **Invariant:** the polynomial is proven to have no zero outside of the bounds.
 //!
-//! Of degree n, tⁿ·f is at (1, v, w) / t a polynomial in v, w and t, and alike for the other axes; its terms
-//! without t are those of the highest degree. Where it is not 0 for |v|, |w| ≤ 1 and |t| ≤ T, neither is f
-//! from a cube of half width 1 / T on. That cube's sides are then moved inward, past parts where f is not 0.
+//! For degree n, tⁿ·f at (1, v, w) / t is a polynomial in v, w and t, and likewise for the other axes; its
+//! terms without t are those of the highest degree. If it has no zero for |v|, |w| ≤ 1 and |t| ≤ T, f has
+//! none outside of a cube of half width 1 / T. The sides of that cube are then moved inward, past parts where
+//! f has no zero.
 //!
 //! **Source:** A. Neumaier, "Complete search in continuous global optimization and constraint satisfaction",
 //! Acta Numerica 13 (2004), section 11 (branch and bound).
@@ -18,32 +19,32 @@ use super::net::{Net, Sides, Term};
 use crate::math::Vector;
 use crate::math::terms::exponents;
 
-/// Sums of two numbers that all of it may take, and halvings more, for those of many terms; a search takes a part
-/// of what is left.
+/// Budget of the entire search in additions, plus a number of halvings for polynomials with many terms; each
+/// partial search may use a fraction of the rest.
 const SUMS: u64 = 2_000_000;
 const HALVINGS: u64 = 400;
 const PART: u64 = 8;
-/// Of λ, at which no term outweighs those of the highest degree: smaller surfaces are looked for in a cube of that
-/// half width.
+/// Relative to λ, the scale at which no term outweighs those of the highest degree: half width of the cube in
+/// which smaller surfaces are searched.
 const NEAR: f64 = 2.0;
-/// How often the cube is drawn in, at most, before its sides are placed.
+/// Maximum number of times that the cube shrinks before its final sides are computed.
 const ROUNDS: usize = 8;
-/// In half widths, how far off a side of the box may be: while it is drawn in, and at last.
+/// Tolerance of the box's sides, relative to its half widths: while it shrinks, and for the final sides.
 const COARSE: f64 = 0.25;
 const FINE: f64 = 1.0 / 64.0;
-/// Of the distance to the box's corners, how far off the ball may be.
+/// Tolerance of the sphere's radius, relative to the distance of the box's corners.
 const ROUND: f64 = 1.0 / 16.0;
-/// How often what tells an end is rounded, at most, of the size of what it is made of.
+/// Maximum number of roundings of a bound, relative to the size of its terms.
 const ROUNDINGS: f64 = 64.0;
 
-/// Where a surface ends.
+/// Bounds of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ends {
     centre: Vector,
     half: Vector,
-    /// Of a ball around the centre.
+    /// Radius of a sphere around the centre.
     radius: f64,
-    /// It is the inside that has an end, and not all that is outside.
+    /// Whether the inside is bounded, rather than the outside.
     pub is_solid: bool,
 }
 
@@ -89,14 +90,14 @@ impl Ends {
         (half.is_finite() && centre.is_finite()).then_some(Self { centre, half, radius, is_solid })
     }
 
-    /// The least and the greatest `along`·P, at most.
+    /// Returns bounds on the minimum and maximum of `along`·P.
     pub fn extent(&self, along: Vector) -> (f64, f64) {
         let half = along.abs().dot(self.half).min(self.radius * along.length());
         let slack = ROUNDINGS * U * (along.abs().dot(self.centre.abs()) + half);
         self.around(along, half + slack)
     }
 
-    /// The same, as near as it is known.
+    /// Returns the best estimate of [`Self::extent`].
     pub fn nearest_extent(&self, along: Vector) -> (f64, f64) {
         self.around(along, along.abs().dot(self.half).min(self.radius * along.length()))
     }
@@ -106,14 +107,14 @@ impl Ends {
         (middle - half, middle + half)
     }
 
-    /// How far from the place that is nearest to the origin, at a distance of at least `nearest`, a line may be in
-    /// the ball around the origin that holds it.
+    /// Returns the maximum length of a line inside the sphere around the origin that contains the surface,
+    /// measured from the line's closest approach to the origin, whose distance is at least `nearest`.
     pub fn half_chord(&self, nearest: f64) -> f64 {
         let reach = self.reach();
         ((reach - nearest) * (reach + nearest)).max(0.0).sqrt() * (1.0 + ROUNDINGS * U)
     }
 
-    /// The radius of a ball around the origin that holds it.
+    /// Returns the radius of a sphere around the origin that contains it.
     pub fn reach(&self) -> f64 {
         let farthest = (self.centre.abs() + self.half).length();
         let reach = farthest.min(self.centre.length() + self.radius);
@@ -125,24 +126,25 @@ fn width((low, high): (f64, f64)) -> f64 {
     high - low
 }
 
-/// Whether the polynomial is the same on both sides of 0.
+/// Returns whether the polynomial is even in the coordinate.
 fn is_even(terms: &[Term], axis: usize) -> bool {
     terms.iter().all(|(_, powers)| powers[axis] % 2 == 0)
 }
 
-/// To both sides of 0, or to one where that is like the other.
+/// Returns a range on both sides of 0, or on one side if the polynomial is even.
 fn one_or_both(terms: &[Term], axis: usize, far: f64) -> (f64, f64) {
     (if is_even(terms, axis) { 0.0 } else { -far }, far)
 }
 
-/// The least and the greatest distance from a place.
+/// Minimum and maximum distance of a range from a value.
 fn distances((low, high): (f64, f64), from: f64) -> [f64; 2] {
     let (low, high) = (low - from, high - from);
     let least = if low * high <= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
     [least, low.abs().max(high.abs())]
 }
 
-/// From which coordinate along an axis on there is no surface, where no other coordinate is greater.
+/// Returns the coordinate along an axis beyond which there is no surface, where no other coordinate is
+/// larger.
 fn reach_of_faces(degree: usize, terms: &[Term], axis: usize, sums: &mut u64) -> Option<f64> {
     let others = [(axis + 1) % 3, (axis + 2) % 3];
     let around = terms.iter().map(|(term, powers)| {
@@ -162,8 +164,8 @@ fn reach_of_faces(degree: usize, terms: &[Term], axis: usize, sums: &mut u64) ->
     (nearest > 0.0).then(|| (1.0 + ROUNDINGS * U) / nearest)
 }
 
-/// A box with its sides moved inward, by all but this share of its half widths; `None` where there is no surface
-/// in it.
+/// Moves the sides of a box inward, up to this fraction of its half widths from the surface; `None` if the
+/// box contains no surface.
 fn drawn_in(terms: &[Term], sides: Sides, share: f64, sums: &mut u64) -> Option<Sides> {
     let net = Net::new(terms, sides);
     let mut drawn = sides;
@@ -182,7 +184,8 @@ fn drawn_in(terms: &[Term], sides: Sides, share: f64, sums: &mut u64) -> Option<
     Some(drawn)
 }
 
-/// Of the ball around a box's centre that holds what is in it; that to its corners is so large.
+/// Returns the radius of a sphere around a box's centre that contains the surface in it; at most `corner`,
+/// the distance to the corners.
 fn radius(terms: &[Term], sides: Sides, centre: Vector, corner: f64, sums: &mut u64) -> f64 {
     let reach = |sides: &Sides| {
         let away = [0, 1, 2].map(|axis| distances(sides[axis], centre[axis]));
@@ -194,7 +197,7 @@ fn radius(terms: &[Term], sides: Sides, centre: Vector, corner: f64, sums: &mut 
 
 /// A part where the polynomial may be 0.
 struct Open {
-    /// How far it goes.
+    /// Minimum and maximum of the bounded quantity in it.
     reach: [f64; 2],
     net: Net,
 }
@@ -219,9 +222,9 @@ impl Ord for Open {
     }
 }
 
-/// The farthest that the surface goes in a net, at most: `reach` tells the least and the greatest of a part.
-/// It is too far by the tolerance, which may depend on how far the surface goes at least; by more where it takes
-/// too many sums. `None` where there is no surface.
+/// Returns an upper bound on how far the surface extends in a net, where `reach` returns the minimum and
+/// maximum of a part. The bound is too large by at most the tolerance, which may depend on a lower bound of
+/// the result; by more if the search exceeds its budget. `None` if there is no surface.
 fn farthest(
     net: Net,
     reach: impl Fn(&Sides) -> [f64; 2],

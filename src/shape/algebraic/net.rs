@@ -1,41 +1,40 @@
-//! Net: a polynomial over a box as its Bernstein coefficients, between the least and the greatest of which it
-//! stays.
+//! Bernstein coefficients of a polynomial over a box; their minimum and maximum bound the polynomial.
 //!
-//! **In:** terms, a box; an axis across which a net is halved. **Out:** the sign that the polynomial certainly has
-//! in the box; how much it changes along each axis. **Invariant:** each coefficient is off by no more than the
-//! net's own bound, which grows as it is halved.
+//! **In:** terms, a box; the axis along which to halve a net. **Out:** the sign that the polynomial certainly
+//! has in the box; its variation along each axis. **Invariant:** each coefficient is within the net's error
+//! bound, which grows with each halving.
 //!
-//! **Source:** J. Garloff, "The Bernstein algorithm", Interval Computations 2 (1993), pp. 154–168; halves as
-//! P. de Casteljau finds them.
+//! **Source:** J. Garloff, "The Bernstein algorithm", Interval Computations 2 (1993), pp. 154–168; halving by
+//! P. de Casteljau's algorithm.
 
 use super::super::U;
 
 /// A coefficient, and the powers of the three coordinates.
 pub type Term = (f64, [usize; 3]);
-/// Of each axis, from where to where.
+/// The range along each axis.
 pub type Sides = [(f64, f64); 3];
 
-/// How often a coefficient of the first net is rounded at most, of the size of what it is made of: each of its
-/// three factors 40 times, 16 times in each of three sums.
+/// Maximum number of roundings of a coefficient of the first net, relative to the size of its terms: 40 for
+/// each of its three factors, 16 in each of three sums.
 const ROUNDINGS: f64 = 256.0;
-/// Of the first box's half width: cells are halved until they are so narrow. A power of two, so that all their
-/// sides are exact.
+/// Minimum width of a cell, relative to the first box's half width. A power of two, so that the sides of all
+/// cells are exact.
 const NARROWEST: f64 = 1.0 / 1_099_511_627_776.0;
 
 /// A polynomial over a part of a box.
 #[derive(Debug, Clone)]
 pub struct Net {
-    /// How many coefficients stand along each axis: one more than its greatest power.
+    /// Number of coefficients along each axis: one more than the highest power.
     counts: [usize; 3],
     /// The last axis is the innermost.
     values: Vec<f64>,
     /// The first box.
     first: Sides,
-    /// Where it lies in that, which goes from −1 to 1 along each axis.
+    /// The part of the first box, which goes from −1 to 1 along each axis.
     shares: Sides,
-    /// No coefficient is greater: the sum of what the terms come to at most in the first box.
+    /// Upper bound of all coefficients: the sum of the maxima of the terms in the first box.
     size: f64,
-    /// How often a coefficient was rounded, at most, of that size.
+    /// Maximum number of roundings of a coefficient, relative to `size`.
     rounded: f64,
 }
 
@@ -76,7 +75,7 @@ impl Net {
         Self { counts, values, first: sides, shares, size, rounded: ROUNDINGS }
     }
 
-    /// Where it lies, as nearly as three roundings of the first box's sides tell.
+    /// Returns its position, within three roundings of the first box's sides.
     pub fn sides(&self) -> Sides {
         std::array::from_fn(|axis| {
             let (low, high) = self.first[axis];
@@ -86,7 +85,7 @@ impl Net {
         })
     }
 
-    /// The sign that the polynomial has throughout; `None` where it may change, or rounding hides it.
+    /// Returns the sign of the polynomial throughout; `None` if it may change, or if rounding hides it.
     pub fn sign(&self) -> Option<bool> {
         let slack = self.size * (self.rounded * U) + f64::MIN_POSITIVE;
         let least = -greatest(&self.values, &self.values, |value, _| -value);
@@ -98,7 +97,7 @@ impl Net {
         }
     }
 
-    /// Whether the polynomial is 0 somewhere, as its values at the corners tell: those are coefficients.
+    /// Returns whether the polynomial changes sign between the corners, whose values are coefficients.
     pub fn is_crossed(&self) -> bool {
         let mut signs = [false; 2];
         for corner in 0..8 {
@@ -109,14 +108,14 @@ impl Net {
         signs == [true; 2]
     }
 
-    /// The axis along which neighbours differ most; `None` where it is too narrow to be halved.
+    /// Returns the axis along which neighbours differ most; `None` if it is too narrow to be halved.
     pub fn steepest(&self) -> Option<usize> {
         let is_wide = |axis: &usize| self.shares[*axis].1 - self.shares[*axis].0 > NARROWEST;
         let changes = (0..3).filter(is_wide).map(|axis| (axis, self.change(axis)));
         changes.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(axis, _)| axis)
     }
 
-    /// The most by which neighbours along an axis differ.
+    /// Maximum difference of neighbours along an axis.
     fn change(&self, axis: usize) -> f64 {
         let stride = self.stride(axis);
         let lines = self.values.chunks_exact(self.counts[axis] * stride);
@@ -130,13 +129,13 @@ impl Net {
         self.counts[axis + 1..].iter().product()
     }
 
-    /// What it takes to halve it: sums of two numbers, at most.
+    /// Cost of halving it: an upper bound on the number of additions.
     pub fn price(&self) -> u64 {
         let longest = self.counts.into_iter().max().unwrap_or(1);
         (self.values.len() * longest / 2) as u64
     }
 
-    /// Its two halves along an axis.
+    /// Returns its two halves along an axis.
     pub fn halves(self, axis: usize) -> [Self; 2] {
         let (count, stride) = (self.counts[axis], self.stride(axis));
         let (mut lower, mut upper) = (self.clone(), self);
@@ -157,7 +156,7 @@ impl Net {
     }
 }
 
-/// Each row but the last becomes the mean of itself and the next.
+/// Replaces each row but the last by the mean of itself and the next.
 fn draw_together(rows: &mut [f64], stride: usize) {
     if stride == 1 {
         for place in 1..rows.len() {
@@ -175,7 +174,7 @@ fn draw_together(rows: &mut [f64], stride: usize) {
     }
 }
 
-/// The greatest that a function of pairs comes to, four at a time: so none waits for the one before.
+/// Maximum of a function over pairs, computed four at a time, so that none waits for the previous one.
 fn greatest(a: &[f64], b: &[f64], of: impl Fn(f64, f64) -> f64) -> f64 {
     let mut most = [f64::NEG_INFINITY; 4];
     let mut take = |a: &[f64], b: &[f64]| {
@@ -197,8 +196,8 @@ fn add(sum: &mut [f64], more: &[f64], times: impl Fn(f64) -> f64) {
     }
 }
 
-/// The coefficients of 1, x, x², … from `low` to `high`, each of the degree of the last:
-/// bᵢ(xᵃ) = Σⱼ C(i, j)·C(n − i, a − j) / C(n, a) · highʲ·lowᵃ⁻ʲ, which is a mean of products of a ends.
+/// Coefficients of 1, x, x², … from `low` to `high`, each of the degree of the last: bᵢ(xᵃ) = Σⱼ C(i, j)·C(n
+/// − i, a − j) / C(n, a) · highʲ·lowᵃ⁻ʲ, which is a mean of products of a ends.
 fn powers(count: usize, (low, high): (f64, f64)) -> Vec<Vec<f64>> {
     let mut choices = vec![vec![1.0]];
     while choices.len() < count {

@@ -1,7 +1,8 @@
-//! Polynomials without a surface: above 0 everywhere, or below it, as their terms prove.
+//! Detects polynomials without a surface: their terms prove that they are positive or negative everywhere.
 //!
-//! One of even powers with factors of one sign, and a constant of that sign, has this sign everywhere. Of a
-//! quadric, squares are split off, one for each of x, y and z, until a constant is left.
+//! A polynomial in even powers whose coefficients have one sign, and whose constant has that sign, has this
+//! sign everywhere. For a quadric, squares are split off, one for each of x, y and z, until a constant is
+//! left.
 
 use std::cmp::Ordering;
 
@@ -10,7 +11,7 @@ use crate::math::interval::Interval;
 use crate::math::terms::exponents;
 
 impl Algebraic {
-    /// What the polynomial is beside 0 everywhere, where that is proven.
+    /// Returns how the polynomial compares with 0 everywhere, where that is proven.
     pub fn everywhere(&self) -> Option<Ordering> {
         let negated: Vec<f64> = self.terms.iter().map(|term| -term).collect();
         let is_above = |terms: &[f64]| {
@@ -25,14 +26,14 @@ impl Algebraic {
     }
 }
 
-/// Whether no term is below 0 anywhere.
+/// Returns whether no term is negative anywhere.
 fn has_even_powers(degree: usize, terms: &[f64]) -> bool {
     exponents(degree).zip(terms).all(|(powers, term)| {
         *term == 0.0 || *term > 0.0 && powers.iter().all(|power| power % 2 == 0)
     })
 }
 
-/// Whether a quadric is a sum of squares and of a number above 0.
+/// Returns whether a quadric is a sum of squares and a positive number.
 fn has_squares(terms: &[f64]) -> bool {
     let &[xx, xy, xz, x, yy, yz, y, zz, z, one] = terms else { return false };
     // Twice the polynomial is (x y z 1) times this times (x y z 1).

@@ -1,11 +1,12 @@
-//! Foot: the place of a patch that is nearest to a point beside it, and which way the patch faces there.
+//! Closest-point projection onto a patch, with the normal at that point.
 
 use super::net::Place;
 use super::{BicubicPatch, STEPS, U};
 use crate::math::Vector;
 
 impl BicubicPatch {
-    /// The nearest place on the surface to a point that is near the given one; and its normal, of any length.
+    /// Returns the point on the surface nearest to `point`, which is near the given part, and the normal
+    /// there, of any length.
     pub(super) fn foot(&self, point: Vector, part: u32) -> (Vector, Vector) {
         let (mut u, mut v) = (f64::from(part >> 15) / STEPS, f64::from(part & 0x7fff) / STEPS);
         for _ in 0..6 {
@@ -26,7 +27,8 @@ impl BicubicPatch {
         (self.net.at(u, v).point, self.normal(u, v))
     }
 
-    /// At a tip, and wherever else the ways along u and v are one, that of a place near it.
+    /// Returns the normal at (u, v). At a tip, and wherever else the derivatives along u and v are parallel,
+    /// returns that of a nearby point.
     pub(super) fn normal(&self, u: f64, v: f64) -> Vector {
         let mut inward = 0.0;
         for _ in 0..4 {

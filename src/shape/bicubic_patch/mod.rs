@@ -1,12 +1,12 @@
-//! BicubicPatch: a Bézier surface of degree 3 both ways, in a space of its own. It is a sheet.
+//! Bicubic patch: a Bézier surface of degree 3 in both parameters, in local space. It is a sheet.
 //!
-//! A line meets it where two polynomials in u and v are zero at once: the distances of the point of the
-//! surface from the line, along two ways across it. A tree finds the pieces that are near the line. Those
-//! whose net is beside it are dropped; one on which the map is so nearly linear that it is one to one is left
-//! to Newton's steps; others are halved.
+//! A line intersects it where two polynomials in u and v vanish together: the distances of the surface point
+//! from the line along two directions across it. A tree finds the pieces near the line. Pieces whose net is
+//! beside the line are dropped; a piece whose map is so nearly linear that it is injective is solved by
+//! Newton's method; others are halved.
 //!
-//! **Invariant:** its edges belong to it, as those of a polygon: nothing shows between two patches that
-//! share one.
+//! **Invariant:** its edges belong to it, as with polygons: no gap appears between two patches that share an
+//! edge.
 //!
 //! **Source:** R. Moore, R. Kearfott, M. Cloud, *Introduction to Interval Analysis* (2009), § 8.2 (Krawczyk's
 //! test); T. Nishita, T. Sederberg, M. Kakimoto, "Ray tracing trimmed rational surface patches", SIGGRAPH
@@ -22,64 +22,66 @@ use crate::math::Vector;
 use net::{Across, Net, Place, bounds};
 use smallvec::SmallVec;
 
-/// No line that crosses a patch as far from grazing it as rounding tells needs so many pieces.
+/// Maximum number of pieces. A line that is not tangent to the patch, within rounding, never needs as many.
 const MOST_PIECES: usize = 1 << 14;
 
-/// How far the map of a piece may be from a linear one for Newton's steps: less than 1/3 is certain to end
-/// at the one root.
+/// Maximum deviation of a piece's map from a linear one for Newton's method: below 1/3, convergence to the
+/// single root is certain.
 const NEARLY_LINEAR: f64 = 0.3;
 
-/// How much of u and v a piece has that is not halved beforehand, however bent it is.
+/// Area in u and v up to which a piece is not halved in advance, however bent it is.
 const SMALLEST: f64 = 1.0 / 64.0;
 
-/// Places along u and along v that a part tells apart: [`Local::height`] starts from there.
+/// Number of positions along u and v that a part number distinguishes: [`Local::height`] starts its search
+/// from there.
 const STEPS: f64 = (1 << 15) as f64 - 1.0;
 
-/// A part is where on the surface it is: u in the upper half, v in the lower, in `STEPS`.
+/// A bicubic patch. A part number encodes a position on the surface: u in the upper half, v in the lower
+/// half, in units of `STEPS`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BicubicPatch {
     net: Net,
-    /// All of it, as it is, in the order of the tree.
+    /// The entire surface in pieces, in the order of the tree.
     pieces: Vec<Piece>,
     tree: Tree,
-    /// Which edges are points: u = 0, u = 1, v = 0, v = 1.
+    /// Which edges degenerate to points: u = 0, u = 1, v = 0, v = 1.
     tips: [bool; 4],
     reach: f64,
 }
 
-/// A part of the surface; as seen along a line, x and y go across that, and z along it.
+/// A part of the surface; relative to a line, x and y are across it, and z is along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
     net: Net,
-    /// Where it begins in u and v.
+    /// Start in u and v.
     start: [f64; 2],
-    /// How much of u and v it has.
+    /// Extent in u and v.
     size: [f64; 2],
 }
 
-/// What a piece turns out to be.
+/// Classification of a piece.
 enum Seen {
-    /// It is beside the line, or beside that part of it which is asked for.
+    /// Beside the line, or beside the requested range of it.
     Beside,
-    /// The map from u and v to the distances from the line is nearly linear: times this, nearly the
-    /// identity, within the second number.
+    /// The map from u and v to the distances from the line is nearly linear: composed with this matrix, it
+    /// differs from the identity by at most the second value.
     Linear([[f64; 2]; 2], f64),
-    /// All of it is on the line, as far as rounding tells.
+    /// Entirely on the line, within rounding.
     Point,
     /// None of these.
     Bent,
 }
 
-/// Where the line meets the surface.
+/// An intersection of the line with the surface.
 struct Root {
     met: Met,
     place: [f64; 2],
-    /// How far off that may be.
+    /// Error of `place`.
     off: [f64; 2],
 }
 
 impl BicubicPatch {
-    /// Of finite points.
+    /// Builds a patch from finite control points.
     pub fn new(points: [Vector; 16]) -> Self {
         let net = Net(points);
         let mut pieces = Vec::new();
@@ -108,7 +110,7 @@ impl BicubicPatch {
         Self { net, pieces, tree, tips, reach: reach * (1.0 + 4.0 * U) }
     }
 
-    /// Whether a piece ends in a tip, and in which.
+    /// Returns the tip at which a piece ends, if any.
     fn tip_of(&self, piece: &Piece) -> Option<usize> {
         let [u, v] = piece.start;
         let [u_size, v_size] = piece.size;
@@ -118,7 +120,7 @@ impl BicubicPatch {
 }
 
 impl Piece {
-    /// Whether lines that meet its box are likely to ask for its halves.
+    /// Returns whether lines that intersect its box are likely to need its halves.
     fn is_bent(&self) -> bool {
         let off = |steps: [Vector; 12]| {
             let mean = steps.iter().copied().sum::<Vector>() / 12.0;
@@ -128,7 +130,7 @@ impl Piece {
         off(self.net.steps_along_u()) || off(self.net.steps_along_v())
     }
 
-    /// What can be told of it between two places along the line, where what is less than `off` is nothing.
+    /// Classifies it for a range along the line, where distances below `off` count as 0.
     fn look(&self, (from, to): (f64, f64), off: f64) -> Seen {
         let (low, high) = self.net.bounds();
         if low.x > off || low.y > off || high.x < -off || high.y < -off {
@@ -164,7 +166,7 @@ impl Piece {
         if bend <= NEARLY_LINEAR { Seen::Linear(inverse, bend) } else { Seen::Bent }
     }
 
-    /// Keeps one half, across the way along which it is longer, and gives the other.
+    /// Keeps one half, split along its longer parameter direction, and returns the other.
     fn halve(&mut self, length: impl Fn(Vector) -> f64) -> Self {
         let length = |steps: [Vector; 12]| steps.into_iter().map(&length).sum::<f64>();
         let is_along_u = length(self.net.steps_along_u()) >= length(self.net.steps_along_v());
@@ -176,11 +178,12 @@ impl Piece {
         Self { net, start, size: self.size }
     }
 
-    /// Where a nearly linear piece is met, if within its bounds as far as rounding tells: Newton's steps,
-    /// held near them.
+    /// Returns the intersection with a nearly linear piece, if it is within the piece's bounds, to rounding:
+    /// Newton's method, clamped near them.
     ///
-    /// **Error**: with M the inverse of the derivative and κ how far it is from linear, u and v are off by
-    /// no more than |M|·off/(1 − κ), taken twice; the place along the line by that times the greatest derivative.
+    /// **Error**: with M the inverse of the derivative and κ its deviation from linear, u and v are off by at
+    /// most |M|·off/(1 − κ), counted twice; the position along the line is off by that times the largest
+    /// derivative.
     fn root(
         &self,
         whole: &Net,
@@ -235,7 +238,7 @@ impl Piece {
 }
 
 impl Root {
-    /// The same one, found in two pieces that touch there.
+    /// Returns whether both are the same intersection, found in two adjacent pieces.
     fn is(&self, other: &Self) -> bool {
         let near = |i: usize| {
             let apart = (self.place[i] - other.place[i]).abs();
@@ -250,7 +253,8 @@ fn part_at([u, v]: [f64; 2]) -> u32 {
     (number(u) << 15) | number(v)
 }
 
-/// The inverse of the derivative that goes so along u and v; across the line alone.
+/// Returns the inverse of the matrix with these derivatives along u and v, restricted to the directions
+/// across the line.
 fn inverse(along_u: Vector, along_v: Vector) -> Option<[[f64; 2]; 2]> {
     let determinant = along_u.x * along_v.y - along_v.x * along_u.y;
     let by = 1.0 / determinant;
@@ -259,7 +263,7 @@ fn inverse(along_u: Vector, along_v: Vector) -> Option<[[f64; 2]; 2]> {
 }
 
 impl BicubicPatch {
-    /// The crossings that may lie between two places, in order.
+    /// Adds the crossings that may lie in a range, in order.
     fn meet(&self, ray: &LocalRay, between: (f64, f64), found: &mut Crossings) {
         // What the view rounds points by, what halving does and what a value does, generously.
         let size = self.reach + ray.nearest.length();
@@ -343,7 +347,7 @@ impl Local for BicubicPatch {
         Some(met.part)
     }
 
-    /// Over the tangent plane of the nearest place.
+    /// Measured from the tangent plane at the nearest point.
     fn height(&self, part: u32, point: Vector) -> Height {
         let (foot, normal) = self.foot(point, part);
         let normal = normal.normalize_or(Vector::Z);
@@ -351,7 +355,7 @@ impl Local for BicubicPatch {
         Height { value: (point - foot).dot(normal), gradient: normal, error }
     }
 
-    /// With room for the rounding of a point on it.
+    /// Includes a margin for the rounding of a point on it.
     fn extent(&self, along: Vector) -> (f64, f64) {
         let slack = 64.0 * U * self.reach * along.length();
         let (low, high) = self.nearest_extent(along);
@@ -362,7 +366,7 @@ impl Local for BicubicPatch {
         (-self.net.greatest(-along), self.net.greatest(along))
     }
 
-    /// Not measured: as of shapes like it.
+    /// Not measured: assumed from similar shapes.
     fn price(&self) -> u64 {
         150 + 7 * u64::from(self.pieces.len().max(1).ilog2())
     }
@@ -401,7 +405,7 @@ impl BicubicPatch {
         &self.net.0
     }
 
-    /// A point of the surface and the normal there.
+    /// Returns a point of the surface and its normal.
     pub(super) fn at(&self, u: f64, v: f64) -> (Vector, Vector) {
         (self.net.at(u, v).point, self.normal(u, v).normalize_or(Vector::Z))
     }

@@ -1,17 +1,16 @@
-//! Nets: the 16 points that span a Bézier surface of degree 3 both ways, four rows of four.
+//! Control nets of Bézier surfaces of degree 3 in both parameters: 16 points in four rows of four.
 //!
-//! **Invariant:** the surface, each of its parts and each of its derivatives lies within the box of the net
-//! that spans it.
+//! **Invariant:** the surface, its parts and its derivatives each lie within the box of their own net.
 //!
 //! **Source:** G. Farin, *Curves and Surfaces for CAGD*, 5th ed. (2002), ch. 5 and 14.
 
 use crate::math::Vector;
 
-/// `u` goes along the rows, `v` from row to row, both from 0 to 1.
+/// A control net: `u` runs along the rows, `v` from row to row, both from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Net(pub [Vector; 16]);
 
-/// A place on the surface, and the ways along it.
+/// A point on the surface, and the derivatives there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub point: Vector,
@@ -19,12 +18,12 @@ pub(super) struct Place {
     pub along_v: Vector,
 }
 
-/// A net as seen along a line, across it alone: x and y.
+/// A net relative to a line, restricted to the directions across it: x and y.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Across([[f64; 2]; 16]);
 
 impl Across {
-    /// As [`Net::at`], bit for bit: the point, and the ways along u and v.
+    /// Returns the point and the derivatives along u and v, bit-identical to [`Net::at`].
     pub fn at(&self, u: f64, v: f64) -> [[f64; 2]; 3] {
         let ((across, slope_u), (down, slope_v)) = (weights(u), weights(v));
         let mut all = [[0.0; 2]; 3];
@@ -46,7 +45,7 @@ impl Across {
     }
 }
 
-/// The values of the four polynomials that weigh points, and their slopes.
+/// Values of the four Bernstein polynomials, and their slopes.
 fn weights(t: f64) -> ([f64; 4], [f64; 4]) {
     let r = 1.0 - t;
     let values = [r * r * r, 3.0 * r * r * t, 3.0 * r * t * t, t * t * t];
@@ -91,17 +90,17 @@ impl Net {
         mapped
     }
 
-    /// Keeps the part for the lower half of u, and gives that for the upper.
+    /// Keeps the part for the lower half of u, and returns the upper one.
     pub fn halve_along_u(&mut self) -> Self {
         self.halve(|line, i| 4 * line + i)
     }
 
-    /// As [`Self::halve_along_u`].
+    /// Like [`Self::halve_along_u`], along v.
     pub fn halve_along_v(&mut self) -> Self {
         self.halve(|line, i| 4 * i + line)
     }
 
-    /// Each of four lines in halves, the i-th point of which is `at(line, i)`.
+    /// Halves each of four curves; the i-th point of each is `at(line, i)`.
     fn halve(&mut self, at: impl Fn(usize, usize) -> usize) -> Self {
         let mut high = *self;
         for line in 0..4 {
@@ -114,7 +113,7 @@ impl Net {
         high
     }
 
-    /// What spans the derivative along u.
+    /// Returns the control points of the derivative along u.
     pub fn steps_along_u(&self) -> [Vector; 12] {
         std::array::from_fn(|i| {
             let at = 4 * (i / 3) + i % 3;
@@ -122,17 +121,17 @@ impl Net {
         })
     }
 
-    /// What spans the derivative along v.
+    /// Returns the control points of the derivative along v.
     pub fn steps_along_v(&self) -> [Vector; 12] {
         std::array::from_fn(|i| (self.0[i + 4] - self.0[i]) * 3.0)
     }
 
-    /// The corners of the box that holds it.
+    /// Returns the corners of its bounding box.
     pub fn bounds(&self) -> (Vector, Vector) {
         bounds(&self.0)
     }
 
-    /// The points of an edge: u = 0, u = 1, v = 0, v = 1.
+    /// Returns the control points of an edge: u = 0, u = 1, v = 0, v = 1.
     pub fn edge(&self, edge: usize) -> [Vector; 4] {
         std::array::from_fn(|i| match edge {
             0 => self.0[4 * i],
@@ -142,9 +141,9 @@ impl Net {
         })
     }
 
-    /// The greatest `along`·P over the surface, no less and by no more than 2⁻¹² of its size too much.
+    /// Returns an upper bound on `along`·P over the surface, too large by at most 2⁻¹² of its size.
     pub fn greatest(&self, along: Vector) -> f64 {
-        /// More pieces than any surface needs that is not nearly flat across `along`.
+        /// More pieces than any surface needs, unless it is nearly flat across `along`.
         const MOST: usize = 4096;
         let value = |net: &Self| {
             let heights = net.0.map(|point| point.dot(along));

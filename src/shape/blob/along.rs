@@ -1,9 +1,9 @@
-//! The field of a blob along a line: a polynomial of degree 4 between the places where the line enters and
-//! leaves components, and goes past the ends of their bars.
+//! The field of a blob along a line. It is a polynomial of degree 4 between the points where the line enters
+//! or leaves a component, or passes the end of a component's bar.
 //!
-//! **Invariant:** the field and its slope do not jump at such places. So a component that is grazed may be
-//! left out, and a place may be off by a rounding; and as all pieces are walked through in one go, what is
-//! crossed where two of them meet is crossed once.
+//! **Invariant:** the field and its slope are continuous at these points. So a grazed component may be
+//! omitted, and a point may be off by a rounding. As all pieces are searched in one pass, a crossing where
+//! two of them meet is found exactly once.
 
 use std::cell::Cell;
 
@@ -17,14 +17,14 @@ use crate::math::roots::polynomial::turning_points;
 use crate::shape::U;
 use crate::shape::body::{Crossings, LocalRay, Met};
 
-/// A component that the line goes through.
+/// A component that the line passes through.
 struct Part<'a> {
     component: &'a Component,
     stretch: f64,
-    /// Where the line is nearest to the blob's origin, and its direction, in the component's space.
+    /// The line's point nearest to the blob's origin, and its direction, in the component's space.
     place: Vector,
     step: Vector,
-    /// Between which places the line is inside.
+    /// Range in which the line is inside.
     ends: (f64, f64),
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Line<'a> {
     parts: SmallVec<[Part<'a>; 8]>,
 }
 
-/// The two places where the line is at distance 1 from the axis, or from a point of it.
+/// Returns the two positions where the line is at distance 1 from the axis, or from a point of it.
 fn chord(place: Vector, step: Vector) -> Option<(f64, f64)> {
     let speed2 = step.length_squared();
     let middle = -place.dot(step) / speed2;
@@ -73,7 +73,7 @@ impl<'a> Part<'a> {
         all.reduce(|(a, b), (c, d)| (a.min(c), b.max(d))).map(part)
     }
 
-    /// Where it begins and ends, and where the line goes past the ends of the bar.
+    /// Its start and end, and the positions where the line passes the ends of the bar.
     fn joints(&self) -> impl Iterator<Item = f64> {
         let (enter, leave) = self.ends;
         let half = self.component.half;
@@ -86,8 +86,8 @@ impl<'a> Part<'a> {
         self.ends.0 <= s && s <= self.ends.1
     }
 
-    /// Adds the field at middle + u·half as a polynomial in u, for a piece that is all on one side of each
-    /// end of the bar.
+    /// Adds the field at middle + u·half as a polynomial in u, for a piece that is entirely on one side of
+    /// each end of the bar.
     fn add(&self, middle: f64, half: f64, sum: &mut [f64; 5]) {
         let point = self.place + self.step * middle;
         let bar = self.component.half;
@@ -117,7 +117,7 @@ impl<'a> Line<'a> {
         Self { ray, parts }
     }
 
-    /// What is missing to 1.
+    /// Returns 1 less the field.
     fn height(&self, s: f64) -> Sample {
         let mut sample = Sample { value: 1.0, slope: 0.0, error: 2.0 * U };
         let blur = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
@@ -133,8 +133,8 @@ impl<'a> Line<'a> {
         sample
     }
 
-    /// Those between two places, or some more; where `first` is wanted, no farther than one that is certainly
-    /// behind the former.
+    /// Adds the crossings in a range, and possibly more; if `first` is set, stops at one that is certainly
+    /// behind the start of the range.
     pub fn crossings(&mut self, (start, end): (f64, f64), first: bool, found: &mut Crossings) {
         let mut joints: SmallVec<[f64; 32]> = self.parts.iter().flat_map(Part::joints).collect();
         joints.sort_unstable_by(f64::total_cmp);
@@ -183,7 +183,8 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Whether a polynomial of degree 4 has but one sign from −1 to 1: all of its Bernstein coefficients have.
+/// Returns whether a polynomial of degree 4 has a constant sign from −1 to 1: whether all of its Bernstein
+/// coefficients do.
 fn has_one_sign(&[a, b, c, d, e]: &[f64; 5]) -> bool {
     let (even, odd) = (a + c + e, b + d);
     let (half_even, half_odd) = (a - e, 0.5 * (b - d));

@@ -1,8 +1,8 @@
-//! Blob: where the fields of its components add up to 1 or more.
+//! Blob: the set of points where the fields of its components add up to 1 or more.
 //!
-//! A component's field is `strength`·(1 − d²)², d the distance from the middle of a bar in a space where the
-//! bar is 1 thick all around; beyond it there is none. A ball is a bar without length. Negative strengths
-//! dent what others make.
+//! A component's field is `strength`·(1 − d²)², with d the distance from the middle of a bar, in a space
+//! where the bar has radius 1; it is 0 for d > 1. A sphere is a bar of length 0. Negative strengths subtract
+//! from the field.
 //!
 //! **Source:** POV-Ray 3.7 manual, 3.4.5.1.1; G. Wyvill, C. McPheeters, B. Wyvill, "Data structure for soft
 //! objects", The Visual Computer 2 (1986).
@@ -18,13 +18,13 @@ use crate::math::singular::singular_values;
 use crate::math::{Matrix, Vector};
 use along::Line;
 
-/// A bar along z from −`half` to `half`, and all that is nearer to it than 1, under a linear map.
+/// A bar along z from −`half` to `half` with all points nearer to it than 1, under a linear map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Component {
     pub strength: f64,
     /// The middle of the bar.
     pub centre: Vector,
-    /// 0 or more.
+    /// Half the length of the bar, at least 0.
     pub half: f64,
     pub blob_from_unit: Matrix,
     pub unit_from_blob: Matrix,
@@ -34,25 +34,25 @@ pub struct Component {
 pub struct Blob {
     /// In the order of the tree.
     components: Vec<Component>,
-    /// No part of the surface is farther from the middle of a component that could make it; 0 where none
-    /// is made by it more than by any other.
+    /// For each component, the maximum distance from its middle at which the surface may be dominated by it;
+    /// 0 if it dominates nowhere.
     widths: Vec<f64>,
-    /// How far an error in space may move a point in the component's own, at most.
+    /// Upper bounds on the ratio of an error in a component's space to one in the blob's.
     stretches: Vec<f64>,
     tree: Tree,
     reach: f64,
 }
 
-/// A point as a component sees it.
+/// A point in a component's space.
 struct Seen {
-    /// From the nearest point of the bar.
+    /// Vector from the nearest point of the bar.
     from_bar: Vector,
-    /// 1 − d²; the field is the strength times its square, where it is positive.
+    /// 1 − d²; where positive, the field is the strength times its square.
     inner: f64,
 }
 
 impl Component {
-    /// The size of the component along a vector: the greatest `along`·P, for a thickness of `width`.
+    /// Returns the maximum of `along`·P over the component, for a radius of `width`.
     fn greatest(&self, along: Vector, width: f64) -> f64 {
         let along_unit = self.blob_from_unit.transpose() * along;
         self.centre.dot(along) + self.half * along_unit.z.abs() + width * along_unit.length()
@@ -66,7 +66,7 @@ impl Component {
         Bounds { low: Vector::from_array(low) - slack, high: Vector::from_array(high) + slack }
     }
 
-    /// How far from the origin it reaches, for a thickness of `width`.
+    /// Maximum distance from the origin, for a radius of `width`.
     fn reach(&self, width: f64) -> f64 {
         let axis = self.blob_from_unit.z_axis * self.half;
         let end = (self.centre + axis).length().max((self.centre - axis).length());
@@ -79,7 +79,7 @@ impl Component {
         Seen { from_bar, inner: 1.0 - from_bar.length_squared() }
     }
 
-    /// How far its field may be off where the point may be by `off` in its own space.
+    /// Error of the field for a point that is off by `off` in the component's space.
     fn error(&self, Seen { from_bar, inner }: &Seen, off: f64) -> f64 {
         let square = 2.0 * from_bar.length() * off + off * off + 4.0 * U;
         self.strength.abs()
@@ -88,8 +88,8 @@ impl Component {
 }
 
 impl Blob {
-    /// Components whose strengths are measured in thresholds, and which together are about as large as 1.
-    /// `None` where they add up to 1 nowhere.
+    /// Builds a blob of about size 1 from components whose strengths are relative to the threshold. `None` if
+    /// the field reaches 1 nowhere.
     pub fn new(mut components: Vec<Component>) -> Option<Self> {
         components.retain(|component| component.strength != 0.0);
         if components.is_empty() {
@@ -106,7 +106,7 @@ impl Blob {
         Some(Self { components, widths, stretches, tree, reach })
     }
 
-    /// The components that may have a field at a point.
+    /// Returns the components that may have a field at a point.
     fn around(&self, point: Vector) -> impl Iterator<Item = usize> {
         let mut near: SmallVec<[usize; 16]> = SmallVec::new();
         self.tree.touching(&Bounds { low: point, high: point }, |run| near.extend(run));
@@ -122,7 +122,7 @@ impl Blob {
     }
 }
 
-/// A tree over some components; these in its order, and their boxes.
+/// Builds a tree over the components; returns them, and their boxes, in its order.
 fn sorted(components: &[Component]) -> (Tree, Vec<Component>, Vec<Bounds>) {
     let bounds: Vec<Bounds> = components.iter().map(Component::bounds).collect();
     let (tree, order) = Tree::build(&bounds);
@@ -131,11 +131,11 @@ fn sorted(components: &[Component]) -> (Tree, Vec<Component>, Vec<Bounds>) {
     (tree, components, bounds)
 }
 
-/// Returns [`Blob::widths`], and how many nodes of the tree were looked at.
+/// Returns [`Blob::widths`], and the number of visited tree nodes.
 ///
-/// Where the surface is, some component has the greatest 1 − d². Its square, times the sum of all positive
-/// strengths whose components meet this one, is 1 or more; so no surface is farther from the middle of that
-/// component than the d that follows. More strengths than meet it only make the width greater.
+/// At each point of the surface, some component has the largest 1 − d². Its square, times the sum of all
+/// positive strengths whose components touch this one, is at least 1; this bounds d. Counting more strengths
+/// only enlarges the bound.
 fn widths(tree: &Tree, components: &[Component], bounds: &[Bounds]) -> (Vec<f64>, usize) {
     let strengths = tree.weights(|i| components[i].strength.max(0.0));
     let mut looks = 0;
@@ -167,7 +167,7 @@ impl Local for Blob {
         Some(0)
     }
 
-    /// What is missing to 1.
+    /// 1 less the field.
     fn height(&self, _: u32, point: Vector) -> Height {
         let mut height = Height { value: 1.0, gradient: Vector::ZERO, error: 2.0 * U };
         for i in self.around(point) {
@@ -218,13 +218,13 @@ impl Local for Blob {
 
 #[cfg(test)]
 impl Blob {
-    /// How many nodes of a tree are looked at for the widths of some components.
+    /// Returns the number of tree nodes visited to compute the widths.
     pub(super) fn looks(components: &[Component]) -> usize {
         let (tree, components, bounds) = sorted(components);
         widths(&tree, &components, &bounds).1
     }
 
-    /// What is missing to 1, in twice the digits.
+    /// 1 less the field, in twice the precision.
     pub(super) fn exactly(&self, point: super::exact::Triple) -> super::exact::Double {
         use super::exact::{Double, local, minus, triple};
         let n = Double::of;

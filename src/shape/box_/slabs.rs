@@ -1,13 +1,13 @@
-//! Slabs: the part of a line between three pairs of parallel planes.
+//! Intersection of a line with three slabs, which are pairs of parallel planes.
 //!
-//! **In:** a line, three normals and half widths. **Out:** where it enters the last and leaves the first, each
-//! with a bound on its error. **Invariant:** what is left out is certainly missed.
+//! **In:** a line, three normals and half widths. **Out:** the entry into the last slab and the exit from the
+//! first, each with an error bound. **Invariant:** a line without a result certainly misses.
 
 use super::{Chord, Ray};
 use crate::math::{Real, Vector3};
 use crate::shape::Crossing;
 
-/// The part of a line inside all three slabs, and the faces where it enters and leaves.
+/// The part of a line inside all three slabs, and the faces through which it enters and leaves.
 #[derive(Debug, Clone, Copy)]
 pub struct Slabs<R: Real = f64> {
     pub enter: Crossing<R>,
@@ -23,18 +23,18 @@ impl Slabs {
     }
 }
 
-/// A line through three slabs; `None` when it misses their common part.
+/// Intersects a line with three slabs; `None` if it misses their intersection.
 ///
-/// With f = S − C, a = N·f, v = N·D a slab is entered at (−l·sgn v − a)/v and left at
-/// (l·sgn v − a)/v; a line along a slab (v = ±0, or not to be told from it over its way through the
-/// others) is in it or misses. The box is entered where the last slab is, left where the first is;
-/// where these are closer than their errors, at an edge, the line counts as through: boxes that
-/// share a face leave no gap between them. An edge belongs to the first of its faces.
+/// With f = S − C, a = N·f, v = N·D, the line enters a slab at (−l·sgn v − a)/v and leaves it at (l·sgn v −
+/// a)/v. A line parallel to a slab (v is ±0, or cannot be separated from it within the other slabs) is
+/// entirely inside or misses. The line enters the box with the last slab and leaves it with the first. Where
+/// these two are closer than their errors, at an edge, the line counts as passing through, so that boxes that
+/// share a face leave no gap. An edge belongs to the first of its faces.
 ///
-/// **Error:** a is off by u·(5·|f|₁ + l), and by u·|N|·|C| from the face that was meant, as C was
-/// rounded: faces that two boxes share are one. v is off by 6u·|N|·|D| ≤ 6u, and 1/v, the difference
-/// and the product are rounded; so t by e(t) = (u·(6·|f|₁ + 3·l + 2·|N|·|C|) + 10u·|t|) / |v|. The last
-/// entry lies between the greatest t − e(t) and the greatest t + e(t), of all three slabs.
+/// **Error:** a is off by u·(5·|f|₁ + l), and by u·|N|·|C| from the intended face, because C is rounded:
+/// coincident faces of two boxes count as one. v is off by 6u·|N|·|D| ≤ 6u, and 1/v, the difference and the
+/// product are rounded. So t is off by e(t) = (u·(6·|f|₁ + 3·l + 2·|N|·|C|) + 10u·|t|) / |v|. The last entry
+/// lies between the maximum of t − e(t) and the maximum of t + e(t) over all three slabs.
 ///
 /// **Source:** T. Kay, J. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986, p. 271.
 #[inline(always)]
@@ -55,7 +55,8 @@ pub fn slabs<R: Real>(
     }
 }
 
-/// As [`slabs`]; `None` of a line that is so slow across a slab that the speed's own error counts.
+/// Returns the result of [`slabs`]; `None` if the line crosses a slab so slowly that the error of its speed
+/// matters.
 #[inline(always)]
 pub(super) fn through_steeply<R: Real>(
     centre: R::Vector,
@@ -96,8 +97,8 @@ fn through_nearly_along<R: Real>(
     }
 }
 
-/// Of a line that goes nearly along a slab: where it would be in that one from before it enters the others until
-/// it has left them, it is, whatever rounding might have made of the slab's ends.
+/// Resolves a line nearly parallel to a slab: if it would be inside that slab from before it enters the
+/// others until after it leaves them, then it is inside, whatever rounding did to the ends of the slab.
 fn decided<R: Real>(
     found: Slabs<R>,
     centre: R::Vector,
@@ -121,8 +122,8 @@ fn decided<R: Real>(
     }
 }
 
-/// The line's part in all slabs; it goes along those that it is along for certain, and those of which `along` says
-/// so.
+/// Returns the part of the line in all slabs. The line counts as parallel to the slabs where that is certain,
+/// and to those that `along` names.
 #[cold]
 #[inline(never)]
 pub(super) fn through<R: Real>(
@@ -177,7 +178,7 @@ impl<R: Real> Part<R> {
         leave: End { t: R::INFINITY, least: R::INFINITY, most: R::INFINITY, face: 0 },
     };
 
-    /// Leaves what of it is in one more, which the line goes through.
+    /// Clips it to one more slab, which the line crosses.
     #[inline(always)]
     fn cut(&mut self, axis: usize, line: Line<R>, half_width: R, speed_error: R) {
         let Self { enter, leave } = self;
@@ -205,7 +206,7 @@ impl<R: Real> Part<R> {
         }
     }
 
-    /// Leaves what of it lies between two places, known to their rounding; from −∞ or to ∞ it stays as it is.
+    /// Clips it to a range that is accurate to its rounding; a limit of −∞ or ∞ has no effect.
     #[cold]
     fn cut_at(&mut self, axis: usize, speed: R, [near, far]: [R; 2]) {
         let Self { enter, leave } = self;
@@ -245,19 +246,19 @@ impl<R: Real> Part<R> {
     }
 }
 
-/// How far v may be off.
+/// Error bound of v.
 #[inline(always)]
 fn speed_error<R: Real>() -> R {
     R::from_f64(10.0) * R::UNIT_ROUNDOFF
 }
 
-/// Whether a speed cannot be told from 0, or has no reciprocal.
+/// Returns whether a speed cannot be separated from 0, or has no reciprocal.
 #[inline(always)]
 fn is_level<R: Real>(speed: R, speed_error: R) -> bool {
     speed.abs() <= R::from_f64(4.0) * speed_error || speed.abs() <= R::from_f64(LEVEL)
 }
 
-/// A line as a slab sees it: a, v, and how far a may be off.
+/// A line relative to a slab: a, v, and the error bound of a.
 #[derive(Clone, Copy)]
 pub(super) struct Line<R: Real> {
     pub place: R,
@@ -288,14 +289,15 @@ impl<R: Real> Line<R> {
     }
 }
 
-/// The slabs that a line goes along: over all of its way through the others it comes no farther from their
-/// planes than a few times what these may be off.
+/// The slabs that a line is parallel to: within the other slabs, its distance to their planes changes by no
+/// more than a few times the error of the planes.
 #[derive(Clone, Copy)]
 pub(super) struct Along<R: Real> {
     pub axes: [bool; 3],
-    /// Where those have the line of which more is known.
+    /// Range of the line in those slabs for which it is known exactly.
     pub known: [Option<[R; 2]>; 3],
-    /// The middle of that way, ahead of the ray's start: what leaves a face is off it there.
+    /// Middle of the range within the other slabs, ahead of the ray's start: a ray that starts on a face is
+    /// clear of it there.
     pub middle: R,
 }
 
@@ -329,9 +331,9 @@ impl<R: Real> Along<R> {
     }
 }
 
-/// Slower than this a ray moves so nearly along a slab that its speed's own error counts.
+/// Speed across a slab below which the error of the speed itself matters.
 const STEEP: f64 = 1.0 / 1_048_576.0;
-/// Slower than this a ray is along the slab: the speed has no reciprocal.
+/// Speed below which a ray is parallel to the slab: the speed has no reciprocal.
 const LEVEL: f64 = 4.0 * f32::MIN_POSITIVE as f64;
 
 struct End<R: Real> {

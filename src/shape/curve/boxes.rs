@@ -1,14 +1,14 @@
-//! Boxes around pieces in a row, around the halves of that row, and so on: what holds all over a box need not be
-//! asked of each piece in it.
+//! Bounding boxes of a row of pieces, of the halves of the row, and so on: a property that holds throughout a
+//! box need not be tested for each piece.
 
 use std::ops::Range;
 
 use super::{Piece, Point};
 
-/// The lowest and the highest coordinates.
+/// The minimum and maximum coordinates.
 pub type Hull = [Point; 2];
 
-/// For each run all that its first node stands for: before its two halves, and these in order.
+/// The box trees of all runs, each in preorder: a node precedes its two halves.
 #[derive(Debug, Clone, Default)]
 pub struct Boxes {
     nodes: Vec<Node>,
@@ -17,13 +17,13 @@ pub struct Boxes {
 #[derive(Debug, Clone, Copy)]
 struct Node {
     hull: Hull,
-    /// The pieces in it, by number.
+    /// The range of pieces in it.
     from: usize,
     to: usize,
 }
 
 impl Boxes {
-    /// Adds those of the pieces from one on to the last. Returns the number of the first.
+    /// Adds the boxes of the pieces from `from` on. Returns the index of the root.
     pub fn add(&mut self, pieces: &[Piece], from: usize) -> usize {
         let root = self.nodes.len();
         let mut rows = vec![(from, pieces.len())];
@@ -39,12 +39,13 @@ impl Boxes {
         root
     }
 
-    /// The first, around all of a run.
+    /// Returns the box of an entire run, given its root.
     pub fn hull(&self, root: usize) -> Hull {
         self.nodes[root].hull
     }
 
-    /// Shows `look` boxes in the order of their pieces: the two halves of each that it wants halved.
+    /// Calls `look` with boxes in the order of their pieces; descends into both halves where it returns
+    /// `true`.
     #[inline(always)]
     pub fn descend(&self, root: usize, mut look: impl FnMut(&Hull, Range<usize>) -> bool) {
         let size = |node: &Node| 2 * (node.to - node.from) - 1;
@@ -57,7 +58,7 @@ impl Boxes {
     }
 }
 
-/// About both.
+/// Returns the box that contains both.
 pub fn union(a: Hull, b: Hull) -> Hull {
     [[a[0][0].min(b[0][0]), a[0][1].min(b[0][1])], [a[1][0].max(b[1][0]), a[1][1].max(b[1][1])]]
 }

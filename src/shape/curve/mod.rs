@@ -1,7 +1,7 @@
-//! Curves in a plane, made of polynomial pieces that meet end to end.
+//! Plane curves, made of polynomial pieces that join end to end.
 //!
-//! **In:** pieces by their Bézier points. **Out:** runs of pieces that are monotone along both axes, closed
-//! or between two ends. **Invariant:** neighbours share their joint to the last bit.
+//! **In:** pieces, as Bézier points. **Out:** runs of pieces that are monotone along both axes, closed or
+//! with two ends. **Invariant:** adjacent pieces share their joint exactly.
 
 mod boxes;
 mod outline;
@@ -15,20 +15,20 @@ use smallvec::SmallVec;
 
 use super::U;
 
-/// A place in the plane.
+/// A point in the plane.
 pub type Point = [f64; 2];
 
 /// A polynomial curve of degree 1 to 3 for u from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
-    /// As many more than the degree as one; the others repeat the last.
+    /// Control points, one more than the degree; the remaining ones repeat the last.
     points: [Point; 4],
     degree: usize,
-    /// Of what closes a curve, nothing is seen.
+    /// Whether it is visible; pieces that close a curve are not.
     pub seen: bool,
 }
 
-/// So little, as a part of a piece's size or of its way, that what is left of it squared is nothing.
+/// Fraction of a piece's size, or of its parameter range, whose square is negligible.
 const NEAR: f64 = 1e-9;
 
 fn mix(a: Point, b: Point, u: f64) -> Point {
@@ -48,7 +48,7 @@ impl Piece {
         Self { seen: false, ..self }
     }
 
-    /// By two to four Bézier points; `None` of any other number.
+    /// Builds a piece from two to four Bézier points; `None` for any other number.
     pub fn bezier(points: &[Point]) -> Option<Self> {
         let last = *points.last()?;
         let degree = points.len().checked_sub(1).filter(|degree| (1..=3).contains(degree))?;
@@ -69,13 +69,13 @@ impl Piece {
         self.points[self.degree]
     }
 
-    /// How high all of it is, where it is level.
+    /// Returns its y coordinate, if it is horizontal.
     pub fn level(&self) -> Option<f64> {
         let [_, height] = self.first();
         self.points().iter().all(|point| point[1] == height).then_some(height)
     }
 
-    /// How far out it reaches at most, by its control points.
+    /// Returns an upper bound on its x coordinate, from its control points.
     pub fn width(&self) -> f64 {
         self.points().iter().map(|point| point[0]).fold(0.0, f64::max)
     }
@@ -84,12 +84,12 @@ impl Piece {
         self.degree == 1
     }
 
-    /// It is only a point.
+    /// Whether it is a single point.
     fn is_nothing(&self) -> bool {
         self.points.iter().all(|point| *point == self.points[0])
     }
 
-    /// The place at u, and how fast it moves there; at 0 and 1 the very ends.
+    /// Returns the point and the derivative at u; at 0 and 1, exactly the end points.
     #[inline]
     pub fn at(&self, u: f64) -> (Point, Point) {
         let [a, b, c, d] = self.points;
@@ -106,7 +106,7 @@ impl Piece {
         (mix(first, last, u), speed)
     }
 
-    /// The coefficients of 1, u, u² and u³ along an axis.
+    /// Returns the coefficients of 1, u, u² and u³ of one coordinate.
     pub fn powers(&self, axis: usize) -> [f64; 4] {
         let [a, b, c, d] = self.points.map(|point| point[axis]);
         match self.degree {
@@ -116,7 +116,7 @@ impl Piece {
         }
     }
 
-    /// An axis of it as a cubic, by Bézier coefficients.
+    /// Returns one coordinate as a cubic, in Bézier coefficients.
     pub fn cubic(&self, axis: usize) -> [f64; 4] {
         let [a, b, c, d] = self.points.map(|point| point[axis]);
         match self.degree {
@@ -126,7 +126,7 @@ impl Piece {
         }
     }
 
-    /// The two parts before and after u.
+    /// Splits it at u.
     fn split(&self, u: f64) -> [Self; 2] {
         let (mut before, mut after) = (*self, *self);
         let mut points = self.points;
@@ -144,7 +144,7 @@ impl Piece {
         [before, after]
     }
 
-    /// Where `a`·x + `b`·y turns within it.
+    /// Returns the interior extrema of `a`·x + `b`·y.
     pub fn turns(&self, [a, b]: Point) -> SmallVec<[f64; 8]> {
         let mut found = SmallVec::new();
         if self.is_straight() {
@@ -167,19 +167,19 @@ impl Piece {
         found
     }
 
-    /// Whether `a`·x + `b`·y neither rises nor falls where it ends.
+    /// Whether the derivative of `a`·x + `b`·y is 0 at the end.
     fn ends_level(&self, [a, b]: Point) -> bool {
         let ([x, y], [p, q]) = (self.last(), self.points[self.degree - 1]);
         a * (x - p) + b * (y - q) == 0.0
     }
 
-    /// How far its coordinates are rounded, and a little more.
+    /// Upper bound on the rounding of its coordinates.
     fn rounding(&self) -> f64 {
         4.0 * U * self.points.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()))
     }
 
-    /// The way of the line, its longer coordinate 1 or −1, that its points lie on as far as rounding tells; `None`
-    /// if they lie on none.
+    /// Returns the direction of the line that its points lie on, within rounding, scaled so that its longer
+    /// coordinate is 1 or −1; `None` if they are not collinear.
     fn line_way(&self) -> Option<Point> {
         let ways = self.points().iter().map(|point| way(self.first(), *point));
         let size = |[x, y]: &Point| x.abs().max(y.abs());
@@ -190,7 +190,7 @@ impl Piece {
         is_beside.all(|is_beside| is_beside).then_some([a, b])
     }
 
-    /// Its points lie in their order on the way from the first to the last, as far as rounding tells.
+    /// Whether its points lie in order on the line from the first to the last, within rounding.
     fn is_row(&self) -> bool {
         let Some([a, b]) = self.line_way() else { return false };
         let is_onward = |pair: &[Point]| {
@@ -205,7 +205,8 @@ impl Piece {
         Self { seen: self.seen, ..Self::line(self.first(), self.last()) }
     }
 
-    /// A line, if it is one; level at its ends, where rounding does not tell that it turns beside them.
+    /// Simplifies it to a line if it is one; otherwise makes an end horizontal or vertical where rounding
+    /// cannot show that it is not.
     fn plain(self) -> Self {
         if self.is_row() {
             return self.straight();
@@ -223,7 +224,7 @@ impl Piece {
         plain
     }
 
-    /// Parts of it that turn along no axis.
+    /// Splits it into parts that are monotone along both axes.
     fn monotone(self) -> SmallVec<[Self; 5]> {
         let whole = self.plain();
         let mut cuts = whole.turns([1.0, 0.0]);
@@ -244,7 +245,8 @@ impl Piece {
         parts
     }
 
-    /// Its parts to the right of x = 0, and those to the left mirrored there; nothing of what lies on it.
+    /// Returns its parts to the right of x = 0, and the mirror images of those to the left; omits parts on x
+    /// = 0.
     pub fn off_axis(self) -> SmallVec<[Self; 5]> {
         let mut parts: SmallVec<[Self; 5]> = SmallVec::new();
         for part in self.monotone() {
@@ -266,7 +268,7 @@ impl Piece {
         parts
     }
 
-    /// The lowest and the highest coordinates of its Bézier points, which hold it between them.
+    /// Returns the bounding box of its Bézier points, which contains it.
     pub fn hull(&self) -> Hull {
         let least = |axis: usize| self.points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
         let most =
@@ -274,15 +276,15 @@ impl Piece {
         [[least(0), least(1)], [most(0), most(1)]]
     }
 
-    /// The greatest of `a`·x + `b`·y.
+    /// Returns the maximum of `a`·x + `b`·y.
     pub fn greatest(&self, [a, b]: Point) -> f64 {
         let value = |[x, y]: Point| a * x + b * y;
         let ends = value(self.first()).max(value(self.last()));
         self.turns([a, b]).into_iter().map(|u| value(self.at(u).0)).fold(ends, f64::max)
     }
 
-    /// Where it comes nearest to a place that is next to it, and the unit normal there, to the left of the way
-    /// that u goes.
+    /// Returns the point nearest to `place`, which is close to the piece, and the unit normal there, to the
+    /// left of the direction of increasing u.
     pub fn nearest(&self, place: Point) -> (Point, Point) {
         let (first, last) = (self.first(), self.last());
         let way = [last[0] - first[0], last[1] - first[1]];
@@ -304,7 +306,8 @@ impl Piece {
         (at, self.normal(speed))
     }
 
-    /// Steps toward where it comes nearest to a place that is next to it; and whether the last was hardly one.
+    /// Iterates toward the point nearest to `place`, which is close to the piece; also returns whether it
+    /// converged.
     fn approached(&self, place: Point, start: f64) -> (f64, bool) {
         let mut u = start;
         for _ in 0..8 {
@@ -323,7 +326,7 @@ impl Piece {
         (u, false)
     }
 
-    /// The same from as far along as the place, by either axis, and from its ends.
+    /// Finds the nearest point by starting from the same coordinate along either axis, and from both ends.
     fn nearest_of_any(&self, place: Point) -> f64 {
         let ends = [self.first(), self.last()];
         let from = |axis: usize| {
@@ -339,7 +342,7 @@ impl Piece {
         starts.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0.0)
     }
 
-    /// The unit normal where it moves so, to the left.
+    /// Returns the unit normal to the left of the given derivative.
     pub fn normal(&self, [x, y]: Point) -> Point {
         let length = (x * x + y * y).sqrt();
         if length > 0.0 {
@@ -351,7 +354,7 @@ impl Piece {
         [(b - d) / length, (c - a) / length]
     }
 
-    /// Whether it keeps a distance from a place: seldom not told where it does, by little.
+    /// Whether its distance from a point exceeds `distance`; rarely `false` if it does by a small margin.
     fn is_clear(&self, place: Point, distance: f64) -> bool {
         let [low, high] = self.hull();
         if is_apart(&[low, high], place, distance) {
@@ -364,7 +367,7 @@ impl Piece {
         self.split(0.5).iter().all(|part| part.is_clear(place, distance))
     }
 
-    /// A distance that it keeps from a place, if not always the greatest.
+    /// Lower bound on its distance from a point.
     fn clearance(&self, place: Point, depth: u32) -> f64 {
         let [low, high] = self.hull();
         let gap = |axis: usize| (low[axis] - place[axis]).max(place[axis] - high[axis]).max(0.0);
@@ -377,7 +380,7 @@ impl Piece {
         before.clearance(place, depth - 1).min(after.clearance(place, depth - 1))
     }
 
-    /// Where a coordinate has a value that lies between those of its ends.
+    /// Returns the u at which a coordinate has a value between those at its ends.
     pub fn meets(&self, axis: usize, value: f64) -> f64 {
         let rises = self.last()[axis] > self.first()[axis];
         let (mut low, mut high) = (0.0, 1.0);
@@ -400,7 +403,7 @@ impl Piece {
     }
 }
 
-/// Whether a box is farther than a distance from a place.
+/// Whether a box is farther than `distance` from a point.
 fn is_apart([low, high]: &Hull, place: Point, distance: f64) -> bool {
     let gap = |axis: usize| (low[axis] - place[axis]).max(place[axis] - high[axis]).max(0.0);
     gap(0) * gap(0) + gap(1) * gap(1) > distance * distance

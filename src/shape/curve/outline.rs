@@ -1,6 +1,7 @@
-//! Outline: what a curve, or several, go around in a plane.
+//! Outlines: plane regions bounded by one or more curves.
 //!
-//! **Invariant:** its pieces turn along no axis; a place is asked only of those whose boxes it is near.
+//! **Invariant:** pieces are monotone along both axes; a point is tested only against pieces whose boxes are
+//! near it.
 
 use smallvec::SmallVec;
 
@@ -8,14 +9,14 @@ use super::boxes::{Boxes, Hull, union};
 use super::{Piece, Point, is_apart};
 use crate::shape::{Memory, U};
 
-/// Pieces in a row, by the numbers of the first and of the one after the last.
+/// A row of pieces, by the indices of the first and of the one after the last.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Run {
     pub from: usize,
     pub to: usize,
-    /// Its end is its start.
+    /// Whether its end is its start.
     pub closed: bool,
-    /// The number of its first box.
+    /// Index of its first box.
     pub(super) root: usize,
 }
 
@@ -25,14 +26,14 @@ pub struct Outline {
     pub pieces: Vec<Piece>,
     pub runs: Vec<Run>,
     pub(super) boxes: Memory<Boxes>,
-    /// A box about all of it.
+    /// Bounding box.
     hull: Hull,
-    /// How far from the origin it goes at most.
+    /// Maximum distance from the origin.
     reach: f64,
 }
 
 impl Outline {
-    /// Adds pieces that meet end to end.
+    /// Adds pieces that join end to end.
     pub fn add(&mut self, pieces: impl IntoIterator<Item = Piece>) {
         let from = self.pieces.len();
         self.pieces.extend(pieces.into_iter().flat_map(Piece::monotone));
@@ -49,23 +50,24 @@ impl Outline {
         }
     }
 
-    /// The greatest of `a`·x + `b`·y of what is seen; −∞ where nothing is.
+    /// Returns the maximum of `a`·x + `b`·y over visible pieces; −∞ if there are none.
     pub fn greatest(&self, along: Point) -> f64 {
         let seen = self.pieces.iter().filter(|piece| piece.seen);
         seen.map(|piece| piece.greatest(along)).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// A box about all of it.
+    /// Returns the bounding box.
     pub fn hull(&self) -> Hull {
         self.hull
     }
 
-    /// How far from the origin it goes at most.
+    /// Returns the maximum distance from the origin.
     pub fn reach(&self) -> f64 {
         self.reach
     }
 
-    /// Whether the way from a place along the x axis meets it an odd number of times.
+    /// Returns whether a point lies inside: whether the ray from it along x crosses the outline an odd number
+    /// of times.
     pub fn contains(&self, [x, y]: Point) -> bool {
         let above = |[_, end]: Point| end > y;
         let mut odd = false;
@@ -89,7 +91,7 @@ impl Outline {
         odd
     }
 
-    /// Whether a place is inside, if rounding tells that may have moved it by `error`.
+    /// Returns whether a point lies inside, for any displacement up to `error`; `None` if that is uncertain.
     pub fn is_inside(&self, place: Point, error: f64) -> Option<bool> {
         let mut is_told = true;
         self.near(place, error, |number| {
@@ -98,7 +100,7 @@ impl Outline {
         is_told.then(|| self.contains(place))
     }
 
-    /// The numbers of all pieces, and of a few more, that do not keep a distance from a place.
+    /// Calls `found` with the indices of all pieces within `distance` of a point, and possibly a few more.
     pub fn near(&self, place: Point, distance: f64, mut found: impl FnMut(usize)) {
         for run in &self.runs {
             self.boxes.descend(run.root, |hull, row| {
@@ -111,7 +113,7 @@ impl Outline {
         }
     }
 
-    /// The number of the piece that a place is on, but for `error`; `None` where it may be on another.
+    /// Returns the index of the piece that a point is on, within `error`; `None` if it may be on another.
     pub fn piece_at(&self, place: Point, error: f64) -> Option<usize> {
         let mut found: SmallVec<[usize; 4]> = SmallVec::new();
         self.near(place, error, |number| found.push(number));
@@ -125,7 +127,7 @@ impl Outline {
         if let [number] = found[..] { Some(number) } else { None }
     }
 
-    /// A distance that it keeps from a place, if not always the greatest.
+    /// Returns a lower bound on the distance from a point.
     pub fn clearance(&self, place: Point) -> f64 {
         let all = self.pieces.iter().map(|piece| piece.clearance(place, 40));
         all.fold(f64::INFINITY, f64::min)

@@ -1,10 +1,10 @@
-//! Where a curve goes from one side of something to the other.
+//! Finds where a curve changes from one side of something to the other.
 //!
-//! **In:** a run of pieces, and a function that says on which side a place of the plane certainly is.
-//! **Out:** the changes, each between two places of opposite and certain sides. **Invariant:** a closed run
-//! has an even number of them; what only touches, as far as rounding tells, has none.
+//! **In:** a run of pieces, and a function that decides on which side a point of the plane certainly is.
+//! **Out:** the changes, each between two points that are certainly on opposite sides. **Invariant:** a
+//! closed run has an even number of changes; a curve that only touches, within rounding, has none.
 //!
-//! The joint of two pieces is no end of anything: a change may lie in several pieces at once.
+//! The joint of two pieces is not a boundary: a change may span several pieces.
 
 use smallvec::SmallVec;
 
@@ -13,53 +13,54 @@ use super::{Outline, Piece, Point, Run};
 use crate::math::roots::bracket::{Root, Sample, root};
 use crate::shape::U;
 
-/// What parts the plane in two.
+/// A division of the plane into two sides.
 pub trait Side {
-    /// Positive on one side, negative on the other; its slope by u.
+    /// Returns the value, positive on one side and negative on the other, with its slope by u.
     fn sample(&self, piece: &Piece, u: f64) -> Sample;
 
-    /// The side that all of a box is certainly on.
+    /// Returns the side that a box is certainly on entirely.
     fn of_box(&self, hull: &Hull) -> Option<bool>;
 
-    /// The side that all of a piece is certainly on, whose box does not tell and whose ends do not tell all.
+    /// Returns the side that a piece is certainly on entirely, where its box is inconclusive and its ends do
+    /// not suffice.
     fn of_piece(&self, _piece: &Piece) -> Option<bool> {
         None
     }
 
-    /// Whether the value goes straight from one end of a straight piece to the other.
+    /// Whether the value is linear along a straight piece.
     const IS_LINEAR: bool = false;
 
-    /// Rounding does not tell the side of either end of a straight piece.
+    /// Called when rounding hides the side of both ends of a straight piece.
     fn holds(&self, _piece: &Piece) {}
 
-    /// Whether the value certainly has no more than one root in a piece.
+    /// Returns whether the value certainly has at most one root in a piece.
     fn has_one_root(&self, piece: &Piece) -> bool;
 
-    /// Where within a piece the value may turn.
+    /// Returns where the value may have extrema within a piece.
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]>;
 }
 
-/// A stretch of an outline, measured in pieces from the begin of its run.
+/// A section of an outline; positions count pieces from the start of its run.
 #[derive(Debug, Clone, Copy)]
 pub struct Path<'a> {
     pieces: &'a [Piece],
     boxes: &'a Boxes,
-    /// The number of the first box.
+    /// Index of its root box.
     root: usize,
-    /// The number of the first of the run.
+    /// Index of the first piece of its run.
     first: usize,
-    /// Its run has no end: counting goes on at its begin.
+    /// Whether its run is closed: positions continue at its start.
     cyclic: bool,
-    /// It is all of such a run.
+    /// Whether it is all of a closed run.
     closed: bool,
     from: f64,
     to: f64,
-    /// The sides that its ends are taken to be on; a closed run has none.
+    /// The sides assumed for its ends; `None` for a closed run.
     ends: [Option<bool>; 2],
 }
 
 impl<'a> Path<'a> {
-    /// All of a run.
+    /// Returns the path of an entire run.
     pub fn whole(outline: &'a Outline, run: &Run, ends: Option<bool>) -> Self {
         let pieces = &outline.pieces[run.from..run.to];
         let ends = [ends.filter(|_| !run.closed); 2];
@@ -77,12 +78,12 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// What lies between two places of it.
+    /// Returns the section between two positions.
     pub fn part(self, from: f64, to: f64, ends: [bool; 2]) -> Self {
         Self { closed: false, from, to, ends: ends.map(Some), ..self }
     }
 
-    /// A piece, and where on it.
+    /// Returns a piece, and the position on it.
     fn locate(&self, v: f64) -> (usize, f64) {
         let count = self.pieces.len();
         let number = v as usize;
@@ -97,8 +98,8 @@ impl<'a> Path<'a> {
         self.pieces[piece].at(u)
     }
 
-    /// Shows `look` boxes of it in order, each with where it begins and ends: the halves of those that it wants
-    /// halved. A path that goes on at its run's begin comes to that again.
+    /// Calls `look` with its boxes in order, each with its start and end position; descends into both halves
+    /// where it returns `true`. A path that continues at its run's start visits that again.
     #[inline(always)]
     fn rows(&self, mut look: impl FnMut(&Hull, f64, f64) -> bool) {
         let count = self.pieces.len() as f64;
@@ -112,7 +113,7 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// The number of the piece at a place.
+    /// Returns the index of the piece at a position.
     pub fn piece(&self, v: f64) -> usize {
         self.first + self.locate(v).0
     }
@@ -122,19 +123,19 @@ impl<'a> Path<'a> {
 #[derive(Debug, Clone, Copy)]
 pub struct Change<'a> {
     pub path: Path<'a>,
-    /// About where.
+    /// Approximate position.
     pub v: f64,
-    /// The number of the piece that is met there; at a joint, of that which the line is steeper to.
+    /// Index of the crossed piece; at a joint, of the piece that the line crosses more steeply.
     pub piece: usize,
-    /// Between these, certainly.
+    /// The change certainly lies between `low` and `high`.
     pub low: f64,
     pub high: f64,
-    /// From the negative side to the positive.
+    /// Whether it goes from the negative side to the positive.
     pub rising: bool,
 }
 
 impl Change<'_> {
-    /// It may lie at the very end of its path; one that comes to its begin again has none.
+    /// Returns whether it may lie at an end of its path; closed paths have no ends.
     pub fn is_at_end(&self) -> bool {
         !self.path.closed && (self.low <= self.path.from || self.high >= self.path.to)
     }
@@ -143,7 +144,7 @@ impl Change<'_> {
         self.path.at(self.v).0
     }
 
-    /// The ends of what it lies between, and the joints there.
+    /// Returns the points at `low`, at `high`, and at the joints between them.
     pub fn places(&self) -> impl Iterator<Item = Point> + '_ {
         let joints = (1..).map(|k| self.low.floor() + f64::from(k)).take_while(|v| *v < self.high);
         // No more than the run has.
@@ -152,12 +153,12 @@ impl Change<'_> {
     }
 }
 
-/// A place whose side is certain.
+/// A position whose side is certain.
 #[derive(Clone, Copy)]
 struct Certain {
     v: f64,
     outside: bool,
-    /// What it is there, if that was asked.
+    /// The value there, if it was evaluated.
     value: f64,
 }
 
@@ -167,17 +168,19 @@ impl Certain {
     }
 }
 
-/// The root of what is linear from end to end, as [`root`] has it: twice as far off as its error tells, it is certain.
+/// Returns the root of a linear function, with the error of [`root`]: at twice the error from the root, the
+/// side is certain.
 fn on_line(v: f64, Sample { slope, error, .. }: Sample) -> Root {
     let least = (2.0 * error / slope.abs()).max(4.0 * U * v);
     Root { t: v, error: least + 2.0 * U * v }
 }
 
-/// What is as far off as that, as a part of a piece, may be all of the next, of another size: then it costs time
-/// to look nearer, and any would do.
+/// Error, as a fraction of a piece, above which the bounds of a change are refined, as it may span all of the
+/// next piece if that is of another size. Affects only the running time.
 const WIDE: f64 = 1.0 / 64.0;
 
-/// From a place whose side is told to another: about as near as it is told.
+/// Bisects from a position with a certain side toward another; returns about the last position with a certain
+/// side.
 fn nearest_told(sample: impl Fn(f64) -> Sample, told: f64, other: f64, outside: bool) -> f64 {
     let (mut told, mut near) = (told, other);
     for _ in 0..f64::MANTISSA_DIGITS {
@@ -189,9 +192,9 @@ fn nearest_told(sample: impl Fn(f64) -> Sample, told: f64, other: f64, outside: 
     told
 }
 
-/// At the joint that is nearest to a change that may lie there: whether the neighbour of the piece that it was found
-/// on is seen, and crossed the same way and more steeply; and where that is. Along a wall that it touches a line is
-/// met nowhere in particular; across the next it is.
+/// At the joint nearest to a change, if the change may lie there: returns the joint and the adjacent piece,
+/// if that piece is visible and is crossed in the same direction and more steeply. A line that touches a wall
+/// has no definite crossing with it, but has one with the adjacent wall.
 #[cold]
 fn steeper<S: Side>(path: &Path, side: &S, change: &Change) -> Option<(f64, usize)> {
     let Change { v, low, high, rising, .. } = *change;
@@ -214,7 +217,7 @@ fn steeper<S: Side>(path: &Path, side: &S, change: &Change) -> Option<(f64, usiz
     is_better.then_some((joint, path.first + other.0))
 }
 
-/// All changes of sides along a path, in its order, each found no better than `tolerance` asks for.
+/// Finds all changes of sides along a path, in order, with an accuracy limited by `tolerance`.
 pub fn walk<'a, S: Side>(
     path: Path<'a>,
     side: &S,

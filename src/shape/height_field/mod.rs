@@ -1,11 +1,11 @@
-//! Height field: all that lies under two triangles in each cell of a grid, or under the water, over the unit
-//! square about the origin of its own space; y goes up, and nothing ends it below. Of its surface the triangles
-//! are seen, as far as they are above the water; the water and the walls are not.
+//! Height field: in local space, everything below two triangles in each cell of a grid, or below the water,
+//! over the unit square around the origin; y points up, and the solid extends down without limit. Only the
+//! triangles are visible, where they are above the water; the water and the walls are not.
 //!
-//! **Invariant:** watertight, as a mesh is; the triangles are made as they are asked for.
+//! **Invariant:** watertight, as with meshes; triangles are generated on demand.
 //!
-//! **Source:** for the walk J. Amanatides, A. Woo, "A fast voxel traversal algorithm for ray tracing",
-//! Eurographics 1987; for what is inside and what is seen POV-Ray 3.7's `inside` and `trace`.
+//! **Source:** for the traversal, J. Amanatides, A. Woo, "A fast voxel traversal algorithm for ray tracing",
+//! Eurographics 1987; for which points are inside and visible, `inside` and `trace` of POV-Ray 3.7.
 
 mod walk;
 
@@ -17,33 +17,33 @@ use crate::math::Vector;
 use smallvec::SmallVec;
 use walk::{Cells, Track};
 
-/// Cells along a side of a block, whose least and greatest heights are known.
+/// Cells along a side of a block, for which the minimum and maximum heights are stored.
 const BLOCK: usize = 16;
-/// Of a smaller block within it.
+/// Cells along a side of a smaller block within it.
 const SMALL: usize = 4;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightField {
-    /// Along x, and rows of them along z, −0.5 to 0.5.
+    /// Heights along x, in rows along z; −0.5 to 0.5.
     pub(super) heights: Vec<f32>,
-    /// How many cells there are along x and z: one less than heights.
+    /// Number of cells along x and z: one less than the number of heights.
     pub(super) cells: [usize; 2],
-    /// What is lower is solid, and not seen.
+    /// Everything below this height is solid, and invisible.
     pub(super) water: f64,
     smooth: bool,
-    /// The least and the greatest heights of each block, and of each small one.
+    /// Minimum and maximum height of each block, and of each small block.
     blocks: Vec<[f32; 2]>,
     small: Vec<[f32; 2]>,
-    /// Those of all.
+    /// Minimum and maximum of all heights.
     range: [f64; 2],
 }
 
 impl HeightField {
-    /// The most heights: a part is a triangle, of which there are twice as many.
+    /// Maximum number of heights: a part is a triangle, of which there are twice as many.
     pub const MOST: u64 = 1 << 30;
 
-    /// Of rows of `width` heights within ±0.5; `None` where they make no cell, or nothing of them is above the
-    /// water.
+    /// Builds a height field from rows of `width` heights within ±0.5; `None` if they do not form a cell, or
+    /// if none is above the water.
     pub fn new(heights: Vec<f32>, width: usize, water: f64, smooth: bool) -> Option<Self> {
         let rows = heights.len().checked_div(width)?;
         let fine = width > 1 && rows > 1 && rows * width == heights.len();
@@ -62,7 +62,7 @@ impl HeightField {
         (field.range[1] >= water).then_some(field)
     }
 
-    /// Of all blocks of so many cells along a side, row by row.
+    /// Returns the range of heights of each block of `size` × `size` cells, row by row.
     fn ranges(&self, size: usize) -> Vec<[f32; 2]> {
         let [across, deep] = self.cells.map(|count| count.div_ceil(size));
         let range = |number: usize| {
@@ -84,7 +84,7 @@ impl HeightField {
         range
     }
 
-    /// The place of a block's range among those of all blocks of its size.
+    /// Index of a block's range among those of all blocks of its size.
     fn number_of(&self, block: Cells, size: usize) -> usize {
         block.from[1] / size * self.cells[0].div_ceil(size) + block.from[0] / size
     }
@@ -93,14 +93,14 @@ impl HeightField {
         f64::from(self.heights[j * (self.cells[0] + 1) + i])
     }
 
-    /// A corner of the grid.
+    /// Returns a corner of the grid.
     fn corner(&self, place: [usize; 2]) -> Vector {
         let along = |axis: usize| place[axis] as f64 / self.cells[axis] as f64 - 0.5;
         Vector::new(along(0), self.height_of(place), along(1))
     }
 
-    /// The corners of a triangle, which faces up: the first of a cell holds its corner of least x and z, the
-    /// second the one opposite.
+    /// Returns the corners of a triangle, which faces up: the first triangle of a cell contains its corner
+    /// with the smallest x and z, the second one the opposite corner.
     fn places(&self, part: u32) -> [[usize; 2]; 3] {
         let [i, j] = self.cell(part);
         match part.is_multiple_of(2) {
@@ -109,7 +109,7 @@ impl HeightField {
         }
     }
 
-    /// The cell that a triangle is in.
+    /// Returns the cell that a triangle is in.
     fn cell(&self, part: u32) -> [usize; 2] {
         let cell = part as usize / 2;
         [cell % self.cells[0], (cell / self.cells[0]).min(self.cells[1] - 1)]
@@ -119,7 +119,7 @@ impl HeightField {
         self.places(part).map(|place| self.corner(place))
     }
 
-    /// Every triangle that a line pierces, in no order.
+    /// Calls `found` with every triangle that a line pierces, in no order.
     fn pierced(&self, ray: &LocalRay, mut found: impl FnMut(Met)) {
         // Of the box from which heights are told.
         let view = View::along(ray, 1.0);
@@ -145,7 +145,7 @@ impl HeightField {
         });
     }
 
-    /// The triangles of a cell that a line pierces.
+    /// Calls `found` with the triangles of a cell that a line pierces.
     fn pierced_in(&self, cell: Cells, ray: &LocalRay, view: &View, found: &mut impl FnMut(Met)) {
         let number = (cell.from[1] * self.cells[0] + cell.from[0]) as u32;
         for part in [2 * number, 2 * number + 1] {
@@ -156,7 +156,7 @@ impl HeightField {
         }
     }
 
-    /// Where a line is between the walls; the ends are ±∞ where it is along them.
+    /// Returns where a line is between the walls; the ends are ±∞ where it is parallel to them.
     fn between_walls(&self, ray: &LocalRay) -> Option<[Met; 2]> {
         let wall = |t: f64, error: f64, leaving| Met { t, error, leaving, part: Met::UNSEEN };
         let mut enter = wall(f64::NEG_INFINITY, 0.0, false);
@@ -182,8 +182,8 @@ impl HeightField {
         (enter.t - enter.error <= leave.t + leave.error).then_some([enter, leave])
     }
 
-    /// What of a line lies under the triangles. They are entered and left in turn; what is inside where the
-    /// line begins or ends between the walls is entered and left there.
+    /// Returns the parts of a line below the triangles. Entries and exits alternate; where the line is inside
+    /// at an end of its range between the walls, it enters or leaves there.
     fn under_ground(&self, ray: &LocalRay, [enter, leave]: [Met; 2]) -> SmallVec<[Span; 4]> {
         let mut own = Crossings::new();
         self.pierced(ray, |met| own.push(met));
@@ -219,7 +219,7 @@ impl HeightField {
         own.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
     }
 
-    /// What of a line lies under the water, of which nothing is seen.
+    /// Returns the part of a line below the water, all of which is invisible.
     fn under_water(&self, ray: &LocalRay, [enter, leave]: [Met; 2]) -> Option<Span> {
         let (place, speed) = (ray.nearest.y, ray.direction.y);
         let t = (self.water - place) / speed;
@@ -236,13 +236,13 @@ impl HeightField {
         (enter.t + enter.error < leave.t - leave.error).then_some((enter, leave))
     }
 
-    /// Whether a crossing certainly lies under the water.
+    /// Returns whether a crossing certainly lies below the water.
     fn is_under_water(&self, ray: &LocalRay, met: &Met) -> bool {
         let off = ray.blur_at(met.t) + met.error * ray.direction.y.abs() + 2.0 * U;
         ray.at(met.t).y + off < self.water
     }
 
-    /// How high the triangles are at a place; `None` beside the square.
+    /// Returns the height of the triangles at a point; `None` outside of the square.
     fn ground(&self, point: Vector) -> Option<f64> {
         if !(point.x.abs() < 0.5 && point.z.abs() < 0.5) {
             return None;
@@ -265,10 +265,11 @@ impl HeightField {
         })
     }
 
-    /// The normal at a corner of the grid: the mean of those of the four flat corners that it has with its
-    /// neighbours along x and z, where heights are stretched so far that what is less steep counts more.
+    /// Returns the normal at a corner of the grid: the mean of the normals of the four triangles that it
+    /// forms with its neighbours along x and z. Heights are scaled so that flatter triangles count more.
     ///
-    /// **Source:** POV-Ray 3.7's `trace`, measured; but that it has the mean in steps of 1/32767.
+    /// **Source:** `trace` of POV-Ray 3.7, measured; except that POV-Ray quantizes the mean to steps of
+    /// 1/32767.
     fn normal(&self, place: [usize; 2]) -> Vector {
         const STRETCHED: f64 = 65536.0;
         let sides = |axis: usize| {
@@ -307,7 +308,7 @@ impl Local for HeightField {
         found.extend(all.into_iter().filter(|met| met.t.is_finite()));
     }
 
-    /// Over the plane of the triangle, measured from its corner.
+    /// Measured from the plane of the triangle, relative to its corner.
     fn height(&self, part: u32, point: Vector) -> Height {
         let corners = self.triangle(part);
         let Some(Flat { normal, turn }) = Flat::through(corners) else {
@@ -318,7 +319,7 @@ impl Local for HeightField {
         Height { value: normal.dot(off), gradient: normal, error }
     }
 
-    /// Of what is seen, with room for the rounding of a point on it.
+    /// Extent of the visible part, with a margin for the rounding of a point on it.
     fn extent(&self, along: Vector) -> (f64, f64) {
         let slack = 64.0 * U * along.length();
         let (low, high) = self.nearest_extent(along);
@@ -352,7 +353,7 @@ impl Local for HeightField {
         extent
     }
 
-    /// Not measured: as of shapes like it.
+    /// Not measured: assumed from similar shapes.
     fn price(&self) -> u64 {
         8 + 5 * u64::from((2 * self.cells[0] * self.cells[1]).max(1).ilog2())
     }
@@ -371,7 +372,7 @@ impl Local for HeightField {
         self.ground(point).is_some_and(|ground| point.y < ground.max(self.water))
     }
 
-    /// Between those at the corners of its cell.
+    /// Interpolated between the corners of its cell.
     fn shading_normal(&self, part: u32, point: Vector) -> Option<Vector> {
         if !self.smooth {
             return None;

@@ -1,23 +1,23 @@
-//! The cells of a grid under a line, in the order in which the line comes to their columns.
+//! Traverses the cells of a grid under a line, column by column in the order of the line.
 //!
-//! **Invariant:** every cell that the line may pass over is told, once; rounding tells a few more.
+//! **Invariant:** every cell that the line may pass over is reported once; rounding may add a few more.
 
 use super::super::body::LocalRay;
 use super::U;
 
-/// A line over the grid, between two places.
+/// A line over the grid, limited to a range.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Track {
-    /// Where it is at s = 0, along x and z, in cells; and along y.
+    /// Its position at s = 0: along x and z, in cells; along y, as it is.
     start: [f64; 3],
     step: [f64; 3],
-    /// How far rounding may move each.
+    /// Rounding error of each coordinate.
     slack: [f64; 3],
-    /// The part of it that counts.
+    /// The range of s that counts.
     span: [f64; 2],
 }
 
-/// Cells from one to before another, along x and z.
+/// A rectangle of cells along x and z; `to` is exclusive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Cells {
     pub from: [usize; 2],
@@ -25,8 +25,8 @@ pub(super) struct Cells {
 }
 
 impl Track {
-    /// What of a line, which may be off by `doubt`, lies over the unit square about the origin and between two heights. `None` where
-    /// nothing does.
+    /// Returns the part of a line, with position error `doubt`, over the unit square around the origin and
+    /// between two heights. `None` if it is empty.
     pub fn new(
         ray: &LocalRay,
         doubt: f64,
@@ -50,7 +50,7 @@ impl Track {
         Some(track)
     }
 
-    /// The part of the span where a coordinate may be between two values.
+    /// Returns the part of the span where a coordinate may be between two values.
     fn within(&self, axis: usize, low: f64, high: f64) -> Option<[f64; 2]> {
         let (start, step, slack) = (self.start[axis], self.step[axis], self.slack[axis]);
         let (low, high) = (low - slack - start, high + slack - start);
@@ -63,13 +63,14 @@ impl Track {
         (span[0] <= span[1]).then_some(span)
     }
 
-    /// Between which values a coordinate may be in a part of the span.
+    /// Returns the range of a coordinate over a part of the span.
     fn range(&self, axis: usize, span: [f64; 2]) -> [f64; 2] {
         let [a, b] = span.map(|s| self.start[axis] + self.step[axis] * s);
         [a.min(b) - self.slack[axis], a.max(b) + self.slack[axis]]
     }
 
-    /// Blocks of `size` cells of a region that the line may pass over, with the heights it has there.
+    /// Calls `found` with the blocks of `size` cells of a region that the line may pass over, and with the
+    /// range of the line's heights there.
     pub fn blocks(&self, region: Cells, size: usize, mut found: impl FnMut(Cells, [f64; 2])) {
         let main = usize::from(self.step[1].abs() > self.step[0].abs());
         let other = 1 - main;

@@ -1,8 +1,8 @@
-//! Cells: the box that holds a function, cut into eight, and each part again where the function may be 0.
+//! Octree over the box of an isosurface, subdivided where the function may be 0.
 //!
 //! **In:** bounds of the function over boxes; a line. **Out:** the line's pieces, in order, each with what is
-//! known of the function there. **Invariant:** what a cell says depends on its place alone, so whichever line
-//! comes first, all find the same. Cells are made as lines come by, at most 64 along each axis.
+//! known of the function there. **Invariant:** the contents of a cell depend only on its position, so results
+//! do not depend on which line comes first. Cells are created on demand, at most 64 along each axis.
 
 use std::sync::OnceLock;
 
@@ -13,16 +13,17 @@ use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::shape::body::LocalRay;
 
-/// The box is cut so often along each axis.
+/// Maximum number of subdivisions of the box along each axis.
 const DEPTH: u32 = 6;
 
-/// Of the box's size: cells are so much wider, and lines that are less off than that may be followed.
+/// Margin by which cells are enlarged, relative to the box's size; lines with a smaller error can be traced
+/// through cells.
 pub(super) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
 
-/// A cell is cut no more where the gradient changes by less than this part of its length.
+/// A cell is not subdivided if the gradient varies by less than this fraction of its length.
 const FLAT: f64 = 0.125;
 
-/// What is remembered of a function in a box.
+/// Cached bounds of a function in a box.
 #[derive(Default)]
 pub struct Cells {
     root: Cell,
@@ -34,16 +35,16 @@ struct Cell {
     parts: OnceLock<Box<[Cell; 8]>>,
 }
 
-/// What a function comes to in a cell.
+/// Bounds of a function in a cell.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Known {
-    /// Whether it is negative throughout, if it is of one sign.
+    /// Whether it is negative throughout; `None` if its sign may change.
     pub negative: Option<bool>,
-    /// It is no number throughout.
+    /// Whether it is undefined throughout.
     pub undefined: bool,
-    /// At the middle.
+    /// Value at the middle.
     value: Interval,
-    /// In the cell; outside of these, nothing is known.
+    /// Range of the gradient in the cell; valid only there.
     slopes: [[f32; 2]; 3],
 }
 
@@ -57,7 +58,7 @@ pub(super) struct Piece<'a> {
 }
 
 impl Clone for Cells {
-    /// What is remembered is found again.
+    /// Returns an empty cache: its contents are recomputed.
     fn clone(&self) -> Self {
         Self::default()
     }
@@ -100,7 +101,7 @@ impl Known {
         Interval { low: f64::from(low), high: f64::from(high) }
     }
 
-    /// The gradient hardly changes.
+    /// Whether the gradient is nearly constant.
     fn is_flat(&self) -> bool {
         let wide = self.slopes.map(|[low, high]| high - low);
         let mid = self.slopes.map(|[low, high]| 0.5 * (high + low));
@@ -108,7 +109,7 @@ impl Known {
         square(wide) <= (FLAT * FLAT) as f32 * square(mid)
     }
 
-    /// How the function changes along a line that may be off by `turn`.
+    /// Returns the range of the function's slope along a line whose direction may be off by `turn`.
     pub fn along(&self, direction: Vector, turn: f64) -> Interval {
         let term = |axis: usize| {
             let way = direction[axis];
@@ -117,7 +118,7 @@ impl Known {
         term(0) + term(1) + term(2)
     }
 
-    /// What it may come to at a place of the cell that may be off by `blur`.
+    /// Returns the range of the function at a point of the cell that may be off by `blur`.
     pub fn at(&self, from_middle: Vector, blur: f64) -> Interval {
         let term = |axis: usize| {
             let step = from_middle[axis];
@@ -135,7 +136,7 @@ fn sign(value: Interval) -> Option<bool> {
     }
 }
 
-/// A cell to be visited.
+/// A cell to visit.
 struct Visit<'a> {
     cell: &'a Cell,
     middle: Vector,
@@ -145,8 +146,8 @@ struct Visit<'a> {
 }
 
 impl Cells {
-    /// Shows the pieces of a line that cells of the box of half widths `half` make of it, from one place to
-    /// another, as long as `show` wants more. `bounds` are the function's.
+    /// Calls `show` with the pieces that the cells of a box with half widths `half` cut a line into, over a
+    /// range, until it returns `false`. `bounds` evaluates the function.
     pub(super) fn along(
         &self,
         ray: &LocalRay,

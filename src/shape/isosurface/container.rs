@@ -1,5 +1,5 @@
-//! What a surface of a function is looked for in, a box or a ball about the local origin: its own surface,
-//! which closes what it cuts.
+//! Containers of isosurfaces: a box or a sphere around the local origin, whose own surface closes what it
+//! clips.
 
 use super::SURFACE;
 use crate::math::Vector;
@@ -8,17 +8,17 @@ use crate::shape::U;
 use crate::shape::body::{Height, LocalRay, Met};
 use crate::shape::slab::Slab;
 
-/// What an isosurface is looked for in.
+/// The container of an isosurface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Container {
-    /// Its half widths.
+    /// Half widths of a box.
     Box(Vector),
-    /// Its radius.
+    /// Radius of a sphere.
     Sphere(f64),
 }
 
 impl Container {
-    /// Where a line is within.
+    /// Returns where a line is inside.
     pub(super) fn chord(&self, ray: &LocalRay) -> Option<(Met, Met)> {
         match *self {
             Self::Sphere(radius) => ball(ray, radius),
@@ -38,7 +38,7 @@ impl Container {
         }
     }
 
-    /// Whether a box certainly lies outside.
+    /// Returns whether a box certainly lies outside.
     pub(in crate::shape) fn misses(&self, other: &[Interval; 3]) -> bool {
         let outside = |distance: f64, reach: f64| distance > reach * (1.0 + 16.0 * U);
         let nearest = other.map(|along| along.low.max(-along.high).max(0.0));
@@ -48,7 +48,7 @@ impl Container {
         }
     }
 
-    /// The most of `along`·P.
+    /// Returns the maximum of `along`·P.
     pub(in crate::shape) fn extent(&self, along: Vector) -> f64 {
         match self {
             Self::Box(half) => along.abs().dot(*half),
@@ -63,7 +63,7 @@ impl Container {
         }
     }
 
-    /// Half widths of the box around it.
+    /// Returns the half widths of its bounding box.
     pub(in crate::shape) fn half(&self) -> Vector {
         match *self {
             Self::Box(half) => half,
@@ -79,8 +79,8 @@ impl Container {
     }
 }
 
-/// As the round of a cylinder. **Error** of s: with m the distance of the line, h half of the chord and δ
-/// how far off they are, δ·m/h or √(2δ·m + δ²), and δ.
+/// Chord of a sphere, computed as for the side of a cylinder. **Error** of s: with m the distance of the
+/// line, h half of the chord and δ their error: δ·m/h or √(2δ·m + δ²), plus δ.
 fn ball(ray: &LocalRay, radius: f64) -> Option<(Met, Met)> {
     let miss = ray.nearest.length();
     let half = ((radius - miss) * (radius + miss)).sqrt();

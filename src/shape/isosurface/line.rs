@@ -1,4 +1,5 @@
-//! The function of an isosurface along one line: its bounds for all lines that may be meant, and the roots.
+//! The function of an isosurface along one line: its bounds over all lines that may be intended, and its
+//! roots.
 
 use std::cell::{OnceCell, RefCell};
 
@@ -11,10 +12,10 @@ use crate::math::roots::isolate::{Bounds, Change, Search};
 use crate::shape::U;
 use crate::shape::body::{LocalRay, Met};
 
-/// After so many steps another method is better.
+/// Number of steps after which another method is better.
 const GUESSES: u32 = 24;
 
-/// The function at work along one line.
+/// Evaluates the function along one line.
 pub(super) struct Line<'a> {
     surface: &'a Isosurface,
     ray: &'a LocalRay<'a>,
@@ -27,7 +28,8 @@ impl<'a> Line<'a> {
         Self { surface, ray, run: OnceCell::new(), plain: OnceCell::new() }
     }
 
-    /// The value less the threshold, for all lines that may be meant, and its slope along them.
+    /// Returns the range of the value less the threshold, and of its slope, over all lines that may be
+    /// intended.
     pub fn bounds(&self, s: Interval) -> Bounds {
         let far = s.low.abs().max(s.high.abs());
         let blur = self.ray.blur_at(far);
@@ -58,7 +60,7 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// The same at one point as it is given.
+    /// Returns the bounds for one point, taken as exact.
     fn at(&self, s: f64) -> Bounds {
         let Isosurface { centre, scale, .. } = *self.surface;
         let point = centre + self.ray.at(s) * scale;
@@ -94,14 +96,14 @@ impl<'a> Line<'a> {
         Met { t: found.t, error: found.error, leaving: change.rising, part: SURFACE }
     }
 
-    /// The value on the line itself, as it is rounded.
+    /// The rounded value on the line itself.
     fn value(&self, s: f64) -> f64 {
         let point = self.surface.world(self.ray.at(s)).to_array();
         let run = self.plain.get_or_init(|| RefCell::new(self.surface.run()));
         run.borrow_mut().at(point) - self.surface.threshold
     }
 
-    /// Near the root between two places, by values alone; no number where these tell none.
+    /// Returns an approximate root between two positions, from values alone; NaN if these are inconclusive.
     ///
     /// **Source:** M. Dowell, P. Jarratt, "A modified regula falsi method", BIT 11 (1971): Illinois.
     fn guess(&self, outside: f64, inside: f64) -> f64 {
@@ -130,8 +132,8 @@ impl<'a> Line<'a> {
         f64::NAN
     }
 
-    /// From an end of the line's part in the container inward: the first place whose sign is certain, or
-    /// where none is near, the end itself.
+    /// Returns the first position with a certain sign, from an end of the line's part in the container
+    /// inward; the end itself if there is none nearby.
     pub fn settle(&self, end: f64, error: f64, inward: f64, most: f64) -> f64 {
         let mut step = error.max(4.0 * U);
         let mut place = end;
@@ -147,7 +149,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Looks for the roots in a piece of the line of which a cell knows this much.
+/// Searches for roots in a piece of the line, using the bounds of its cell.
 pub(super) fn look<F: Fn(Interval) -> Bounds>(
     search: &mut Search<F>,
     ray: &LocalRay,

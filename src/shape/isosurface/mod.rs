@@ -1,12 +1,12 @@
-//! Isosurface: where a function of space is less than a threshold, inside of a box or a ball about the local
-//! origin, which closes it. Outward is where the function rises.
+//! Isosurface: the set where a function of space is below a threshold, inside a box or a sphere around the
+//! local origin, which closes it. The function increases outward.
 //!
-//! Crossings are found by bounds of the function and of its slope over whole pieces of the line, so none
-//! escapes through a steepness that nobody declared. **Invariant:** a crossing lies between two places where the
-//! function's bounds, over all lines that may have been meant, are of opposite signs; where a jump lies within
-//! what is meant, its value on the line itself counts. `accuracy` says how finely places are looked at
-//! where the bounds are infinite, as where the function may be undefined; and how wide a jump or a kink
-//! may be told from a slope.
+//! Crossings are found from bounds of the function and its slope over entire pieces of the line, so a
+//! crossing cannot be missed because of an undeclared gradient. **Invariant:** a crossing lies between two
+//! positions where the function's bounds, over all lines that may be intended, have opposite signs; where a
+//! jump lies within that uncertainty, the value on the line itself counts. `accuracy` determines how finely
+//! the search subdivides where the bounds are infinite, for example where the function may be undefined, and
+//! how wide a jump or a kink may be that is told apart from a slope.
 
 mod cells;
 mod container;
@@ -26,10 +26,10 @@ pub use container::Container;
 use line::{Line, look};
 pub use nowhere::Nowhere;
 
-/// The part that is the function's own; the container's are those after it.
+/// Part number of the function's surface; those of the container follow.
 pub(super) const SURFACE: u32 = 0;
 
-/// A function at work.
+/// An evaluation of the function.
 struct Running<'a, N>(Run<'a, N>, &'a Closed);
 
 impl<N: Number> Running<'_, N> {
@@ -40,33 +40,33 @@ impl<N: Number> Running<'_, N> {
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Isosurface {
-    /// Of x, y and z, in a space of the author's.
+    /// A function of x, y and z, in the author's coordinates.
     pub function: Arc<Closed>,
     pub threshold: f64,
     pub container: Container,
-    /// A local point is there `centre + scale · point`; the scale is a power of two.
+    /// A local point is `centre + scale · point` in those coordinates; the scale is a power of two.
     pub centre: Vector,
     pub scale: f64,
     /// In local lengths.
     pub accuracy: f64,
-    /// Where the container cuts it, there is nothing to be seen.
+    /// Whether the surface of the container is invisible.
     pub open: bool,
-    /// Where it has been looked for.
+    /// Cached bounds of the function.
     pub cells: Memory<Cells>,
 }
 
-/// Which of the crossings are wanted.
+/// Which crossings are requested.
 #[derive(Clone, Copy, PartialEq)]
 enum Wanted {
     All,
-    /// Those between two places, or the first of them that is certainly behind the former.
+    /// Those in a range, up to the first that is certainly behind its start.
     First(f64, f64),
 }
 
-/// As steep as this, over the size of the container, a function may have a pole.
+/// Slope, relative to the size of the container, from which on a function may have a pole.
 const STEEPEST: f64 = 1e9;
 
-/// Where the gradient is 0 as the root is many at once, it is so many times as steep around.
+/// Where the gradient is 0 because of a multiple root, its surroundings are this many times as steep.
 const TIMES_STEEPER: f64 = 8.0;
 
 impl Isosurface {
@@ -83,8 +83,8 @@ impl Isosurface {
         self.run().at(point) - self.threshold
     }
 
-    /// The value and its gradient over a box, in local lengths; `None` where it is certainly not defined
-    /// anywhere in it.
+    /// Returns the range of the value and the gradient over a box, in local lengths; `None` if the function
+    /// is certainly undefined throughout it.
     fn bounds(&self, point: [Interval; 3]) -> Option<Sloped<3>> {
         let along = |axis: usize| {
             let mut slopes = [Interval { low: 0.0, high: 0.0 }; 3];
@@ -102,7 +102,7 @@ impl Isosurface {
         Some(all)
     }
 
-    /// What the function rises by within `step` to both sides.
+    /// Central differences of the function with the given step.
     fn differences(&self, point: Vector, step: f64) -> Vector {
         let along = |axis: Vector| {
             let rise = self.value(point + axis * step) - self.value(point - axis * step);
@@ -112,7 +112,7 @@ impl Isosurface {
         Vector::new(along(Vector::X), along(Vector::Y), along(Vector::Z))
     }
 
-    /// By the value and the gradient at the point itself, which may be 0 or no numbers.
+    /// Height from the value and the gradient at the point itself, which may be 0 or NaN.
     fn simple_height(&self, point: Vector) -> multiple::Told {
         let anyhow = || Sloped::anyhow(Interval::EVERYTHING, false);
         let Sloped { value: Interval { low, high }, slopes } =
@@ -122,7 +122,7 @@ impl Isosurface {
         (Height { value: 0.5 * (low + high), gradient, error: 0.5 * (high - low) }, width)
     }
 
-    /// By the gradients around, as of a function whose own is 0.
+    /// Height from the surrounding gradients, for a function whose own gradient is 0.
     fn height_around(&self, point: Vector) -> Option<Height> {
         let is_told = |(height, width): &multiple::Told| {
             height.gradient.is_finite() && height.error.is_finite() && width.is_finite()
@@ -131,8 +131,8 @@ impl Isosurface {
         multiple::height(point, multiple::NEAREST * self.reach(), sample)
     }
 
-    /// The gradient where bounds tell no good one: at kinks and jumps, that of a wider and wider
-    /// neighbourhood, and how wide; `None` where the function stays the same.
+    /// Returns the gradient where bounds are inconclusive, as at kinks and jumps: that of wider and wider
+    /// neighbourhoods, and their size; `None` if the function is constant.
     fn gradient_around(&self, point: Vector) -> Option<(Vector, f64)> {
         let steps = [1e-6, 0.1 * self.accuracy, self.accuracy, 4.0 * self.accuracy];
         let gradients = steps.into_iter().map(|step| (self.differences(point, step), step));
@@ -142,10 +142,10 @@ impl Isosurface {
     }
 }
 
-/// What has been told of a search.
+/// Results of a search that were already reported.
 struct Told {
     changes: usize,
-    /// Whether the line starts inside, or that is not asked.
+    /// Whether the start of the line is handled, or not requested.
     start: bool,
 }
 
@@ -231,7 +231,7 @@ impl Isosurface {
         told.changes = signs.all.len();
     }
 
-    /// An end of what is inside, where its sign is certain from `place` on.
+    /// Returns a crossing with the container, where the function's sign is certain from `place` on.
     fn cap(&self, end: Met, place: f64) -> Met {
         let error = end.error.max((place - end.t).abs());
         let part = if self.open { Met::UNSEEN } else { end.part };

@@ -1,27 +1,27 @@
-//! Isosurfaces that are nowhere: whose function is above its threshold in all of their container, or no number.
+//! Detects empty isosurfaces: the function is above its threshold throughout the container, or undefined.
 
 use super::Isosurface;
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
-/// Cells along an edge of the container that the function is tried in the middle of.
+/// Number of cells along an edge of the container; the function is sampled in the middle of each.
 const EDGE: u32 = 8;
-/// How often such a cell is halved, in all directions, to prove what its middle says; and in how many cells at
-/// most bounds are tried: what takes more is not worth the time.
+/// Maximum number of times that a cell is halved, along all axes, to prove what its middle suggests; and
+/// maximum number of cells whose bounds are evaluated. More would not be worth the time.
 const HALVINGS: u32 = 4;
 const MOST: u32 = 4096;
 
-/// Why there is nothing.
+/// Why an isosurface is empty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Nowhere {
-    /// It is proven to be above its threshold everywhere.
+    /// The function is proven to be above its threshold everywhere.
     Above,
-    /// It was NaN at each of so many places.
+    /// The function was NaN at each of this many points.
     NoNumber(u32),
 }
 
 impl Isosurface {
-    /// Whether it is certain, or as good as certain, that there is nothing of it.
+    /// Returns why the isosurface is empty, if that is proven or nearly certain.
     pub fn nowhere(&self) -> Option<Nowhere> {
         let half = self.container.half() / f64::from(EDGE);
         let place = |i: u32| f64::from(2 * i + 1) - f64::from(EDGE);
@@ -47,7 +47,8 @@ impl Isosurface {
         (numbers == all && middles().all(is_above)).then_some(Nowhere::Above)
     }
 
-    /// Whether bounds prove it of a cell. `left` is how many more of them may be tried.
+    /// Returns whether bounds prove that a cell is above the threshold. `left` is the remaining number of
+    /// evaluations.
     fn is_above(&self, middle: Vector, half: Vector, halvings: u32, left: &mut u32) -> bool {
         if *left == 0 {
             return false;

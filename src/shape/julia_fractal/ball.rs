@@ -1,8 +1,8 @@
-//! Balls of numbers of an algebra: all within a radius of a middle.
+//! Ball arithmetic: sets of numbers of an algebra within a radius of a midpoint.
 //!
-//! **Invariant:** the exact result for every choice of numbers in the operands lies in the result, and so
-//! does the rounded one. The norm of a product is the product of the norms, so that balls, unlike boxes,
-//! grow no more than the map does.
+//! **Invariant:** the result contains the exact and the rounded result for every choice of numbers in the
+//! operands. The norm of a product is the product of the norms, so balls, unlike boxes, grow no more than the
+//! map does.
 //!
 //! **Source:** J. Rokne, P. Lancaster, "Complex interval arithmetic", Communications of the ACM 14, 1971.
 
@@ -11,7 +11,7 @@ use std::ops::{Add, Mul};
 use crate::math::interval::Interval;
 use crate::shape::U;
 
-/// Numbers of so many components, and how they are multiplied.
+/// Multiplication of numbers with a fixed number of components.
 pub trait Multiply {
     fn times(&self, other: &Self) -> Self;
 }
@@ -24,7 +24,7 @@ impl Multiply for [f64; 2] {
     }
 }
 
-/// a·b + b·a of quaternions, in which the products of i, j and k with one another cancel.
+/// Returns a·b + b·a of quaternions, in which the products of i, j and k with one another cancel.
 pub fn symmetric([a, b, c, d]: &[f64; 4], [e, f, g, h]: &[f64; 4]) -> [f64; 4] {
     let (a2, e2) = (2.0 * a, 2.0 * e);
     [2.0 * (a * e - b * f - c * g - d * h), a2 * f + b * e2, a2 * g + c * e2, a2 * h + d * e2]
@@ -58,27 +58,27 @@ impl<const N: usize> Ball<N> {
         Self { middle, radius: 0.0 }
     }
 
-    /// Nothing is known.
+    /// The ball of all numbers.
     pub const EVERYTHING: Self = Self { middle: [0.0; N], radius: f64::INFINITY };
 
-    /// The norm of the middle, not too small.
+    /// Returns an upper bound on the norm of the midpoint.
     pub fn size(&self) -> f64 {
         dot(&self.middle, &self.middle).sqrt() * (1.0 + 4.0 * U)
     }
 
-    /// The square of the norm.
+    /// Returns the range of the squared norm.
     pub fn squared(&self) -> Interval {
         self.squared_of(self.size())
     }
 
-    /// The same, where the middle's norm is known.
+    /// Like [`Self::squared`], for a known norm of the midpoint.
     pub fn squared_of(&self, size: f64) -> Interval {
         let low = (size * (1.0 - 16.0 * U) - self.radius).max(0.0);
         let high = size + self.radius;
         Interval { low: low * low * (1.0 - 4.0 * U), high: high * high * (1.0 + 4.0 * U) }
     }
 
-    /// The scalar product.
+    /// Returns the range of the scalar product.
     pub fn dot(&self, other: &Self) -> Interval {
         let (a, b) = (self.size(), other.size());
         let off =
@@ -88,9 +88,9 @@ impl<const N: usize> Ball<N> {
         Interval { low: middle - off, high: middle + off }
     }
 
-    /// a·b + b·a, where `times` is the product of the middles so added.
+    /// Returns a·b + b·a, where `times` is that expression for the midpoints.
     ///
-    /// The middles of both are known, so that neither is measured twice.
+    /// The norms of both midpoints are arguments, so that neither is computed twice.
     pub fn both_ways(
         (a, a_size): (&Self, f64),
         (b, b_size): (&Self, f64),
@@ -103,7 +103,7 @@ impl<const N: usize> Ball<N> {
         Self { middle: times(&a.middle, &b.middle), radius: 2.0 * radius * (1.0 + 8.0 * U) }
     }
 
-    /// The sum, whose middle's norm is no more than `size`.
+    /// Returns the sum, for an upper bound `size` on the norm of its midpoint.
     pub fn plus(&self, other: &Self, size: f64) -> Self {
         let middle = std::array::from_fn(|i| self.middle[i] + other.middle[i]);
         let radius = (self.radius + other.radius + 2.0 * U * size) * (1.0 + 4.0 * U);

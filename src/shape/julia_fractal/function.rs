@@ -1,8 +1,8 @@
-//! Complex functions over balls: what a `julia_fractal` of hypercomplex numbers repeats.
+//! Complex functions over balls: the maps that a `julia_fractal` of hypercomplex numbers iterates.
 //!
-//! **In:** a ball of complex numbers. **Out:** one that holds the function of each of them, and one for its
-//! derivative. **Invariant:** an analytic function moves two numbers no farther apart than the steepest slope
-//! between them; where a ball touches a cut or a pole, nothing is known of it.
+//! **In:** a ball of complex numbers. **Out:** a ball that contains the function's values, and one that
+//! contains its derivatives. **Invariant:** an analytic function maps two numbers at most as far apart as the
+//! maximum slope between them allows; where a ball touches a branch cut or a pole, the result is unbounded.
 //!
 //! **Source:** NIST Digital Library of Mathematical Functions, chapter 4 (the principal values).
 
@@ -12,7 +12,7 @@ use crate::shape::U;
 
 type Complex = Ball<2>;
 
-/// What is repeated.
+/// The iterated function.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Function {
     Sqr,
@@ -32,7 +32,7 @@ pub enum Function {
     Tanh,
     Atanh,
     Ln,
-    /// To this complex power.
+    /// A complex power.
     Pwr([f64; 2]),
 }
 
@@ -41,7 +41,7 @@ const I: Complex = Ball { middle: [0.0, 1.0], radius: 0.0 };
 const MINUS_I: Complex = Ball { middle: [0.0, -1.0], radius: 0.0 };
 
 impl Function {
-    /// The value and the derivative.
+    /// Returns the value and the derivative.
     pub fn of(self, z: Complex) -> (Complex, Complex) {
         let two = |z: Complex| z.times_number(2.0);
         match self {
@@ -110,8 +110,8 @@ fn minus(z: Complex) -> Complex {
     Ball { middle: z.middle.map(|component| -component), ..z }
 }
 
-/// About a value, of a function that is nowhere in the ball steeper than this; each component of the value
-/// was rounded a few times, on the way from numbers of the given size.
+/// Returns a ball around a value, for a function whose slope in the ball is at most `steepest`; each
+/// component of the value was rounded a few times, starting from numbers of the given size.
 fn image(middle: [f64; 2], z: &Complex, steepest: f64, size: f64) -> Complex {
     if !(steepest.is_finite() && size.is_finite()) {
         return Ball::EVERYTHING;
@@ -160,7 +160,7 @@ fn over(z: Complex) -> Complex {
     image(unit.map(|component| component / size), &z, 1.0 / nearest / nearest, 1.0 / nearest)
 }
 
-/// How near to 0 it comes, if it lies beside the cut along the negative numbers.
+/// Returns its minimum distance from 0, if it is off the branch cut along the negative numbers.
 fn beside_the_cut(z: &Complex) -> Option<f64> {
     let [a, b] = z.middle;
     let nearest = z.size() * (1.0 - 16.0 * U) - z.radius;
@@ -174,7 +174,7 @@ fn logarithm(z: Complex) -> Complex {
     image(middle, &z, 1.0 / nearest, 4.0 + middle[0].abs())
 }
 
-/// The square root whose real part is positive.
+/// The square root with a positive real part.
 fn root(z: Complex) -> Complex {
     let Some(nearest) = beside_the_cut(&z) else { return Ball::EVERYTHING };
     let [a, b] = z.middle;

@@ -1,14 +1,14 @@
-//! JuliaFractal: where a map hₙ₊₁ = f(hₙ) + p, done again and again, leads nowhere outside of a ball; of the
-//! space of four dimensions that h₀ is from, what lies in one of three.
+//! Julia fractal: the set where iterating a map hₙ₊₁ = f(hₙ) + p never leaves a ball; a three-dimensional
+//! slice of the four-dimensional space of h₀.
 //!
-//! A solid of so many steps has a surface as smooth as the map, where the farthest of h₀, h₁ … is as far as
-//! the ball reaches. Balls of numbers bound that, and its slope, over whole pieces of a line, so that no thread
-//! is stepped over. **Invariant:** a crossing lies between two places where the bounds, over all lines that
-//! may have been meant, are of opposite signs.
+//! With a finite number of iterations, the surface is as smooth as the map: it is where the largest norm of
+//! h₀, h₁ … equals the radius of the ball. Ball arithmetic bounds that norm and its slope over entire pieces
+//! of a line, so no thin filament is missed. **Invariant:** a crossing lies between two positions where the
+//! bounds, over all lines that may be intended, have opposite signs.
 //!
 //! **Source:** A. Norton, "Generation and display of geometric fractals in 3-D", Computer Graphics 16
 //! (SIGGRAPH 1982); J. Hart, D. Sandin, L. Kauffman, "Ray tracing deterministic 3-D fractals", Computer
-//! Graphics 23 (SIGGRAPH 1989). How far the ball reaches was measured of POV-Ray 3.7.
+//! Graphics 23 (SIGGRAPH 1989). The radius of the ball was measured with POV-Ray 3.7.
 
 mod ball;
 mod function;
@@ -24,15 +24,15 @@ use ball::Ball;
 pub use function::Function;
 use orbit::{Hypercomplex, Orbit, Quaternion};
 
-/// Of the ball's radius: pieces of a line of which nothing is known are cut no finer.
+/// Minimum length of a piece of a line for which nothing is known, relative to the ball's radius.
 const FINEST: f64 = 1.0 / 4096.0;
-/// How far a crossing may be from where it is found in those, at most: of the ball's radius.
+/// Maximum error of a crossing found in such pieces, relative to the ball's radius.
 const FAR: f64 = 1.0 / (1 << 30) as f64;
 
-/// A bound that tells nothing, of what is cut as fine as what has one.
+/// An uninformative bound, for pieces that are subdivided as finely as those with a bound.
 const ANYTHING: f64 = f64::MAX;
 
-/// What is repeated, and of which numbers.
+/// The iterated function and its algebra.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Algebra {
     /// h², or h³.
@@ -47,16 +47,16 @@ pub struct JuliaFractal {
     /// p.
     pub parameter: [f64; 4],
     pub algebra: Algebra,
-    /// How many of h₀, h₁ … are looked at: 1 or more.
+    /// Number of h₀, h₁ … that are tested, at least 1.
     pub iterations: u32,
-    /// Of the three dimensions' hyperplane, of length 1; its last component is not 0.
+    /// Unit normal of the hyperplane of the slice; its last component is not 0.
     pub normal: [f64; 4],
-    /// Of the hyperplane from the origin, along the normal.
+    /// Distance of the hyperplane from the origin, along the normal.
     pub distance: f64,
 }
 
 impl JuliaFractal {
-    /// How far out no number comes back: measured of POV-Ray 3.7.
+    /// Returns the radius of the ball: a number outside of it never returns. Measured with POV-Ray 3.7.
     pub fn radius(&self) -> f64 {
         match self.algebra {
             Algebra::Quaternion { .. } => (1.0 + Ball::point(self.parameter).size()).min(2.0),
@@ -64,12 +64,12 @@ impl JuliaFractal {
         }
     }
 
-    /// Whether certainly nothing of it is seen: its hyperplane lies beyond the ball.
+    /// Returns whether it is certainly empty because its hyperplane lies outside of the ball.
     pub fn is_beyond(&self) -> bool {
         self.distance.abs() > self.radius() * (1.0 + 16.0 * U)
     }
 
-    /// The way in four dimensions of one in the hyperplane.
+    /// Maps a direction in the hyperplane to four dimensions.
     fn way(&self, step: Vector, blur: f64) -> Ball<4> {
         let [a, b, c, d] = self.normal;
         let fourth = -(a * step.x + b * step.y + c * step.z) / d;
@@ -77,15 +77,15 @@ impl JuliaFractal {
         Ball::new([step.x, step.y, step.z, fourth], (blur + 8.0 * U * size) / d.abs())
     }
 
-    /// What a point in three dimensions is in four, and all within a distance of it.
+    /// Maps a point to four dimensions, with all points within a distance of it.
     fn lift(&self, point: Vector, within: f64) -> Ball<4> {
         let fourth = self.distance / self.normal[3];
         let height = Ball::new([0.0, 0.0, 0.0, fourth], 2.0 * U * fourth.abs());
         self.way(point, within) + height
     }
 
-    /// The farthest square of the orbit's, over that of the radius, less 1; and its slopes along the ways.
-    /// Of what certainly escapes, only the first step that does is told.
+    /// Returns the largest squared norm of the orbit, relative to the squared radius, less 1, and its slopes
+    /// along the directions. If the orbit certainly escapes, counts only up to the first step that does.
     fn escape<const K: usize>(
         &self,
         h: Ball<4>,
@@ -137,7 +137,7 @@ impl JuliaFractal {
         farthest.unwrap_or((Interval::point(-1.0), [Interval::point(0.0); K]))
     }
 
-    /// Over a piece of a line, and all lines that may be meant.
+    /// Bounds over a piece of a line, and over all lines that may be intended.
     fn bounds(&self, ray: &LocalRay, s: Interval, with_slope: bool) -> Bounds {
         let (middle, half) = (0.5 * (s.low + s.high), 0.5 * (s.high - s.low));
         let blur = ray.blur_at(s.low.abs().max(s.high.abs()));
@@ -151,7 +151,7 @@ impl JuliaFractal {
         Bounds { value, slope }
     }
 
-    /// What a search asks: the slope only where the values tell no sign.
+    /// Evaluates bounds for a search; computes the slope only where the values do not determine the sign.
     fn looked_at(&self, ray: &LocalRay, s: Interval) -> Bounds {
         let bounds = self.bounds(ray, s, false);
         let Interval { low, high } = bounds.value;
@@ -173,15 +173,15 @@ impl JuliaFractal {
         }
     }
 
-    /// The value and its gradient at a point.
+    /// Returns the value and its gradient at a point.
     fn at(&self, point: Vector) -> (Interval, Vector) {
         let axes = [Vector::X, Vector::Y, Vector::Z].map(|axis| self.way(axis, 0.0));
         let (value, slopes) = self.escape(self.lift(point, 0.0), axes);
         (value, Vector::from_array(slopes.map(|slope| 0.5 * (slope.low + slope.high))))
     }
 
-    /// The crossings from a place on the line on; only up to the first that is certainly behind it, if all
-    /// are not wanted.
+    /// Finds the crossings from a position on the line on; unless `all` is set, only up to the first that is
+    /// certainly behind it.
     fn search(&self, ray: &LocalRay, from: f64, all: bool, found: &mut Crossings) {
         let radius = self.radius();
         let blur = ray.blur_at(radius);
@@ -242,7 +242,7 @@ impl Local for JuliaFractal {
         (-far, far)
     }
 
-    /// Not measured: as of shapes like it.
+    /// Not measured: assumed from similar shapes.
     fn price(&self) -> u64 {
         40 * u64::from(self.iterations)
     }

@@ -1,33 +1,34 @@
-//! Orbits: what becomes of a number of four components when one map is done again and again, and how that
-//! changes along ways from where it began.
+//! Orbits: the iterates of a map of four-component numbers, and their derivatives along directions from the
+//! start.
 //!
-//! **Invariant:** every step holds what it is for each number of the ball that it began with.
+//! **Invariant:** every iterate contains the result for each number of the initial ball.
 
 use super::ball::{Ball, symmetric};
 use super::function::Function;
 use crate::math::interval::Interval;
 use crate::shape::U;
 
-/// How many ways from the start are followed: along a line one, for the gradient three.
+/// An orbit with `K` directions from the start: one along a line, three for the gradient.
 pub trait Orbit<const K: usize>: Copy {
-    /// Whether of a ball that holds the origin, and what escapes, every next one does, too.
+    /// Returns whether every iterate after a ball that contains both the origin and escaping numbers also
+    /// contains both.
     fn grows(&self) -> bool;
 
-    /// The square of the norm, and its slopes along the ways; `None` where nothing is known.
+    /// Returns the squared norm, and its slopes along the directions; `None` if nothing is known.
     fn squared(&self) -> Option<(Interval, [Interval; K])>;
 
-    /// After the map.
+    /// Applies the map.
     fn next(&self) -> Self;
 }
 
-/// h² + p or h³ + p of quaternions.
+/// The map h² + p or h³ + p of quaternions.
 #[derive(Debug, Clone, Copy)]
 pub struct Quaternion<const K: usize> {
     h: Ball<4>,
     slopes: [Ball<4>; K],
     parameter: Ball<4>,
     is_cube: bool,
-    /// The norms of the middles, not too small.
+    /// Upper bounds on the norms of the midpoints.
     size: f64,
     parameter_size: f64,
 }
@@ -72,7 +73,7 @@ impl<const K: usize> Orbit<K> for Quaternion<K> {
     }
 }
 
-/// f(h) + p of hypercomplex numbers: two complex numbers each on its own.
+/// The map f(h) + p of hypercomplex numbers: two independent complex numbers.
 ///
 /// **Source:** G. Price, *An Introduction to Multicomplex Spaces and Functions* (1991), chapter 1 (the
 /// idempotent representation).
@@ -100,7 +101,7 @@ impl<const K: usize> Hypercomplex<K> {
     }
 }
 
-/// Of x + iy + jz + kw, where ij = k and i² = j² = −1 = −k²: (x ∓ w) + (y ± z)i.
+/// Half of x + iy + jz + kw, where ij = k and i² = j² = −1 = −k²: (x ∓ w) + (y ± z)i.
 fn half(number: Ball<4>, sign: f64) -> Ball<2> {
     let [x, y, z, w] = number.middle;
     // Each component adds two: the farthest that both can go is √2 times the radius.
@@ -113,7 +114,7 @@ impl<const K: usize> Orbit<K> for Hypercomplex<K> {
         matches!(self.function, Function::Sqr | Function::Cube)
     }
 
-    /// Half the sum of the halves' squares.
+    /// Half the sum of the squares of the two halves.
     fn squared(&self) -> Option<(Interval, [Interval; K])> {
         let [a, b] = &self.halves;
         let sum = a.h.squared() + b.h.squared();

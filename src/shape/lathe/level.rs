@@ -1,5 +1,6 @@
-//! A line that goes nearly along a level end of a lathe: it is asked how it lies to the end in the world, where what
-//! touches the end is asked the same, and the outline is asked about a line that is certainly above the end, or below.
+//! Lines nearly parallel to a horizontal end of a lathe. Their position relative to the end is determined in
+//! world space, so that a solid that touches the end gets the same answer; the outline is then intersected
+//! with a line certainly above or below the end.
 
 use super::line::Line;
 use crate::math::Vector;
@@ -8,10 +9,10 @@ use crate::shape::body::{Height, LocalRay};
 use crate::shape::curve::Outline;
 use crate::shape::slab::{Level, nudge};
 
-/// What is asked of the outline instead of a line that goes nearly along a level end.
+/// The lines to intersect with the outline instead of a line nearly parallel to a horizontal end.
 pub(super) enum Beside {
     Whole(Line),
-    /// It goes through the end, and is on one side of it before, on the other behind.
+    /// The line crosses the end: one substitute before the crossing, one after it.
     Parted {
         before: Line,
         passage: Passage,
@@ -19,7 +20,7 @@ pub(super) enum Beside {
     },
 }
 
-/// Where a line goes through the plane of a level end, and whether up.
+/// The crossing of a line with the plane of a horizontal end, and whether the line rises there.
 pub(super) struct Passage {
     pub s: f64,
     pub error: f64,
@@ -27,17 +28,17 @@ pub(super) struct Passage {
     pub rises: bool,
 }
 
-/// A line that is so many of its roundings higher or lower than an end of which it is told where it lies is certainly so
-/// for the outline.
+/// Number of roundings by which a line is moved above or below an end, so that its position is certain for
+/// the outline.
 const FAR: f64 = 64.0;
 
-/// The outline does not tell where a line goes through an end over which it rises by no more than so many roundings.
+/// Rise over an end, in roundings, up to which the outline cannot determine where a line crosses it.
 const UNTOLD: f64 = 8.0;
 
-/// No end is so narrow that a steeper line is untold, by roundings over the line's speed.
+/// Speed, in roundings, above which a line is never ambiguous: no end is narrow enough.
 const NARROWEST: f64 = 1024.0;
 
-/// The line, or what stands for it, raised to where the outline tells.
+/// Returns the line, or its substitutes, raised to a height that is unambiguous for the outline.
 pub(super) fn beside(line: Line, outline: &Outline, ray: &LocalRay) -> Beside {
     let (off, speed) = (line.off, line.speed.abs());
     if speed > NARROWEST * off {
@@ -72,7 +73,7 @@ pub(super) fn beside(line: Line, outline: &Outline, ray: &LocalRay) -> Beside {
     Beside::Whole(line)
 }
 
-/// How far along the line a crossing may be from where the line that is raised crosses the same wall.
+/// Bound on the distance, along the line, from a crossing to that of the raised line with the same wall.
 #[cold]
 pub(super) fn moved(line: &Line, Height { gradient, .. }: Height, direction: Vector) -> f64 {
     let rise = 2.0 * (line.raised * gradient.z).abs();

@@ -1,7 +1,8 @@
-//! A line as the outline of a lathe sees it: a branch of a hyperbola if it is steep, else two arms.
+//! A line in the plane of a lathe's outline: a branch of a hyperbola if it is steep, otherwise two arms.
 //!
-//! Of all points of the outline's plane d²·(ρ² − x²), with ρ the line's at the height of the point, is 0 on the
-//! hyperbola alone. Along a piece that is a polynomial, whose Bézier coefficients tell most of it.
+//! With ρ the line's distance from the axis at the height of a point of that plane, d²·(ρ² − x²) is 0 only on
+//! the hyperbola. Along a piece of the outline it is a polynomial, and its Bézier coefficients decide most
+//! cases.
 
 use smallvec::SmallVec;
 
@@ -11,23 +12,23 @@ use crate::shape::U;
 use crate::shape::body::LocalRay;
 use crate::shape::curve::{Change, Hull, Outline, Path, Piece, Point, Run, Side};
 
-/// A line is steep if it goes up at least so fast.
+/// Minimum vertical speed of a steep line.
 pub(super) const STEEP: f64 = 0.125;
 
-/// A line as the outline sees it.
+/// A line relative to the outline.
 #[derive(Clone, Copy)]
 pub(super) struct Line {
-    /// Across the axis.
+    /// Its nearest point, across the axis.
     nearest: Point,
     direction: Point,
     /// z where s is 0, and its speed.
     pub start: f64,
     pub speed: f64,
-    /// The speed across the axis.
+    /// Speed across the axis.
     across: f64,
-    /// How far rounding may move the line anywhere near the body, the outline's own rounding with it.
+    /// Error of the line, from rounding, anywhere near the body; includes the rounding of the outline.
     pub off: f64,
-    /// How much higher it is taken to be than it is.
+    /// Height by which it is raised above its actual position.
     pub raised: f64,
 }
 
@@ -45,19 +46,19 @@ impl Line {
         }
     }
 
-    /// The line where it is so high.
+    /// Returns the line raised to the height `start`.
     pub fn raised_to(&self, start: f64) -> Self {
         Self { start, raised: start - self.start, ..*self }
     }
 
-    /// dz times where the line is at the height z, across the axis.
+    /// Returns dz times the line's position, across the axis, at the height z.
     fn reached(&self, z: f64) -> Point {
         let ([n, m], [d, e]) = (self.nearest, self.direction);
         let up = z - self.start;
         [d * up + n * self.speed, e * up + m * self.speed]
     }
 
-    /// The Bézier coefficients of d²·(ρ² − x²) along a piece, and how great its parts are at most.
+    /// Returns the Bézier coefficients of d²·(ρ² − x²) along a piece, and an upper bound on its terms.
     fn coefficients(&self, piece: &Piece) -> ([f64; 7], f64) {
         let (x, y) = (piece.cubic(0), piece.cubic(1));
         let reached = y.map(|y| self.reached(y));
@@ -68,8 +69,8 @@ impl Line {
         (coefficients, size.fold(0.0, f64::max))
     }
 
-    /// Whether d²·(ρ² − x²) certainly has no more than one root on a piece: no more than its coefficients change
-    /// their sign.
+    /// Returns whether d²·(ρ² − x²) certainly has at most one root on a piece: at most the number of sign
+    /// changes of its coefficients.
     fn has_one_root(&self, piece: &Piece) -> bool {
         let (coefficients, size) = self.coefficients(piece);
         let is_told = |c: &f64| c.abs() > 64.0 * U * size * size;
@@ -77,7 +78,7 @@ impl Line {
         changes.count() <= 1 && coefficients.iter().all(is_told)
     }
 
-    /// Where d²·(ρ² − x²) turns on a piece, with ρ the line's at the piece's height.
+    /// Returns where d²·(ρ² − x²) has extrema on a piece, with ρ the line's at the height of the piece.
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
         let (x, mut y) = (piece.powers(0), piece.powers(1));
         y[0] -= self.start;
@@ -116,15 +117,15 @@ fn length(a: Point) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// A steep line: outside is what lies nearer to the axis.
+/// A steep line: its outside is nearer to the axis.
 pub(super) struct Steep<'a>(pub &'a Line);
 
 impl Side for Steep<'_> {
-    /// With a = dz·(the line's place at the piece's height), f = |a| − |dz|·x.
+    /// Evaluates f = |a| − |dz|·x, with a = dz·(the line's position at the height of the piece).
     ///
-    /// **Error:** what is farther than B from the branch is certain. The outside of the branch lies beyond its
-    /// tangent: there, f over the length of its gradient is less than the distance. Inside, all around for B
-    /// must be.
+    /// **Error:** points farther than B from the branch are certain. The outside of the branch lies beyond
+    /// its tangent: there, f over the length of its gradient is less than the distance. Inside, a
+    /// neighbourhood of radius B must be inside.
     fn sample(&self, piece: &Piece, u: f64) -> Sample {
         let Line { direction, speed, across, off, .. } = *self.0;
         let ([x, y], [x_speed, y_speed]) = piece.at(u);
@@ -159,7 +160,8 @@ impl Side for Steep<'_> {
         }
     }
 
-    /// The coefficients hold |a|² − dz²·x² between them: f times |a| + |dz|·x, which is no more than the size.
+    /// The coefficients bound |a|² − dz²·x², which is f times |a| + |dz|·x, and that factor is at most the
+    /// size.
     fn of_piece(&self, piece: &Piece) -> Option<bool> {
         let (coefficients, size) = self.0.coefficients(piece);
         let least = (2.0 * self.0.off + 64.0 * U * size) * size;
@@ -176,14 +178,14 @@ impl Side for Steep<'_> {
     }
 }
 
-/// One arm of a flat line, for ρ ≥ m: outside is what lies above it.
+/// One arm of a flat line, for ρ ≥ m: its outside is above it.
 pub(super) struct Arm<'a> {
     line: &'a Line,
-    /// How near the line comes to the axis, where, and how high it is there.
+    /// Minimum distance of the line from the axis, its position, and the height there.
     miss: f64,
     middle: f64,
     height: f64,
-    /// 1 after the middle, −1 before.
+    /// 1 after the middle, −1 before it.
     pub way: f64,
 }
 
@@ -196,17 +198,17 @@ impl<'a> Arm<'a> {
         [-1.0, 1.0].map(|way| Self { line, miss, middle, height, way })
     }
 
-    /// How far from the middle the line is x from the axis.
+    /// Distance along the line from the middle to where it is `x` from the axis.
     fn reach(&self, x: f64) -> f64 {
         ((x - self.miss) * (x + self.miss)).max(0.0).sqrt() / self.line.across
     }
 
-    /// How much it rises from the middle to there.
+    /// Rise from the middle to that point.
     fn rise(&self, x: f64) -> f64 {
         self.line.speed * self.way * self.reach(x)
     }
 
-    /// The parts of a run beyond ρ = m.
+    /// Returns the parts of a run beyond ρ = m.
     pub fn paths<'o>(&self, outline: &'o Outline, run: &Run) -> SmallVec<[Path<'o>; 4]> {
         let whole = Path::whole(outline, run, None);
         let pieces = &outline.pieces[run.from..run.to];
@@ -231,20 +233,22 @@ impl<'a> Arm<'a> {
         cuts.chunks_exact(2).map(part).collect()
     }
 
-    /// Whether a change may lie right where the arms begin.
+    /// Returns whether a change may lie right where the arms begin.
     pub fn may_begin_at(&self, change: &Change) -> bool {
         let is_near = |p: Point| p[0] - self.line.off <= self.miss;
         change.is_at_end() || change.places().any(is_near)
     }
 
-    /// By how far out it is or, where the arms begin, how high: whichever tells more.
+    /// Returns the crossing, computed from its distance to the axis or from its height, whichever is more
+    /// accurate.
     pub fn wall(&self, change: &Change) -> (f64, f64) {
         let (by_reach, by_height) = (self.by_reach(change), self.by_height(change));
         if by_height.1 < by_reach.1 { by_height } else { by_reach }
     }
 
-    /// **Error:** the reach of what the change lies within, B farther up and down; where the path begins at the
-    /// middle, that of the other arm too, which is as far below it as this is above, or as far above.
+    /// Computes the crossing from its height. **Error:** the extent of the change, B farther up and down;
+    /// where the path begins at the middle, also that of the other arm, which is as far below it as this arm
+    /// is above, or vice versa.
     fn by_height(&self, change: &Change) -> (f64, f64) {
         let Line { start, speed, off, .. } = *self.line;
         let here = change.point()[1];
@@ -256,8 +260,8 @@ impl<'a> Arm<'a> {
         ((here - start) / speed, (1.25 * reach + 1.5 * off) / speed.abs())
     }
 
-    /// **Error:** the reach of what the change lies within, B farther out and in; where the path begins at the
-    /// middle, that of the other arm too.
+    /// Computes the crossing from its distance to the axis. **Error:** the extent of the change, B farther
+    /// out and in; where the path begins at the middle, also that of the other arm.
     fn by_reach(&self, change: &Change) -> (f64, f64) {
         let Line { across, off, .. } = *self.line;
         let here = self.reach(change.point()[0]);
@@ -271,8 +275,8 @@ impl<'a> Arm<'a> {
 }
 
 impl Side for Arm<'_> {
-    /// **Error:** it rises all the way, or falls: what is certain at both of the corners of a square of twice B
-    /// is certain.
+    /// **Error:** the arm is monotone, so a result is certain if it holds at both corners of a square of
+    /// width 2B.
     fn sample(&self, piece: &Piece, u: f64) -> Sample {
         let ([x, y], [x_speed, y_speed]) = piece.at(u);
         let Line { across, speed, off, .. } = *self.line;

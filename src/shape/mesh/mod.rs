@@ -1,7 +1,7 @@
-//! Mesh: triangles that share corners, as a sheet or, where it is said to have an inside, as a solid.
+//! Mesh: triangles that share corners, as a sheet or, if it is declared to have an inside, as a solid.
 //!
-//! **Invariant:** watertight: a line through a shared edge or corner meets one of the triangles there, and
-//! of a closed mesh an even number of them.
+//! **Invariant:** watertight: a line through a shared edge or corner intersects one of the triangles there,
+//! and an even number of the triangles of a closed mesh.
 
 pub(super) mod pierce;
 mod skin;
@@ -13,17 +13,17 @@ use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use pierce::View;
 pub use skin::Skin;
 
-/// Three corners in a row: the surface faces an eye that sees them turn left, where x points right, y up
-/// and z away. **Source:** POV-Ray 3.7's behaviour, asked by `trace`.
+/// A triangle. The surface faces a viewer who sees the corners turn left, where x points right, y up and z
+/// away. **Source:** behaviour of POV-Ray 3.7, measured with `trace`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
     pub corners: [u32; 3],
-    /// The normals by which it is lit, one for each corner; `None` where it is flat.
+    /// The shading normals, one for each corner; `None` if it is flat.
     pub normals: Option<[u32; 3]>,
 }
 
-/// A part is twice the number of a face, and one more where the outside is on its other side: the inside
-/// of a mesh is told by counting, however its corners turn.
+/// A mesh. A part number is twice the index of a face, plus one if the outside is on its other side: the
+/// inside of a mesh is determined by counting, regardless of the winding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     pub(super) corners: Vec<Vector>,
@@ -33,14 +33,15 @@ pub struct Mesh {
     pub(super) faces: Vec<Face>,
     tree: Tree,
     skin: Skin,
-    /// It is a solid: a point is inside from which this way leads out through an odd number of faces.
+    /// For a solid, the direction of the inside test: a point is inside if the ray in this direction crosses
+    /// an odd number of faces.
     pub(super) inside: Option<UnitVector>,
     reach: f64,
 }
 
 impl Mesh {
-    /// Of finite corners, 2 or less from the origin. Faces that are lines or points, or whose corners or
-    /// normals are not there, are left out; `None` where no face is left.
+    /// Builds a mesh from finite corners, at most 2 from the origin. Faces that degenerate to lines or
+    /// points, or whose corners or normals are missing, are dropped; `None` if no face is left.
     pub fn new(
         corners: Vec<Vector>,
         normals: Vec<Vector>,
@@ -50,7 +51,7 @@ impl Mesh {
         Self::with_skin(corners, normals, faces, inside, Skin::default())
     }
 
-    /// With what its faces are painted with, a list of entries for each or for none.
+    /// Builds a mesh with the paint of its faces: lists with an entry for each face, or for none.
     pub fn with_skin(
         corners: Vec<Vector>,
         normals: Vec<Vector>,
@@ -84,7 +85,7 @@ impl Mesh {
         Some(Self { corners, normals, faces, tree, skin, inside, reach })
     }
 
-    /// Of the slenderest face: its longest side over its height there.
+    /// Returns the slenderness of the most slender face: its longest side over the height on that side.
     pub fn slenderness(&self) -> f64 {
         let slenderness = |face: &Face| {
             let [a, b, c] = self.corners_of(face);
@@ -101,7 +102,8 @@ impl Mesh {
         face.corners.map(|i| self.corners[i as usize])
     }
 
-    /// Every face that a line pierces, in no order; whether it lies in the plane of one, as far as is told.
+    /// Calls `found` with every face that a line pierces, in no order; returns whether it lies in the plane
+    /// of one, within rounding.
     fn pierced(&self, ray: &LocalRay, mut found: impl FnMut(Met)) -> bool {
         let view = View::along(ray, self.reach);
         // What the view rounds corners by, generously.
@@ -118,7 +120,7 @@ impl Mesh {
         view.is_in_a_plane.get()
     }
 
-    /// The normal by which a part is lit at a point, of any length; `None` where that is its own.
+    /// Returns the shading normal of a part at a point, of any length; `None` if it is the geometric normal.
     fn smooth_normal(&self, part: u32, point: Vector) -> Option<Vector> {
         let face = self.faces.get(part as usize / 2)?;
         let normals = face.normals?.map(|i| self.normals[i as usize]);
@@ -131,14 +133,14 @@ impl Mesh {
 pub(super) struct Flat {
     /// Of length about 1.
     pub normal: Vector,
-    /// How far rounding may have turned the normal.
+    /// Angular error of the normal, from rounding.
     pub turn: f64,
 }
 
 impl Flat {
-    /// `None` where the corners lie in a line.
+    /// Returns the plane; `None` if the corners are collinear.
     ///
-    /// The edges are brought near 1 first, so nothing underflows. Their cross product is off by
+    /// The edges are scaled to about 1 first, so nothing underflows. Their cross product is off by
     /// 8u·|e|·|f|.
     pub fn through([a, b, c]: [Vector; 3]) -> Option<Self> {
         let unit = |edge: Vector| edge * reciprocal_power_of_two(edge.abs().max_element());
@@ -151,9 +153,9 @@ impl Flat {
 }
 
 impl Local for Mesh {
-    /// A solid's are entered and left in turn, whichever way each face turns. One that is not closed where
-    /// the line leaves it ends right behind the last face. A line in the plane of a face goes beside it, as all lines
-    /// to one side of it do.
+    /// For a solid, entries and exits alternate, regardless of the winding of each face. If it is not closed
+    /// where the line leaves it, it ends right behind the last face. A line in the plane of a face of a solid
+    /// is displaced beside it, to the same side as all such lines.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let is_in_a_plane = self.pierced(ray, |met| found.push(met));
         if is_in_a_plane && self.inside.is_some() {
@@ -177,7 +179,7 @@ impl Local for Mesh {
         }
     }
 
-    /// Over the plane of the face, measured from its corner.
+    /// Measured from the plane of the face, relative to its corner.
     fn height(&self, part: u32, point: Vector) -> Height {
         let corners = self.faces.get(part as usize / 2).map(|face| self.corners_of(face));
         let Some((corners, flat)) = corners.and_then(|all| Some((all, Flat::through(all)?))) else {

@@ -1,11 +1,12 @@
-//! Whether a line pierces a triangle, and where.
+//! Watertight intersection of a line with a triangle.
 //!
-//! **Invariant:** each corner is seen in the same place whichever triangle asks, of whichever mesh, and the
-//! answer is exact for what is seen. Where the line goes through an edge, it is taken to pass by (ε, ε²) of it, ε positive and
-//! less than any number: so no line goes through an edge, and neighbours never both have it or both not.
+//! **Invariant:** the projection of a corner does not depend on the triangle or mesh that requests it, and
+//! the test is exact for the projections. Where the line passes through an edge, it is displaced by (ε, ε²),
+//! ε a positive infinitesimal: so no line passes through an edge, and adjacent triangles never both contain
+//! the line or both miss it.
 //!
-//! **Source:** S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2 (1), 2013;
-//! H. Edelsbrunner, E. Mücke, "Simulation of simplicity", ACM Transactions on Graphics 9 (1), 1990.
+//! **Source:** S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", JCGT 2 (1), 2013; H.
+//! Edelsbrunner, E. Mücke, "Simulation of simplicity", ACM Transactions on Graphics 9 (1), 1990.
 
 use std::cell::Cell;
 
@@ -17,23 +18,23 @@ use crate::math::Vector;
 use crate::math::double::Double;
 use crate::math::placement::ExactPlacement;
 
-/// Looks along a line: the corners as seen across it.
+/// Projects corners along a line.
 pub(in super::super) struct View<'a> {
     across: Across,
-    /// How far a corner may be from where the world has it.
+    /// Maximum deviation of a corner from its position in world space.
     pub doubt: f64,
     in_world: Option<(&'a Ray, &'a ExactPlacement)>,
-    /// Nothing tells the line from one in the plane of a triangle that was asked about.
+    /// Whether the line cannot be separated from the plane of some triangle that was tested.
     pub is_in_a_plane: Cell<bool>,
 }
 
-/// What is across a line.
+/// A projection along a line.
 struct Across {
     start: Vector,
-    /// The axis that the line is nearest to, and the other two in turn.
+    /// The line's dominant axis, followed by the other two in cyclic order.
     axes: [usize; 3],
     shear: [f64; 2],
-    /// The line goes against its main axis.
+    /// Whether the line goes against its dominant axis.
     is_against: bool,
 }
 
@@ -45,7 +46,7 @@ impl Across {
         Self { start, axes, shear, is_against: direction[main] < 0.0 }
     }
 
-    /// Where a point is, across the line.
+    /// Returns the projection of a point.
     #[inline]
     fn seen(&self, point: Vector) -> [f64; 2] {
         let from_start = point - self.start;
@@ -53,7 +54,7 @@ impl Across {
         [a - self.shear[0] * main, b - self.shear[1] * main]
     }
 
-    /// As [`View::pierces`], whatever it takes.
+    /// Like [`View::pierces`], always exact.
     fn pierces_exactly(&self, corners: [Vector; 3]) -> Option<bool> {
         let [a, b, c] = corners.map(|corner| self.seen(corner));
         let turn = turns_left(a, b)?;
@@ -63,7 +64,7 @@ impl Across {
 }
 
 impl<'a> View<'a> {
-    /// Of corners no farther than `size` from the local origin.
+    /// Builds the view of a line, for corners within `size` of the local origin.
     pub fn along(ray: &LocalRay<'a>, size: f64) -> Self {
         let LocalRay { nearest, direction, blur, turn, in_world, .. } = *ray;
         let in_world = in_world.and_then(|InWorld { ray, placed }| {
@@ -82,7 +83,8 @@ impl<'a> View<'a> {
         Self { across, doubt, in_world, is_in_a_plane: Cell::new(false) }
     }
 
-    /// Whether the line pierces the triangle, and how: true where it goes as the surface faces.
+    /// Returns whether the line pierces the triangle: `Some(true)` if it goes in the direction that the
+    /// surface faces.
     #[inline]
     pub fn pierces(&self, corners: [Vector; 3]) -> Option<bool> {
         let [a, b, c] = corners.map(|corner| self.across.seen(corner));
@@ -104,8 +106,8 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Whether the line lies in the plane of a triangle of which it passes no edge for certain: as the world has it,
-    /// where it stands there.
+    /// Returns whether the line lies in the plane of a triangle, none of whose edges it certainly passes on
+    /// one side. Determined in world space, if the body is placed there.
     #[cold]
     fn lies_in_plane(&self, corners: [Vector; 3]) -> bool {
         let rise = |(ray, placement): (&Ray, &ExactPlacement)| {
@@ -114,7 +116,8 @@ impl<'a> View<'a> {
         self.in_world.and_then(rise).is_none_or(|rise| lies_in(&rise, 0.0))
     }
 
-    /// In the world, where others see the corners; where nothing stands there, here.
+    /// Determined in world space, in which other bodies see the same corners; in local space if the body is
+    /// not placed.
     #[cold]
     fn pierces_exactly(&self, corners: [Vector; 3]) -> Option<bool> {
         let Some((ray, placement)) = self.in_world else {
@@ -125,10 +128,11 @@ impl<'a> View<'a> {
         Some(pierced != placement.is_mirrored)
     }
 
-    /// Which way it turns from `p` to `q` around the line, left 1 and right −1; 0 where that is in doubt.
+    /// Returns the direction of the turn from `p` to `q` around the line: 1 to the left, −1 to the right, 0
+    /// if that is uncertain.
     ///
-    /// The sign of p.x·q.y − p.y·q.x: certain where that is over 2u of both products, whose roundings and its own
-    /// it can then not owe it to; and over what the corners' doubt comes to.
+    /// It is the sign of p.x·q.y − p.y·q.x, which is certain if the value exceeds 2u of both products, so
+    /// that neither their roundings nor its own explain it, plus the effect of the corners' doubt.
     #[inline]
     fn turns_surely(&self, p: [f64; 2], q: [f64; 2]) -> i32 {
         let (left, right) = (p[0] * q[1], p[1] * q[0]);
@@ -140,9 +144,9 @@ impl<'a> View<'a> {
     }
 }
 
-/// A line beside one in the plane of a face, whose crossing might be anywhere along the face: farther off than
-/// rounding is, here and of what the world may have meant to lie in a plane, on the side that [`nudge`] has for all
-/// that touches there, of a body that is no larger than `size`.
+/// Returns a line beside one that lies in the plane of a face, whose crossing might be anywhere along the
+/// face. The displacement exceeds the rounding, both here and of a ray meant to lie in the plane, and is on
+/// the side of [`nudge`], which is common to all bodies that touch there. The body is at most of size `size`.
 #[cold]
 pub(in super::super) fn beside<'a>(ray: &LocalRay<'a>, size: f64) -> LocalRay<'a> {
     let LocalRay { nearest, direction, blur, .. } = *ray;
@@ -153,7 +157,7 @@ pub(in super::super) fn beside<'a>(ray: &LocalRay<'a>, size: f64) -> LocalRay<'a
     LocalRay { nearest: nearest + aside * far, blur: blur + far, in_world: None, ..*ray }
 }
 
-/// Whether the way from `p` to `q` turns left around the line, exactly; `None` where it does not move.
+/// Returns whether `q` is to the left of `p` as seen from the line, exactly; `None` if they coincide.
 fn turns_left(p: [f64; 2], q: [f64; 2]) -> Option<bool> {
     // Multiplied by powers of two, so that the products have all their digits.
     let [p_near_1, q_near_1] = [p, q].map(|[x, y]| {
@@ -170,12 +174,11 @@ fn turns_left(p: [f64; 2], q: [f64; 2]) -> Option<bool> {
     }
 }
 
-/// Where a line meets a triangle that it pierces.
+/// Returns the crossing of a line with a triangle that it pierces.
 ///
-/// With n the normal and P the meeting point, s = n·(A − start)/n·d. **Error:** B, how far the meant line
-/// may be off there, with what rounding adds to A − start and to s·d; and how far the normal's own error may
-/// turn the plane about A at P, over |n·d|. The crossing is no farther off than the triangle's ends along
-/// the line.
+/// With n the normal and P the crossing, s = n·(A − start)/n·d. **Error:** B, the error of the line there,
+/// plus the rounding of A − start and s·d, plus the displacement at P when the normal's error turns the plane
+/// about A, all over |n·d|. The crossing lies between the triangle's ends along the line.
 pub(in super::super) fn met(ray: &LocalRay, corners: [Vector; 3], leaving: bool, part: u32) -> Met {
     let LocalRay { nearest, direction, .. } = *ray;
     let depths = corners.map(|corner| (corner - nearest).dot(direction));
@@ -200,8 +203,8 @@ pub(in super::super) fn met(ray: &LocalRay, corners: [Vector; 3], leaving: bool,
     Met { t, error: error.min(high - low + off(t)), leaving, part }
 }
 
-/// Where a line that goes nearly along a triangle meets its plane, and by how much that may be off, as exact as the ray
-/// and the place: solids that touch there are met in one place.
+/// Returns where a nearly parallel line crosses the plane of a triangle, with its error, as exactly as the
+/// ray and the placement allow: solids that touch there get the same crossing.
 #[cold]
 fn met_exactly(ray: &LocalRay, corners: [Vector; 3]) -> Option<(f64, f64)> {
     let InWorld { ray: line, placed } = ray.in_world?;

@@ -1,14 +1,14 @@
-//! Skin: what the corners of a mesh's faces are painted with, and where they lie in a texture.
+//! Paint and texture coordinates of the corners of a mesh's faces.
 //!
-//! It lies beside the faces, so that rays that only look for them do not pass it.
+//! Stored separately from the faces, so that ray intersection does not load them.
 
 use super::{Flat, Mesh};
 use crate::math::Vector;
 
-/// Lists with an entry for each face, or none at all.
+/// Lists with an entry for each face, or empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Skin {
-    /// Indices into a list that whoever paints the mesh has; [`Skin::BARE`] where a face has no paint.
+    /// Indices into a list owned by the caller; [`Skin::BARE`] for a face without paint.
     pub paint: Vec<[u32; 3]>,
     /// Indices into `uvs`.
     pub places: Vec<[u32; 3]>,
@@ -18,7 +18,7 @@ pub struct Skin {
 impl Skin {
     pub const BARE: [u32; 3] = [u32::MAX; 3];
 
-    /// With the faces that were `order` before.
+    /// Reorders it; `order` are the former indices of the faces.
     pub(super) fn in_order(self, order: &[u32]) -> Self {
         let ordered = |list: Vec<[u32; 3]>| match list.is_empty() {
             true => list,
@@ -29,8 +29,8 @@ impl Skin {
 }
 
 impl Mesh {
-    /// What the corners of a face are painted with, and how much of each there is at a point; `None` where
-    /// the face has no paint.
+    /// Returns the paints of a face's corners, each with its weight at a point; `None` if the face has no
+    /// paint.
     pub fn paint(&self, part: u32, point: Vector) -> Option<[(u32, f64); 3]> {
         let face = part as usize / 2;
         let paint = *self.skin.paint.get(face)?;
@@ -45,7 +45,7 @@ impl Mesh {
         Some([0, 1, 2].map(|i| (paint[i], weights[i])))
     }
 
-    /// Where a point of a face lies in a texture.
+    /// Returns the texture coordinates of a point of a face.
     pub fn uv(&self, part: u32, point: Vector) -> Option<[f64; 2]> {
         let face = part as usize / 2;
         let [a, b, c] = self.skin.places.get(face)?.map(|i| self.skin.uvs.get(i as usize).copied());
@@ -54,7 +54,7 @@ impl Mesh {
         Some([0, 1].map(|i| a[i] * m + b[i] * n + c[i] * o))
     }
 
-    /// How near a point of a face is to each of its corners; 1 in all.
+    /// Returns the barycentric coordinates of a point of a face.
     pub(super) fn weights(&self, face: usize, point: Vector) -> Option<[f64; 3]> {
         let corners = self.corners_of(self.faces.get(face)?);
         let Flat { normal, .. } = Flat::through(corners)?;

@@ -1,9 +1,9 @@
-//! Parametric surface: the points that three functions of u and v give over a rectangle, within a container. A
-//! sheet; it faces along ∂u × ∂v.
+//! Parametric surface: the points that three functions of u and v yield over a rectangle, clipped to a
+//! container. It is a sheet that faces along ∂u × ∂v.
 //!
-//! A ray crosses it where the point's two coordinates across the ray are 0, which `search.rs` looks for.
+//! A ray crosses it where both coordinates of the point across the ray are 0; `search.rs` finds these points.
 //!
-//! **Invariant:** a tree of boxes holds all of the surface.
+//! **Invariant:** a tree of boxes contains the entire surface.
 
 mod search;
 
@@ -20,7 +20,7 @@ use crate::math::Vector;
 use crate::math::interval::Interval;
 use search::Search;
 
-/// The rectangle is cut into 2^DEPTH parts along each way beforehand.
+/// The rectangle is divided into 2^DEPTH parts along each parameter in advance.
 const DEPTH: u32 = 5;
 
 /// A part of the rectangle.
@@ -31,20 +31,21 @@ pub struct Parametric {
     functions: [Arc<Closed>; 3],
     rectangle: Part,
     container: Container,
-    /// A local point is the functions' `centre + scale · point`; the scale is a power of two.
+    /// A local point is `centre + scale · point` in the coordinates of the functions; the scale is a power of
+    /// two.
     centre: Vector,
     scale: f64,
     /// The boxes of the parts, by level; four below each.
     boxes: Vec<[Interval; 3]>,
 }
 
-/// The functions at work.
+/// Evaluates the functions.
 struct Surface<'a> {
     body: &'a Parametric,
     runs: [RefCell<Run<'a, Sloped<2>>>; 3],
 }
 
-/// Where the functions go over a part.
+/// The image of a part under the functions.
 struct Image {
     point: [Interval; 3],
     /// Along u, and along v.
@@ -86,7 +87,8 @@ impl Surface<'_> {
         }
     }
 
-    /// The same, with the points no farther from the middle's than the slopes allow; and of the middle.
+    /// Like [`Self::evaluate`], with the points limited by the slopes from the middle's; also returns the
+    /// image of the middle.
     fn images(&self, part: Part) -> [Image; 2] {
         let mut image = self.evaluate(part);
         let at = part.map(|i| Interval::point(middle(i)));
@@ -112,7 +114,7 @@ fn quarters([u, v]: Part) -> [Part; 4] {
 }
 
 impl Parametric {
-    /// Over the rectangle between two corners.
+    /// Builds the surface over the rectangle between two corners.
     pub fn new(
         functions: [Arc<Closed>; 3],
         corners: [[f64; 2]; 2],
@@ -135,7 +137,7 @@ impl Parametric {
         body
     }
 
-    /// Whether certainly nothing of it lies in its container.
+    /// Returns whether the surface certainly lies outside of its container.
     pub fn is_outside(&self) -> bool {
         let finest = self.boxes.len().saturating_sub(1 << (2 * DEPTH));
         self.boxes[finest..].iter().all(|part| self.container.misses(part))
@@ -146,7 +148,7 @@ impl Parametric {
         Surface { body: self, runs }
     }
 
-    /// The part of a place among those of the finest level.
+    /// Returns the part at an index of the finest level.
     fn part(&self, mut place: u32) -> Part {
         let mut ways: SmallVec<[u32; 8]> = SmallVec::new();
         for _ in 0..DEPTH {
@@ -156,7 +158,7 @@ impl Parametric {
         ways.into_iter().rev().fold(self.rectangle, |part, way| quarters(part)[way as usize])
     }
 
-    /// How many parts are looked at to find where a line crosses it.
+    /// Returns the number of parts visited to intersect a line.
     #[cfg(test)]
     pub(super) fn parts_looked_at(&self, ray: &LocalRay) -> usize {
         Search::along(self, ray).looked
@@ -175,7 +177,7 @@ impl Local for Parametric {
         found.extend(Search::along(self, ray).crossings());
     }
 
-    /// Over the plane that touches the surface where it is nearest to the point, sought within the part.
+    /// Measured from the tangent plane at the surface point nearest to `point`, searched within the part.
     fn height(&self, part: u32, point: Vector) -> Height {
         let part = self.part(part);
         let surface = self.surface();

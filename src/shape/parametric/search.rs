@@ -1,17 +1,18 @@
-//! Where a line crosses a surface of u and v: where the point's two coordinates across the line are 0.
+//! Intersects a line with a surface of u and v: searches for points where both coordinates across the line
+//! are 0.
 //!
-//! Parts of the rectangle whose bounds leave no zero are left out, and a part with one is told by Newton's method
-//! on intervals. The two coordinates are the heights over the plane that touches the part at its middle, as far
-//! as that is seen from the side, and across that height: where the line touches the surface the first is small
-//! of the second order, and is bounded as such. So of what the line passes by, a few parts are left at each
-//! size; in coordinates that any two ways have, as many would be as lie along the touch, twice as many at each
-//! second size.
+//! Parts of the rectangle whose bounds exclude a zero are dropped, and interval Newton isolates a part with
+//! one zero. The two coordinates are the height over the tangent plane at the middle of the part, as far as
+//! it is seen from the side, and the coordinate perpendicular to it. Where the line touches the surface, the
+//! height is small of second order, and is bounded as such. So near a tangent line only a few parts are left
+//! at each size; with arbitrary coordinates, as many would be left as lie along the tangency, twice as many
+//! at every second size.
 //!
-//! Cutting ends where the height over a part is told no better than at its middle. All that is left there and is not
-//! told from one another along the line is one place. **Invariant:** a crossing lies where Newton's method has
-//! proved one, or where all that is left of a place faces the same way: at a pole, where many u and v are one
-//! point, or at a crease. Where some of it faces the line and some goes with it, that is a touch, which rounding does
-//! not tell from a miss, and is missed.
+//! Subdivision ends where the height over a part is known no better than at its middle. Remaining parts that
+//! overlap along the line count as one position. **Invariant:** a crossing lies where interval Newton proved
+//! one, or where all remaining parts at a position face the same direction: at a pole, where many u and v map
+//! to one point, or at a crease. If some face along the line and some against it, the line is tangent, which
+//! rounding cannot separate from a miss, and counts as a miss.
 //!
 //! **Source:** D. Toth, "On ray tracing parametric surfaces", SIGGRAPH 1985, p. 171; R. E. Moore, R. B.
 //! Kearfott, M. J. Cloud, *Introduction to Interval Analysis* (2009), chapter 8, for the method.
@@ -24,52 +25,53 @@ use super::{DEPTH, Image, Parametric, Part, Surface, common, dot, halves, middle
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
-/// No part is cut more often.
+/// Maximum number of subdivisions of a part.
 const DEEPEST: u32 = 120;
 
-/// Of one of the finest boxes, so many parts are looked at before the rest is taken for as small as it gets.
+/// Maximum number of parts visited in one of the finest boxes, before the remaining ones count as
+/// indivisible.
 const MOST: usize = 1024;
 
-/// What is no more than so many times as wide as its middle is known is told as well as can be.
+/// A part is resolved if it is at most this many times as wide as the uncertainty at its middle.
 const TOLD: f64 = 2.0;
-/// What is known to be one crossing need not be told as well.
+/// Like `TOLD`, for a part that is known to have one crossing.
 const TOLD_ENOUGH: f64 = 8.0;
 
-/// What is looked for along one line.
+/// The search along one line.
 pub(super) struct Search<'a> {
     surface: Surface<'a>,
     ray: &'a LocalRay<'a>,
-    /// Two ways across the line, of no part in particular.
+    /// Two default directions across the line.
     across: [Vector; 2],
     blur: f64,
     left: Vec<Left>,
-    /// How many parts were looked at.
+    /// Number of visited parts.
     pub looked: usize,
 }
 
-/// What is left of a part.
+/// A part that remains after subdivision.
 #[derive(Debug, Clone, Copy)]
 struct Left {
-    /// Where along the line it may be.
+    /// Its range along the line.
     along: Interval,
-    /// It goes the way that the surface faces; `None` where that is not told.
+    /// Whether the line goes in the direction that the surface faces; `None` if that is uncertain.
     leaving: Option<bool>,
-    /// It has one crossing.
+    /// Whether it certainly has one crossing.
     is_sure: bool,
     place: u32,
 }
 
-/// A part as it is seen along the line.
+/// A part relative to the line.
 struct Seen {
     part: Part,
     whole: Image,
     at_middle: Image,
-    /// Two ways across the line; where the part is seen from the side, out of it and along it.
+    /// Two directions across the line; if the part is seen from the side, out of the surface and along it.
     across: [Vector; 2],
-    /// How far along each of them it is from the line, at its middle and all over.
+    /// Distance from the line along each of them: at the middle, and over the entire part.
     off_at_middle: [Interval; 2],
     off: [Interval; 2],
-    /// How fast that changes along u and v.
+    /// Derivatives of that along u and v.
     slopes: [[Interval; 2]; 2],
 }
 
@@ -77,7 +79,7 @@ fn width(i: Interval) -> f64 {
     i.high - i.low
 }
 
-/// The greatest absolute value.
+/// The maximum absolute value.
 fn size(i: Interval) -> f64 {
     i.low.abs().max(i.high.abs())
 }
@@ -91,7 +93,7 @@ fn slopes_along(slopes: &[[Interval; 3]; 2], across: [Vector; 2]) -> [[Interval;
 }
 
 impl<'a> Search<'a> {
-    /// Looks for all crossings of the line.
+    /// Searches for all crossings of the line.
     pub fn along(body: &'a Parametric, ray: &'a LocalRay<'a>) -> Self {
         let reach = body.container.reach();
         let away = [Vector::X, Vector::Y, Vector::Z]
@@ -106,7 +108,7 @@ impl<'a> Search<'a> {
         search
     }
 
-    /// Whether the line may meet a box within the container.
+    /// Returns whether the line may intersect a box within the container.
     fn may_meet(&self, point: &[Interval; 3]) -> bool {
         let held = self.surface.body.held();
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -141,7 +143,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The largest parts first, so that all that is left is as small.
+    /// Visits the largest parts first, so that all remaining parts are equally small.
     fn look(&mut self, part: Part, place: u32) {
         let mut parts = VecDeque::from([(part, 0, false)]);
         let before = self.looked;
@@ -181,7 +183,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// `None` where the line does not meet the part.
+    /// Returns the part relative to the line; `None` if the line misses it.
     fn see(&self, part: Part) -> Option<Seen> {
         let [whole, at_middle] = self.surface.images(part);
         if !self.may_meet(&whole.point) {
@@ -199,7 +201,8 @@ impl<'a> Search<'a> {
         meets.then_some(Seen { part, whole, at_middle, across, off_at_middle, off, slopes })
     }
 
-    /// Out of the surface and along it, where it is seen from the side; a third way goes along the line.
+    /// Returns the directions out of the surface and along it, both across the line, if it is seen from the
+    /// side.
     fn across(&self, at: &Image) -> [Vector; 2] {
         let [u, v] = at.slopes.map(|slopes| Vector::from_array(slopes.map(middle)));
         let normal = u.cross(v);
@@ -222,7 +225,8 @@ impl<'a> Search<'a> {
         std::array::from_fn(|axis| image.point[axis] - Interval::point(self.ray.nearest[axis]))
     }
 
-    /// What a step of Newton's leaves of a part: x = m − J⁻¹·g(m), with J the slopes over the part.
+    /// Returns what an interval Newton step leaves of a part: x = m − J⁻¹·g(m), with J the slopes over the
+    /// part.
     fn newton(&self, seen: &Seen) -> Option<Part> {
         let Seen { part, slopes, off_at_middle: off, .. } = seen;
         let at = part.map(middle);
@@ -233,19 +237,21 @@ impl<'a> Search<'a> {
         Some([common(u, part[0])?, common(v, part[1])?])
     }
 
-    /// Whether cutting an irregular part leads no further: the line goes along it, or it is all one point.
+    /// Returns whether subdividing an irregular part is useless: the line is tangent to it, or it is a single
+    /// point.
     fn is_end(&self, seen: &Seen) -> bool {
         seen.is_told(0, TOLD) && (seen.is_told(1, TOLD) || self.is_seen_from_side(seen))
     }
 
-    /// Whether all of the part certainly faces out of its middle's plane.
+    /// Returns whether the part, seen from the side, is certainly regular throughout.
     fn is_seen_from_side(&self, seen: &Seen) -> bool {
         let [along_u, along_v] = seen.whole.slopes.map(|slopes| dot(&slopes, self.ray.direction));
         let [aside_u, aside_v] = seen.slopes[1];
         !determinant(&[[aside_u, aside_v], [along_u, along_v]]).contains(0.0)
     }
 
-    /// Whether the line goes the way that the surface faces at the middle, as far as its own error lets tell.
+    /// Returns whether the line goes in the direction that the surface faces at the middle; `None` within its
+    /// error.
     fn leaving(&self, seen: &Seen) -> Option<bool> {
         let slopes = seen.at_middle.slopes;
         let [u, v] = slopes.map(|slopes| Vector::from_array(slopes.map(size)).length());
@@ -254,7 +260,8 @@ impl<'a> Search<'a> {
         (low > off || high < -off).then_some(low > off)
     }
 
-    /// The way along which a part reaches farther across the line; of the rectangle, where that does not tell.
+    /// Returns the parameter along which a part extends farther across the line; if that is unknown, farther
+    /// in the rectangle.
     fn longer(&self, seen: &Seen, part: Part) -> usize {
         let reach = |way: usize| {
             let slope = size(seen.slopes[0][way]).max(size(seen.slopes[1][way]));
@@ -276,7 +283,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// In order; one for each place, and one for each way that is told at a place.
+    /// Returns the crossings in order; one for each position, and one for each known direction at a position.
     pub fn crossings(mut self) -> Vec<Met> {
         self.left.sort_by(|a, b| a.along.low.total_cmp(&b.along.low));
         let mut found = Vec::new();
@@ -296,7 +303,7 @@ impl<'a> Search<'a> {
 }
 
 impl Left {
-    /// The two as one, in the part of what is told better.
+    /// Merges two parts, keeping the part number of the better known one.
     fn with(&self, other: &Self) -> Self {
         let better = if width(other.along) < width(self.along) { other } else { self };
         Self { along: self.along.hull(other.along), ..*better }
@@ -304,13 +311,14 @@ impl Left {
 }
 
 impl Seen {
-    /// Whether it is known no better how far the middle is from the line than how far the whole part is.
+    /// Returns whether the distance from the line is known at the middle hardly better than over the entire
+    /// part.
     fn is_told(&self, way: usize, times: f64) -> bool {
         width(self.off[way]) <= times * width(self.off_at_middle[way])
     }
 }
 
-/// Adds the crossings at one place: what is sure of it, or all of it where it faces one way.
+/// Adds the crossings at one position: those that are certain, or all parts if they face the same direction.
 fn tell(all: &[Left], found: &mut Vec<Met>) {
     for leaving in [false, true] {
         let is_alone = all.iter().all(|left| left.leaving == Some(leaving));

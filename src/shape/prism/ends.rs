@@ -1,6 +1,6 @@
-//! Where a line that meets walls and an end about the same place passes from the one to the other.
+//! Resolves the order in which a line crosses a wall and an end that are close together.
 //!
-//! **Invariant:** what rounding does not tell of two crossings, a place that is certain tells.
+//! **Invariant:** where rounding hides the order of two crossings, a point with a certain result decides it.
 
 use crate::shape::U;
 use crate::shape::body::Met;
@@ -13,12 +13,12 @@ pub(super) fn high(met: &Met) -> f64 {
     met.t + met.error
 }
 
-/// On the line the other way.
+/// The crossing, on the line in reverse direction.
 pub(super) fn reversed(met: Met) -> Met {
     Met { t: -met.t, ..met }
 }
 
-/// A crossing that is known to lie after a place.
+/// Adjusts a crossing that is known to lie after a position.
 pub(super) fn after(place: f64, met: Met) -> Met {
     if place <= low(&met) {
         return met;
@@ -31,9 +31,9 @@ pub(super) fn before(place: f64, met: Met) -> Met {
     reversed(after(-place, reversed(met)))
 }
 
-/// Where a line that enters the walls at `wall` enters a body that begins at `end`, and whether that is at the
-/// end; `None` if not certainly before `limit`. What comes first, if rounding does not tell, the places after
-/// the end do: there is one that is certainly within the walls, or still outside.
+/// Returns where a line that enters the walls at `wall` enters a body that begins at `end`, and whether that
+/// is at the end; `None` if this is not certainly before `limit`. If rounding hides the order, points after
+/// the end decide it: one of them is certainly within the walls, or still outside.
 pub(super) fn entered(
     wall: Met,
     end: Met,

@@ -1,7 +1,9 @@
-//! A line through space as the walls see it: on which side of their lines it passes, and where it meets them.
+//! A line relative to a prism's walls: the side on which it passes each of the walls' lines, and where it
+//! intersects them.
 //!
-//! All of a wall's lines that the ray meets lie with it in one plane, along them or through the tip. So the side is
-//! a linear function of the place of the outline, and its sign over a box is that at two corners.
+//! All lines of a wall that the ray intersects lie with it in one plane, through the direction of the lines
+//! or through the tip. So the side is a linear function of the point of the outline, and its sign over a box
+//! follows from two corners.
 
 use std::cell::Cell;
 
@@ -16,10 +18,10 @@ use crate::shape::curve::{Change, Hull, Piece, Point, Side};
 use super::GRAZING;
 use super::wall::aside;
 
-/// The part of the first piece's outside; one more is that side seen from within, and so on.
+/// Part number of the first piece's outside; the next number is the same surface seen from within, and so on.
 pub(super) const WALLS: u32 = 3;
 
-/// The part of a piece of the outline: its outside, or that side seen from within.
+/// Part number of a piece's outside, or of the same surface seen from within.
 pub(super) fn part_of(piece: usize, is_outside: bool) -> u32 {
     WALLS + 2 * piece as u32 + u32::from(!is_outside)
 }
@@ -30,14 +32,14 @@ pub(super) struct Wall {
     pub s: f64,
     pub error: f64,
     pub piece: usize,
-    /// It is met where z is positive, if it narrows.
+    /// If the prism narrows: whether the crossing is where z is positive.
     pub above: bool,
-    /// The line goes the way of the wall's normal.
+    /// Whether the line goes in the direction of the wall's normal.
     pub along: bool,
 }
 
 impl Wall {
-    /// None that is met: one that ends a span at ±∞ or at the tip.
+    /// Returns a placeholder that ends a span at ±∞ or at the tip.
     pub fn beyond(s: f64) -> Self {
         Self { s, error: 0.0, piece: 0, above: true, along: true }
     }
@@ -51,20 +53,20 @@ impl Wall {
 pub(super) struct Ruled<'a> {
     ray: &'a LocalRay<'a>,
     conic: bool,
-    /// If the line has been found to lie in a wall, as far as rounding tells: how far it has to be moved, the way
-    /// that all are, to be told from that.
+    /// If the line lies in a wall, within rounding: how far it must be displaced, in the common direction, to
+    /// be separable from the wall.
     pub beside: Cell<Option<f64>>,
     /// The coefficients of x, y and 1.
     side: [f64; 3],
-    /// Of walls straight up: how steep the ray is to their lines.
+    /// For vertical walls: the sine of the angle between the ray and their lines.
     sine: f64,
-    /// How far the side may be off at any place no farther than 1 from the origin, and more.
+    /// Upper bound on the error of the side anywhere within 1 of the origin.
     error: f64,
 }
 
 impl<'a> Ruled<'a> {
-    /// With g the way of a wall's line and r the gap to it, the volume r·(d × g) has the sign of the side on
-    /// which the ray passes. No g is longer than √2, no r than |n| + 1.
+    /// Builds the line. With g the direction of a wall's line and r the gap to it, the volume r·(d × g) has
+    /// the sign of the side on which the ray passes. No g is longer than √2, no r longer than |n| + 1.
     pub fn new(ray: &'a LocalRay<'a>, conic: bool) -> Self {
         let LocalRay { nearest: n, direction: d, blur, turn, .. } = *ray;
         let beside = Cell::new(None);
@@ -84,21 +86,21 @@ impl<'a> Ruled<'a> {
         Self { ray, conic, beside, side, sine, error }
     }
 
-    /// The way of the wall's line through a place of the outline.
+    /// Returns the direction of the wall's line through a point of the outline.
     fn way(&self, [x, y]: Point) -> Vector {
         if self.conic { Vector::new(x, y, 1.0) } else { Vector::Z }
     }
 
-    /// The side, as [`Self::value`] but for what `error` bounds.
+    /// Returns the side, like [`Self::value`], to within `error`.
     fn roughly(&self, [x, y]: Point) -> f64 {
         let [a, b, c] = self.side;
         a * x + b * y + c
     }
 
-    /// **Error:** no line within the ray's blur meets the wall's line where the two are
-    /// farther apart than that: |r·(d × g)| > B·|d × g|, with B the blur where they are nearest, of which
-    /// |r × g|/|d × g| is the distance; a little more, as they are no parallels, as long as the ray is turned
-    /// by less than half of the angle between the two.
+    /// **Error:** no line within the ray's blur intersects the wall's line if the two are farther apart than
+    /// the blur: |r·(d × g)| > B·|d × g|, with B the blur at their closest approach, which is at distance |r
+    /// × g|/|d × g| along the ray; plus a small margin, as the lines within the blur are not parallel. Valid
+    /// while the ray's turn is less than half of the angle between the two.
     fn value(&self, point: Point) -> (f64, f64) {
         let LocalRay { nearest, direction, blur, turn, .. } = *self.ray;
         let [a, b, c] = self.side;
@@ -116,7 +118,7 @@ impl<'a> Ruled<'a> {
         (a * x + b * y, if turn <= 0.5 * sine { error } else { f64::INFINITY })
     }
 
-    /// Where on the ray it is nearest to a wall's line.
+    /// Returns where on the ray it is nearest to a wall's line.
     fn place(&self, point: Point) -> f64 {
         let LocalRay { nearest, direction, .. } = *self.ray;
         if self.conic {
@@ -128,8 +130,8 @@ impl<'a> Ruled<'a> {
         along / (self.sine * self.sine)
     }
 
-    /// −∞ or ∞ if the wall's line is certainly not met before the body ends, at √2; for all that is known of
-    /// a ray so nearly along it, it might be met anywhere else beyond.
+    /// Returns −∞ or ∞ if the wall's line is certainly not intersected before the body ends, at √2; the
+    /// intersection with a ray so nearly parallel might be anywhere beyond.
     fn beyond(&self, point: Point) -> Option<f64> {
         let LocalRay { nearest, direction, .. } = *self.ray;
         let way = self.way(point);
@@ -139,8 +141,9 @@ impl<'a> Ruled<'a> {
         (gap.cross(way).length() > near + off).then(|| self.place(point) * f64::INFINITY)
     }
 
-    /// Whether a narrowing wall's line goes so nearly the ray's way that they meet beyond the body, on whichever side;
-    /// and so does every line between two of which that is true, as |n × g| is more than 0.9·|n|·|g| there.
+    /// Returns whether a narrowing wall's line is so nearly parallel to the ray that they intersect beyond
+    /// the body, on either side. If this holds for two lines, it holds for every line between them, as |n ×
+    /// g| is more than 0.9·|n|·|g| there.
     fn is_along(&self, point: Point) -> bool {
         let LocalRay { nearest, direction, .. } = *self.ray;
         let way = self.way(point);
@@ -149,8 +152,8 @@ impl<'a> Ruled<'a> {
         self.conic && near < nearest.length() * way.length()
     }
 
-    /// **Error:** the reach of what the change lies within, and how far along the ray its blur is from the
-    /// wall's line for no more than itself.
+    /// Returns the crossing. **Error:** the extent of the change, and the distance along the ray over which
+    /// its blur alone reaches the wall's line.
     pub fn wall(&self, change: &Change) -> Wall {
         let point = change.point();
         let (s, way) = (self.place(point), self.way(point));
@@ -221,7 +224,7 @@ impl Side for Ruled<'_> {
         self.beside.set(Some(first.max(last).max(self.beside.get().unwrap_or(0.0))));
     }
 
-    /// A polynomial changes its sign no more often than its Bézier coefficients.
+    /// A polynomial changes its sign at most as often as its Bézier coefficients.
     fn has_one_root(&self, piece: &Piece) -> bool {
         let is_outside = |point: &Point| self.roughly(*point) > 0.0;
         let pairs = piece.points().windows(2);

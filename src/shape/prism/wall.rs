@@ -1,23 +1,24 @@
-//! A line that lies in a wall, of two prisms that share it: one of them has it, as if it were moved to its side.
+//! Lines that lie in a wall that two prisms share: exactly one of the prisms contains the line, as if it were
+//! displaced to its side.
 
 use crate::math::Vector;
 use crate::shape::U;
 use crate::shape::body::LocalRay;
 use crate::shape::slab::nudge;
 
-/// No nearer to the tip, a line is not told from one through it.
+/// Distance from the tip below which a line cannot be separated from one through it.
 pub(super) fn tip(ray: &LocalRay) -> f64 {
     16.0 * (ray.blur_at(2.0) + 32.0 * U)
 }
 
-/// The way that all lines are off, whatever they lie in: of length 1, and across this one.
+/// Returns the direction in which all lines are displaced: unit length, perpendicular to this line.
 #[cold]
 pub(super) fn aside(ray: &LocalRay) -> Vector {
     let way = nudge(ray);
     (way - ray.direction * way.dot(ray.direction)).normalize_or(Vector::ZERO)
 }
 
-/// The line, moved so far that rounding tells it from the wall, and from one through the tip; by `least` or more.
+/// Returns the line, displaced far enough to be separable from the wall and from the tip; by `least` or more.
 #[cold]
 pub(super) fn beside<'a>(ray: &LocalRay<'a>, conic: bool, least: f64) -> LocalRay<'a> {
     let LocalRay { nearest, direction, blur, turn, .. } = *ray;

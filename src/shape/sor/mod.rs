@@ -1,5 +1,5 @@
-//! Sor, a solid of revolution: ρ² ≤ F(z) for z between two heights, in its own space, with ρ the distance from
-//! the z axis and F a cubic between each two neighbouring heights.
+//! Surface of revolution: in local space, ρ² ≤ F(z) for z between two heights, with ρ the distance from the z
+//! axis and F a cubic between adjacent heights.
 //!
 //! **Source:** manual, section 3.4.5.1.15 ("Surface of Revolution").
 
@@ -11,7 +11,7 @@ use super::cylinder::{BASE, CAP, SIDE, between};
 use crate::math::Vector;
 use crate::math::roots::bracket::Sample;
 
-/// The line is followed so far to each side; the body ends at √2.
+/// The line is searched from −`FAR` to `FAR`; the body ends at √2.
 const FAR: f64 = 2.0;
 
 /// F between two heights.
@@ -23,11 +23,11 @@ pub struct Segment {
     pub squares: [f64; 4],
 }
 
-/// F at one place.
+/// F at one height.
 struct Square {
     value: f64,
     slope: f64,
-    /// How far rounding may have moved the value.
+    /// Rounding error of the value.
     error: f64,
 }
 
@@ -43,25 +43,25 @@ impl Segment {
         Square { value: mix(abc, bcd), slope: 3.0 * (bcd - abc) / size, error }
     }
 
-    /// A bound of |F″|.
+    /// Upper bound on |F″|.
     fn bend(&self) -> f64 {
         let [a, b, c, d] = self.squares;
         let size = self.high - self.low;
         6.0 * ((c - b) - (b - a)).abs().max(((d - c) - (c - b)).abs()) / (size * size)
     }
 
-    /// A bound of |F′|.
+    /// Upper bound on |F′|.
     fn steepness(&self) -> f64 {
         let [a, b, c, d] = self.squares;
         3.0 * (b - a).abs().max((c - b).abs()).max((d - c).abs()) / (self.high - self.low)
     }
 
-    /// A bound of |F|.
+    /// Upper bound on |F|.
     fn greatest_point(&self) -> f64 {
         self.squares.iter().fold(0.0, |most: f64, point| most.max(point.abs()))
     }
 
-    /// A bound of F over one of so many equal parts.
+    /// Upper bound on F over one of `parts` equal parts.
     fn greatest(&self, part: usize, parts: usize) -> f64 {
         let end = |i: usize| self.low + (self.high - self.low) * (i as f64 / parts as f64);
         let (low, high) = (self.at(end(part)), self.at(end(part + 1)));
@@ -72,16 +72,17 @@ impl Segment {
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sor {
-    /// Rising, end to end.
+    /// In ascending order, end to end.
     segments: Vec<Segment>,
-    /// Its ends are not seen, though it is as solid as ever.
+    /// Whether its ends are invisible; it is still solid.
     pub open: bool,
-    /// A bound of |F″|.
+    /// Upper bound on |F″|.
     bend: f64,
 }
 
 impl Sor {
-    /// Of segments that rise end to end within −1 … 1, F at most 1; `None` of none.
+    /// Builds it from segments in ascending order, end to end within −1 … 1, with F at most 1; `None` if
+    /// there are none.
     pub fn new(segments: Vec<Segment>, open: bool) -> Option<Self> {
         let bend = segments.iter().map(Segment::bend).fold(0.0, f64::max);
         (!segments.is_empty()).then_some(Self { segments, open, bend })
@@ -91,21 +92,22 @@ impl Sor {
         [self.segments[0].low, self.segments[self.segments.len() - 1].high]
     }
 
-    /// An end of no width, as far as rounding tells, is no end: there the round has come to its tip.
+    /// Returns whether an end has no width, within rounding; the surface comes to a tip there and has no end
+    /// face.
     fn is_tip(&self, end: u32) -> bool {
         let [low, high] = self.heights();
         let Square { value, error, .. } = self.square(if end == CAP { high } else { low });
         value <= error
     }
 
-    /// F at a height; beyond the ends what it is there.
+    /// F at a height, clamped to the ends.
     fn square(&self, z: f64) -> Square {
         let number = self.segments.partition_point(|segment| segment.high < z);
         self.segments[number.min(self.segments.len() - 1)].at(z)
     }
 
-    /// ρ² − F along the line. **Error:** with B how far the point may be off, B·(2ρ + |F′|) and what that changes
-    /// by within B.
+    /// ρ² − F along the line. **Error:** with B the error of the point, B·(2ρ + |F′|), plus the change of
+    /// that within B.
     fn sample(&self, ray: &LocalRay, s: f64) -> Sample {
         let (point, d) = (ray.at(s), ray.direction);
         let off = ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
@@ -149,7 +151,7 @@ impl Local for Sor {
         }
     }
 
-    /// Certainly apart from both ends it is the round.
+    /// Certainly the side, where the point is apart from both ends.
     fn part_at(&self, ray: &LocalRay, s: f64, _: bool) -> Option<u32> {
         let z = ray.at(s).z;
         let off = 64.0 * (ray.blur_at(s) + U * (1.0 + s.abs()));
@@ -176,7 +178,7 @@ impl Local for Sor {
         }
     }
 
-    /// Of rings that hold it, a few for each segment.
+    /// Extent of rings that contain it, a few for each segment.
     fn extent(&self, along: Vector) -> (f64, f64) {
         const RINGS: usize = 32;
         let across = Vector::new(along.x, along.y, 0.0).length();

@@ -1,7 +1,8 @@
-//! The line followed through the round of a sor: from where ρ² − F turns, or a segment ends, to where it does next.
+//! Intersects a line with the side of a surface of revolution, stepping between the extrema of ρ² − F and the
+//! ends of segments.
 //!
-//! **Invariant:** between two such places ρ² − F rises or falls, so that the sides at both tell all. Where its
-//! Bézier points tell them for a whole segment no place within it is asked.
+//! **Invariant:** ρ² − F is monotone between these points, so the sides at both determine the crossing. Where
+//! its Bézier points decide an entire segment, no point within it is evaluated.
 
 use smallvec::SmallVec;
 
@@ -12,21 +13,21 @@ use super::{FAR, Segment, Sor};
 use crate::math::Vector;
 use crate::math::roots::bracket::{Root, root};
 
-/// Whether it is certainly outside or inside; `None` where rounding cannot tell.
+/// Whether it is certainly outside; `None` if rounding decides.
 type Side = Option<bool>;
 
-/// Of ρ² − F along the line through one segment.
+/// The course of ρ² − F along the line through one segment.
 struct Course {
-    /// On which side the line is at the segment's ends.
+    /// The side of the line at each end of the segment.
     sides: [Side; 2],
-    /// Whether nothing else happens between.
+    /// Whether these determine all crossings between them.
     tells_all: bool,
-    /// About where its one root is; no number where there is none, or there may be more.
+    /// Approximate position of its single root; NaN if there is none, or possibly more than one.
     root: f64,
 }
 
-/// About where a cubic is 0 that has one root in 0 … 1, from its Bézier points. **Method:** Newton's, three
-/// steps from the chord's root.
+/// Returns the approximate root of a cubic with one root in 0 … 1, from its Bézier points. **Method:** three
+/// Newton steps from the root of the chord.
 fn near_root([a, b, c, d]: [f64; 4]) -> f64 {
     let (linear, quadratic, cubic) =
         (3.0 * (b - a), 3.0 * ((c - b) - (b - a)), (d - a) - 3.0 * (c - b));
@@ -39,9 +40,9 @@ fn near_root([a, b, c, d]: [f64; 4]) -> f64 {
 }
 
 impl Sor {
-    /// What a segment's F says of the line between two places, where it begins and ends. **Method:** ρ² − F
-    /// along it is a cubic, within its Bézier points, and has at most as many roots as those have changes of
-    /// sign.
+    /// Returns the course through a segment, between the positions of its ends. **Method:** along the line,
+    /// ρ² − F is a cubic; it is bounded by its Bézier points and has at most as many roots as these have sign
+    /// changes.
     fn course(&self, ray: &LocalRay, segment: &Segment, ends: [f64; 2]) -> Course {
         if !ends.iter().all(|s| s.abs() < FAR) {
             return Course { sides: [None; 2], tells_all: false, root: f64::NAN };
@@ -70,7 +71,8 @@ impl Sor {
         Course { sides: [sides[0], sides[3]], tells_all, root }
     }
 
-    /// Where ρ² − F may turn along the line within a segment, in order; what is beyond it is no number.
+    /// Returns where ρ² − F may have extrema along the line within a segment, in order; NaN for those beyond
+    /// it.
     fn turns(&self, ray: &LocalRay, segment: &Segment, nearest: f64) -> [f64; 3] {
         let (n, d) = (ray.nearest, ray.direction);
         let Segment { low, high, squares: [a, b, c, e] } = segment;
@@ -94,8 +96,8 @@ impl Sor {
         turns
     }
 
-    /// Where the line is in the round, its ends not counted: walked from where ρ² − F turns, or a segment
-    /// ends, to where it does next. Between the two it rises or falls.
+    /// Returns the crossings with the side, without the ends: steps between the extrema of ρ² − F and the
+    /// ends of segments, between which it is monotone.
     pub(super) fn round(&self, ray: &LocalRay) -> SmallVec<[Met; 6]> {
         let mut walk = Walk::new(self, ray);
         let (n, d) = (ray.nearest, ray.direction);
@@ -137,16 +139,16 @@ impl Sor {
     }
 }
 
-/// Along a line, from place to place.
+/// State of stepping along a line.
 struct Walk<'a> {
     sor: &'a Sor,
     ray: &'a LocalRay<'a>,
     found: SmallVec<[Met; 6]>,
-    /// The last place that told whether it is outside.
+    /// The last position whose side was certain.
     told: Option<(f64, bool)>,
-    /// The last place.
+    /// The last position.
     last: Option<(f64, Side)>,
-    /// About where the root before the next place is, where that is known.
+    /// Approximate position of the root before the next position, where known.
     near: f64,
 }
 
@@ -160,7 +162,8 @@ impl<'a> Walk<'a> {
         (sample.is_inside() || sample.is_outside()).then_some(sample.is_outside())
     }
 
-    /// On to a place, whose side may be known; one that is behind, as rounding may have it, or none, is left out.
+    /// Advances to a position, whose side may be known; skips positions that are behind, because of rounding,
+    /// or NaN.
     fn to(&mut self, s: f64, side: Side) {
         let is_ahead = self.last.is_none_or(|(last, _)| last <= s);
         if !(is_ahead && s.abs() <= FAR) {
@@ -194,7 +197,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// All that was found; what is inside at last stays so.
+    /// Returns the crossings; a line that is inside at the end leaves there.
     fn found(mut self) -> SmallVec<[Met; 6]> {
         if let Some((last, false)) = self.told {
             self.found.push(Met { t: FAR, error: FAR - last, leaving: true, part: SIDE });

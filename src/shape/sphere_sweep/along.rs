@@ -1,11 +1,11 @@
-//! The pieces of a line that lie in one segment of a sweep.
+//! The pieces of a line that lie in one segment of a sphere sweep.
 //!
-//! With a(u) how far along the line the ball at u is and D(u) the square of its radius less that of its
-//! distance from the line, the line enters it at a − √D and leaves it at a + √D. These are least and
-//! greatest where 4a′²D = D′², a polynomial of degree 10, or at the first or last ball.
+//! Let a(u) be the position along the line nearest to the centre of the sphere at u, and D(u) the square of
+//! its radius less that of its distance from the line. The line enters the sphere at a − √D and leaves it at
+//! a + √D. These are extremal where 4a′²D = D′², a polynomial of degree 10, or at the first or last sphere.
 //!
-//! **Invariant:** a place found is that of some ball, so the piece is at least so long; which ball makes it
-//! the longest matters in the second order only.
+//! **Invariant:** each position found belongs to some sphere, so the piece is at least that long; the choice
+//! of the sphere that maximizes it matters only to second order.
 
 use smallvec::SmallVec;
 
@@ -15,26 +15,26 @@ use crate::math::roots::polynomial::{root_between_ends, turning_points};
 use crate::shape::U;
 use crate::shape::body::LocalRay;
 
-/// Where the line enters or leaves a ball.
+/// Where the line enters or leaves a sphere.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub s: f64,
     pub error: f64,
-    /// Which ball.
+    /// The sphere's parameter.
     pub u: f64,
 }
 
-/// From which ball to which.
+/// Ranges of u.
 type Stretches = SmallVec<[(f64, f64); 4]>;
 
-/// Stretches are looked for down to this part of a segment.
+/// Minimum length of a stretch, as a fraction of a segment.
 const SHORTEST: f64 = 1.0 / 32.0;
 
-/// Polynomials in u, lowest term first.
+/// Polynomials in u, in ascending order of degree.
 struct Along {
     /// a(u).
     place: [f64; 4],
-    /// From the line to the centre, across the line.
+    /// Vector from the line to the centre, across the line.
     across: [Vector; 4],
     radius: [f64; 4],
     /// D(u).
@@ -62,20 +62,20 @@ fn derivative<const N: usize>(polynomial: &[f64]) -> [f64; N] {
     std::array::from_fn(|k| polynomial.get(k + 1).map_or(0.0, |c| c * (k + 1) as f64))
 }
 
-/// Without the terms of the highest degrees that are 0.
+/// Removes terms of the highest degrees that are 0.
 fn trimmed(polynomial: &[f64]) -> &[f64] {
     let degree = polynomial.iter().rposition(|c| *c != 0.0).unwrap_or(0);
     &polynomial[..=degree]
 }
 
-/// A ball as the line meets it.
+/// A sphere relative to the line.
 struct Ball {
     place: f64,
     /// D.
     room: f64,
-    /// How far D may be off.
+    /// Error of D.
     room_error: f64,
-    /// How far the ball may be.
+    /// Error of the sphere.
     off: f64,
 }
 
@@ -95,8 +95,8 @@ impl Along {
         Self { place, across, radius, room, turns: [0.0; 11], rounding: segment.rounding() }
     }
 
-    /// The stretches of balls outside of which the line certainly misses all: where all Bernstein coefficients of
-    /// D are negative.
+    /// Returns ranges of u outside of which the line certainly misses all spheres: there, all Bernstein
+    /// coefficients of D are negative.
     fn stretches(&self) -> Stretches {
         let slack = 256.0 * U * self.room.iter().map(|c| c.abs()).sum::<f64>();
         let all: [f64; 7] = std::array::from_fn(|i| {
@@ -147,13 +147,13 @@ impl Along {
         Ball { place, room, room_error: 2.0 * off * (radius + miss + off), off }
     }
 
-    /// Where the line enters (`way` −1) or leaves (1) the ball at u; None where it misses it.
+    /// Returns where the line enters (`way` −1) or leaves (`way` 1) the sphere at u; `None` if it misses.
     fn end(&self, ray: &LocalRay, u: f64, way: f64) -> Option<f64> {
         let Ball { place, room, .. } = self.ball(ray, u);
         (room >= 0.0).then(|| place + way * room.sqrt())
     }
 
-    /// How that changes with u, and how that does.
+    /// Returns the first and second derivative of [`Self::end`] by u.
     fn slopes(&self, u: f64, room: f64, way: f64) -> (f64, f64) {
         let (place, room_slope): ([f64; 3], [f64; 6]) =
             (derivative(&self.place), derivative(&self.room));
@@ -167,7 +167,7 @@ impl Along {
         (slope, bend)
     }
 
-    /// Makes the polynomial whose zeros are such balls that the line enters first or leaves last.
+    /// Computes the polynomial whose roots are the spheres that the line enters first or leaves last.
     fn turn(&mut self) {
         let place: [f64; 3] = derivative(&self.place);
         let room: [f64; 6] = derivative(&self.room);
@@ -178,7 +178,8 @@ impl Along {
         add_product(&mut self.turns, &room, &room, -1.0);
     }
 
-    /// All balls of a stretch among which are those that the line enters first and leaves last, in order.
+    /// Returns parameters, in order, that include those of the spheres in a stretch that the line enters
+    /// first and leaves last.
     fn candidates(&self, (from, to): (f64, f64)) -> SmallVec<[f64; 32]> {
         let mut all: SmallVec<[f64; 32]> = SmallVec::new();
         let turns = trimmed(&self.turns);
@@ -197,11 +198,11 @@ impl Along {
         all
     }
 
-    /// From a ball near the one that the line enters first, or leaves last, to that one.
+    /// Refines a parameter near that of the sphere that the line enters first, or leaves last.
     ///
-    /// **Error**, with r the radius and B how far the line or the ball may be off: B, and what B makes of
-    /// √D, for which about 4B·r/√D is taken, or √(4B·r + 2B²) where that is less; doubled, as it may be a ball
-    /// beside this one that was meant. What is left of the slope makes as much as one more of Newton's steps.
+    /// **Error**, with r the radius and B the error of the line or the sphere: B, plus its effect on √D,
+    /// which is about 4B·r/√D, or √(4B·r + 2B²) if that is smaller; doubled, as an adjacent sphere may be the
+    /// intended one. The remaining slope adds the length of one more Newton step.
     fn polish(&self, ray: &LocalRay, start: Place, way: f64) -> Place {
         let Place { mut s, mut u, .. } = start;
         let mut rest = 0.0;
@@ -225,7 +226,7 @@ impl Along {
     }
 }
 
-/// Shows every piece of the line that lies in the segment. Pieces may touch.
+/// Calls `found` with every piece of the line that lies in the segment. Pieces may touch.
 pub(super) fn pieces(segment: &Segment, ray: &LocalRay, mut found: impl FnMut([Place; 2])) {
     let mut along = Along::new(segment, ray);
     let stretches = along.stretches();

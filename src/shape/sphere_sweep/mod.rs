@@ -1,10 +1,11 @@
-//! Sphere sweep: all balls whose centre and radius go along polynomials of degree 3, piece after piece.
+//! Sphere sweep: all spheres whose centre and radius follow piecewise polynomials of degree 3.
 //!
-//! A line meets a ball between two places, which change steadily as the ball moves on. So what it meets of
-//! a stretch of balls that it meets without a break is one piece of the line, from the least of the places
-//! where it enters one to the greatest of those where it leaves one.
+//! A line intersects a sphere between two positions, which vary continuously as the sphere moves. So the
+//! spheres of a range in which the line intersects every one cover a single piece of the line, from the
+//! minimum of the entries to the maximum of the exits.
 //!
-//! **Source:** J. van Wijk, "Ray tracing objects defined by sweeping a sphere", Computers & Graphics 9 (1985).
+//! **Source:** J. van Wijk, "Ray tracing objects defined by sweeping a sphere", Computers & Graphics 9
+//! (1985).
 
 mod along;
 
@@ -15,15 +16,15 @@ use super::tree::Tree;
 use super::{Bounds, U};
 use crate::math::Vector;
 
-/// A part names a segment and in which of so many stretches of it the ball is.
+/// Number of ranges in a segment that a part number distinguishes, in addition to the segment.
 const STRETCHES: f64 = 1024.0;
-/// A segment has so many boxes around it, one beside the other: one alone would be mostly empty.
+/// Number of adjacent boxes around a segment: a single box would be mostly empty.
 const BOXES: u32 = 8;
-/// All of a segment.
+/// The parameter range of a segment.
 const WHOLE: (f64, f64) = (0.0, 1.0);
 
-/// Balls whose centre and radius are c₀ + c₁u + c₂u² + c₃u³ for u from 0 to 1. A negative radius is as good
-/// as a positive one.
+/// Spheres whose centre and radius are c₀ + c₁u + c₂u² + c₃u³ for u from 0 to 1. A negative radius counts as
+/// its absolute value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
     pub centre: [Vector; 4],
@@ -39,7 +40,7 @@ impl Segment {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereSweep {
     segments: Vec<Segment>,
-    /// Of the boxes in the tree, which hold a stretch each, whose segment it is.
+    /// For each box in the tree, which contains one range of a segment, the index of that segment.
     owners: Vec<u32>,
     tree: Tree,
     reach: f64,
@@ -49,7 +50,7 @@ fn cubic(c: [f64; 4], u: f64) -> f64 {
     ((c[3] * u + c[2]) * u + c[1]) * u + c[0]
 }
 
-/// Where c₁ + 2c₂u + 3c₃u² is 0 from `from` to `to`, and both ends.
+/// Returns where c₁ + 2c₂u + 3c₃u² is 0 in a range, and both of its ends.
 fn extremes([_, b, c, d]: [f64; 4], (from, to): (f64, f64)) -> impl Iterator<Item = f64> {
     let root = (c * c - 3.0 * d * b).sqrt();
     let q = -(c + root.copysign(c));
@@ -67,7 +68,7 @@ impl Segment {
         cubic(self.radius, u)
     }
 
-    /// How far rounding may move a centre or a surface.
+    /// Rounding error of a centre or a surface.
     fn rounding(&self) -> f64 {
         let centre: f64 = self.centre.iter().map(|c| c.length()).sum();
         8.0 * U * (centre + self.radius.iter().map(|r| r.abs()).sum::<f64>())
@@ -90,7 +91,8 @@ impl Segment {
         Bounds { low: Vector::from_array(low), high: Vector::from_array(high) }
     }
 
-    /// No ball reaches farther from the origin: none reaches farther than those of the four control points.
+    /// Upper bound on the distance of any sphere from the origin: that of the spheres at the four control
+    /// points.
     fn reach(&self) -> f64 {
         let [a, b, c, d] = self.centre;
         let [p, q, r, s] = self.radius;
@@ -100,7 +102,7 @@ impl Segment {
         centres.into_iter().zip(radii).map(reach).fold(0.0, f64::max) + self.rounding()
     }
 
-    /// How far a point is from the ball at u, with the first two derivatives.
+    /// Returns the distance of a point from the sphere at u, with its first two derivatives.
     fn distance(&self, point: Vector, u: f64) -> [f64; 3] {
         let ([_, b, c, d], [_, q, r, s]) = (self.centre, self.radius);
         let from = point - self.centre_at(u);
@@ -119,7 +121,7 @@ impl Segment {
         ]
     }
 
-    /// The ball near the one at u that is nearest to a point.
+    /// Returns the parameter, near u, of the sphere nearest to a point.
     fn nearest(&self, point: Vector, u: f64) -> f64 {
         let (mut best, mut least) = (u, self.distance(point, u));
         for _ in 0..16 {
@@ -137,7 +139,7 @@ impl Segment {
 }
 
 impl SphereSweep {
-    /// Of finite numbers; `None` of no segments.
+    /// Builds it from finite segments; `None` if there are none.
     pub fn new(segments: Vec<Segment>) -> Option<Self> {
         if segments.is_empty() {
             return None;
@@ -150,7 +152,7 @@ impl SphereSweep {
         Some(Self { segments, owners, tree, reach })
     }
 
-    /// How far it goes over the radius of its greatest ball.
+    /// Returns its extent over the radius of its largest sphere.
     pub fn slenderness(&self) -> f64 {
         let radii = |one: &Segment| {
             extremes(one.radius, WHOLE).map(|u| one.radius_at(u).abs()).fold(0.0, f64::max)
@@ -166,7 +168,7 @@ fn part(segment: usize, u: f64) -> u32 {
 }
 
 impl Local for SphereSweep {
-    /// The pieces of the line that lie in segments, of which those that touch become one.
+    /// Adds the pieces of the line that lie in segments; pieces that touch are merged.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let mut pieces: SmallVec<[(Met, Met); 8]> = SmallVec::new();
         let mut near: SmallVec<[u32; 16]> = SmallVec::new();
@@ -241,7 +243,7 @@ impl Local for SphereSweep {
         format!(" of {}", self.segments.len())
     }
 
-    /// A line through the point tells.
+    /// Determined by a line through the point.
     fn contains(&self, point: Vector) -> bool {
         let (nearest, direction) = (Vector::new(0.0, point.y, point.z), Vector::X);
         let ray = LocalRay::exact(nearest, direction);
@@ -257,7 +259,8 @@ impl Local for SphereSweep {
 
 #[cfg(test)]
 impl SphereSweep {
-    /// The distance to the nearest ball in twice the digits: the nearest of many is found in `f64`.
+    /// The distance to the nearest sphere in twice the precision; which sphere is nearest is determined in
+    /// `f64`.
     pub(super) fn exactly(&self, point: super::exact::Triple) -> super::exact::Double {
         use super::exact::{Double, dot, minus, triple};
         const LOOKS: usize = 257;

@@ -1,35 +1,35 @@
-//! Bernstein form: between which numbers a polynomial stays on a piece of the line, and so what signs it has.
+//! Bernstein form of a polynomial on a piece of the line; bounds its values and thus its signs.
 //!
-//! **Invariant:** what is said holds for every polynomial within the bounds of its coefficients. A piece of
-//! which nothing is said may have any roots.
+//! **Invariant:** every statement holds for all polynomials within the error bounds of the coefficients. A
+//! piece without a statement may have any number of roots.
 //!
-//! **Source:** G. Farin, *Curves and Surfaces for CAGD* (2002), ch. 5 (the coefficients hold it between them,
-//! and it changes its sign no more often than they do) and 4 (halves).
+//! **Source:** G. Farin, *Curves and Surfaces for CAGD* (2002), ch. 5 (the coefficients bound the polynomial,
+//! and it changes its sign at most as often as they do) and 4 (halves).
 
 use super::{Coefficients, U};
 
-/// The coefficients over a piece, in the order of the line.
+/// The coefficients over a piece, in order along the line.
 #[derive(Clone, Copy)]
 pub struct Form {
     degree: usize,
     values: Coefficients,
-    /// How far each may be off.
+    /// Error bound of each coefficient.
     bounds: Coefficients,
 }
 
 /// What is known of the signs in a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Signs {
-    /// One throughout.
+    /// Constant throughout.
     Same,
-    /// One at its beginning and the other at its end, with a single change between them.
+    /// Opposite at the two ends, with a single change between them.
     Change,
     Unknown,
 }
 
 impl Form {
-    /// Over 0 … 1 for a `way` of 1, over −1 … 0 for −1, where a coefficient is a plain sum. `slack` is how
-    /// far each value may be off.
+    /// Returns the form over 0 … 1 for a `way` of 1 and over −1 … 0 for −1, where a coefficient is a plain
+    /// sum. `slack` are the error bounds of `values`.
     pub fn of(values: &[f64], slack: &[f64], way: f64) -> Self {
         let degree = values.len() - 1;
         let n = degree as f64;
@@ -68,7 +68,7 @@ impl Form {
         }
     }
 
-    /// The two halves of the piece.
+    /// Returns the two halves of the piece.
     pub fn halves(&self) -> [Self; 2] {
         let (mut first, mut second) = (*self, *self);
         for row in 1..=self.degree {
@@ -94,7 +94,7 @@ mod tests {
         values.iter().rev().fold(0.0, |sum, c| sum * s + c)
     }
 
-    /// What is said of a piece is asked of places in it, and of its halves.
+    /// Checks the statements about a piece at points in it, and recursively for its halves.
     fn assert_true_of(form: &Form, values: &[f64], (low, high): (f64, f64), depth: usize) {
         let at = |i: u32| value(values, low + (high - low) * f64::from(i) / 64.0);
         let rounding = 64.0 * f64::EPSILON * values.iter().map(|c| c.abs()).sum::<f64>();

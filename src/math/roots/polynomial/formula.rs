@@ -1,19 +1,20 @@
-//! Formula: where a parabola or a cubic changes its sign, by a closed formula for its roots.
+//! Closed formulas for the roots of a parabola or a cubic.
 //!
-//! **Out:** all changes of its sign, in order, each between two places where that is certain, and about where.
-//! **Invariant:** nothing is said unless signs at the places where it turns, and beyond all of its roots, prove
-//! that there are no others.
+//! **Out:** all changes of sign, in order, each with an approximate position and between two positions with
+//! certain signs. **Invariant:** a result is returned only if the signs at the extrema, and beyond all roots,
+//! prove that there are no others.
 
 use smallvec::SmallVec;
 
 use super::{Change, Polynomial, U, value};
 use crate::math::elementary::cbrt;
 
-/// About where, and between which places.
+/// The approximate position of each change, and the positions that it lies between.
 pub type Guesses = SmallVec<[(f64, Change); 3]>;
 
 impl Polynomial {
-    /// `None` where it is of another degree, or its ends or the places where it turns tell nothing.
+    /// Returns the changes of sign; `None` if the degree is not 2 or 3, or if the signs at the ends or the
+    /// extrema are inconclusive.
     pub(super) fn by_formula(&self) -> Option<Guesses> {
         match self.degree {
             2 => self.of_parabola(),
@@ -49,10 +50,11 @@ impl Polynomial {
         (first.is_finite() && last.is_finite()).then(|| sides.into_iter().collect())
     }
 
-    /// About its middle, and over how far from there it turns, it is y³ ∓ 3y + 2r.
+    /// Changes of sign of a cubic. Shifted to its inflection and scaled by the distance of its extrema from
+    /// there, it is y³ ∓ 3y + 2r.
     ///
     /// **Source:** W. Press and others, *Numerical Recipes in C* (1992), § 5.6 (Cardano's formula); the three
-    /// roots by their distance from where two of them would meet.
+    /// roots by their distance from where two of them would coincide.
     fn of_cubic(&self) -> Option<Guesses> {
         let [_, c, b, a, ..] = self.values;
         let middle = -b / (3.0 * a);
@@ -103,7 +105,7 @@ impl Polynomial {
     }
 }
 
-/// Of y³ − 3y + 2r for |r| ≤ 1, in order, about to a hundredth.
+/// Returns the roots of y³ − 3y + 2r for |r| ≤ 1, in order, to about 1/100.
 fn three_roots(r: f64) -> [f64; 3] {
     // At 1 two of them meet in 1.
     let apart = (1.0 - r.abs()).max(0.0).sqrt();

@@ -1,4 +1,4 @@
-//! Turning points: where a polynomial's derivative is 0, found derivative by derivative from the last up.
+//! Extrema of a polynomial: the roots of its derivative, found recursively from the last derivative up.
 //!
 //! **Source:** C. Yuksel, "High-performance polynomial root finding for graphics", Proceedings of the ACM on
 //! Computer Graphics 5 (2022).
@@ -7,8 +7,8 @@ use smallvec::SmallVec;
 
 use super::{Change, MOST, U, root_near, value};
 
-/// The least order of a derivative that certainly keeps its sign between two places: its coefficients in
-/// Bernstein's form, which are the differences of the polynomial's, have one sign.
+/// Returns the lowest order of a derivative that certainly has a constant sign in a range: its Bernstein
+/// coefficients, which are the differences of those of the polynomial, have one sign.
 ///
 /// **Source:** G. Farin, *Curves and Surfaces for CAGD* (2002), ch. 5.
 pub(super) fn order_without_roots(values: &[f64], low: f64, high: f64) -> usize {
@@ -47,7 +47,7 @@ pub(super) fn order_without_roots(values: &[f64], low: f64, high: f64) -> usize 
     degree
 }
 
-/// Where the derivative is 0 between two places, in order, to rounding.
+/// Returns the roots of the derivative in a range, in order, to rounding.
 pub fn turning_points(values: &[f64], low: f64, high: f64) -> SmallVec<[f64; 8]> {
     let degree = values.len() - 1;
     let mut points: SmallVec<[f64; 8]> = SmallVec::new();
