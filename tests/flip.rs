@@ -78,7 +78,7 @@ impl Plane {
 /// The error of each pixel from 0 to 1, row by row.
 pub fn errors(pictures: &[RgbImage; 2]) -> Vec<f32> {
     let opponents = pictures.each_ref().map(opponents);
-    let seen = opponents.each_ref().map(|planes| seen(planes));
+    let seen = opponents.each_ref().map(seen);
     let most = distance(hunt_lab([0.0, 1.0, 0.0]), hunt_lab([0.0, 0.0, 1.0])).powf(COLOR_EXPONENT);
     let color = seen[0].iter().zip(&seen[1]).map(|(&a, &b)| {
         let error = distance(a, b).powf(COLOR_EXPONENT);
