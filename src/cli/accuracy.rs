@@ -1,4 +1,5 @@
-//! `lucarne accuracy`: what each setting costs and buys, as a table, a diagram, JSON.
+//! `lucarne accuracy`: measures the cost and the accuracy of each setting; prints a table, a diagram or
+//! JSON.
 
 use std::fs;
 use std::num::NonZero;
@@ -126,7 +127,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     Ok(Exit::Done)
 }
 
-/// A budget that not even the scene's own picture fits into, and what would do.
+/// Returns the failure for a budget that does not fit the scene's own picture, with a budget that would.
 fn too_short(budget: f64, (own, enough): (f64, f64), frame: Frame) -> Failure {
     let sentence = format!(
         "{budget} s are too few: the scene's own picture alone takes about {} or more; nothing was measured",
@@ -144,7 +145,7 @@ fn too_short(budget: f64, (own, enough): (f64, f64), frame: Frame) -> Failure {
     Failure::limit(sentence).help(format!("`--budget {}` is enough, or {instead}", round(enough)))
 }
 
-/// A time of so many seconds or a little more, as it is typed.
+/// Rounds a duration up to a value that is short to type.
 fn round(seconds: f64) -> String {
     match seconds {
         ..=1.0 => "1s".to_owned(),
@@ -159,7 +160,7 @@ fn short(file: &str) -> String {
     Path::new(file).file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The machine, as far as a reader of seconds wants to know it.
+/// Describes the machine the timings were taken on.
 fn host(cores: usize, threads: usize) -> Host {
     let about = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));

@@ -1,4 +1,4 @@
-//! `lucarne fmt`: scenes in canonical layout.
+//! `lucarne fmt`: formats scenes in the canonical layout.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! `lucarne show`: what a scene is at each stage of the road.
+//! `lucarne show`: prints a scene at one stage of compilation.
 
 use lucarne::plan;
 use lucarne::road::Road;
@@ -15,7 +15,7 @@ pub fn run(arguments: &ShowArguments) -> Outcome {
     show(&arguments.file, arguments.stage, &arguments.picture, &arguments.scene)
 }
 
-/// Prints one stage; a broken scene shows what there is of it.
+/// Prints one stage. For a scene with errors, prints what was compiled of it.
 pub fn show(
     path: &std::path::Path,
     stage: Stage,
