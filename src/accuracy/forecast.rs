@@ -1,8 +1,8 @@
-//! About how long each setting's picture will take, before it is made.
+//! Forecasts how long the picture of each setting takes, before rendering it.
 //!
-//! **In:** settings, pixels spread over the picture, a time to be done by. **Out:** a [`Forecast`].
-//! **Invariant:** settings are compared by what was counted at the same pixels, so what else the machine
-//! does changes no order; seconds are those of the pictures made so far, for as much work.
+//! **In:** settings, pixels spread over the picture, a deadline. **Out:** a [`Forecast`]. **Invariant:**
+//! settings are compared by counts at the same pixels, so the load of the machine does not change their
+//! order; seconds are extrapolated from the pictures rendered so far, in proportion to the work.
 
 use std::cmp::Ordering;
 
@@ -14,29 +14,29 @@ use super::trial::{Candidate, Picture};
 use crate::plan::{Antialias, Plan};
 use crate::trace::{Counters, Pixels, Sampling};
 
-/// Pixels that are looked at: enough to tell dear from cheap.
+/// Number of pixels traced, enough to distinguish expensive from cheap settings.
 const PIXELS: usize = 64;
-/// How many times more pixels are looked at next, where it was told too soon: before this part of the time
-/// there is.
+/// Factor by which the number of pixels grows if the trial was too short, that is, took less than this
+/// fraction of the available time.
 const MORE: usize = 4;
 const ENOUGH: f64 = 0.25;
-/// Of all audited pixels of a small picture.
+/// Minimum number of pixels, for small pictures.
 const FEWEST: usize = 16;
-/// Of the time that is left: what looking at one setting may take.
+/// Fraction of the remaining time for evaluating one setting.
 const FOR_ONE: f64 = 0.25;
 
-/// What a few pixels say of each candidate.
+/// Results of a few pixels for each candidate.
 pub struct Forecast {
-    /// In rays of the camera for those pixels; infinite where it is not known, for want of time.
+    /// In camera rays for those pixels; infinite if unknown for lack of time.
     costs: Vec<f64>,
     pub looks: Vec<Option<Look>>,
 }
 
-/// The colours of some pixels under a setting, and what was counted.
+/// Colors of some pixels under a setting, and the counters.
 pub type Look = (Vec<[f64; 3]>, Counters);
 
-/// About how many seconds a candidate's picture takes by the clock on the wall, from one ray of each of a few
-/// pixels and the samples that its antialiasing gives them: known at once, and too low rather than too high.
+/// Estimates how many wall-clock seconds a candidate's picture takes, from one ray for each of a few pixels
+/// and the samples that its antialiasing gives them. Available at once; too low rather than too high.
 pub fn at_once(
     studio: &Studio,
     candidate: &Candidate,
@@ -81,7 +81,7 @@ pub fn at_once(
     a_sample * samples * pixels
 }
 
-/// Looks at a few pixels under each setting, those first that cost least at least.
+/// Evaluates a few pixels under each setting, in order of the settings' minimum costs.
 pub fn forecast(
     studio: &Studio,
     candidates: &[Candidate],
@@ -108,18 +108,19 @@ pub fn forecast(
 }
 
 impl Forecast {
-    /// From cheap to dear; what is not known last, by what it costs at least.
+    /// Orders candidates from cheap to expensive; those with unknown costs come last, in order of their
+    /// minimum costs.
     pub fn compare(&self, candidates: &[Candidate], a: usize, b: usize) -> Ordering {
         let least = |number: usize| candidates[number].least;
         self.costs[a].total_cmp(&self.costs[b]).then(least(a).total_cmp(&least(b)))
     }
 
-    /// What a candidate's picture will take by the clock on the wall, from those of others.
+    /// Forecasts the wall-clock seconds for a candidate's picture from those of other pictures.
     pub fn seconds(&self, number: usize, pictures: &[Picture]) -> f64 {
         self.costs[number] * self.a_unit(pictures)
     }
 
-    /// A candidate's picture was not done after so many seconds.
+    /// Records that a candidate's picture was not finished after `seconds`.
     pub fn is_at_least(&mut self, number: usize, seconds: f64, pictures: &[Picture]) {
         let a_unit = self.a_unit(pictures);
         if a_unit > 0.0 && self.costs[number].is_finite() {
@@ -127,7 +128,7 @@ impl Forecast {
         }
     }
 
-    /// Seconds for each unit of cost.
+    /// Returns the seconds per unit of cost.
     fn a_unit(&self, pictures: &[Picture]) -> f64 {
         let known = || pictures.iter().filter(|picture| self.costs[picture.candidate].is_finite());
         let seconds: f64 = known().map(|picture| Span::of(&picture.times.wall).median).sum();
