@@ -3,7 +3,6 @@
 //! **In:** pixels in an order such that every prefix is spread over the picture, and a deadline. **Out:** a
 //! reference of a prefix of these pixels. **Invariant:** depth has priority, at the cost of pixels and
 //! samples; the reference's pixels, samples and plan depth show what was given up.
-//! was given up.
 
 use super::measure::Clock;
 use super::reference::{Reference, Studio};

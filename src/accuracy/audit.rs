@@ -1,7 +1,6 @@
 //! Selects the pixels to audit: spread over the picture, at random, without repetition.
 //!
 //! **Invariant:** every pixel of the picture is equally likely; sets from one call are disjoint.
-//! pixel in common.
 
 use crate::math::random::Random;
 use crate::plan::Region;
@@ -14,7 +13,6 @@ pub const WANTED: u32 = 4096;
 ///
 /// **Source:** jittered (stratified) sampling; a square that extends beyond the border keeps its empty part
 /// in the draw, which makes all pixels equally likely.
-/// part in the draw, which is what makes all pixels equally likely.
 pub fn sets(region: Region, wanted: u32, count: usize, seed: u64) -> Vec<Vec<(u32, u32)>> {
     let pixels = region.pixels();
     let least = (count as f64).sqrt().ceil() as u32;

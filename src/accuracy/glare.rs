@@ -9,8 +9,7 @@ use crate::world::World;
 const GLARING: f64 = 30.0;
 
 /// Returns the brightness of the brightest light or emission in units of white, if it is high enough to
-/// matter between samples. Light that fades is taken at its full brightness, because the place where it
-/// falls is unknown.
+/// matter between samples. Lights that fade are excluded, because their brightness depends on the distance.
 pub fn glare(world: &World) -> Option<f64> {
     let lights = world
         .lights
