@@ -1,7 +1,7 @@
 //! Shows a progress bar while tracing, and handles Ctrl-C.
 //!
 //! **Invariant:** the bar is drawn on standard error, and only if that is a terminal; otherwise a line is
-//! then; it never stands still.
+//! printed at intervals. The display never stalls.
 
 use std::io::IsTerminal;
 use std::process;
