@@ -87,7 +87,7 @@ fn pilot_within(world: &World, plan: &mut Plan, limit: u64) {
     for called in &mut plan.effects {
         let sent = sent(called.effect, &counters).map(|rays| rays as f64 / camera);
         all += sent.unwrap_or(0.0);
-        // The camera's own rays, those beyond one a pixel.
+        // Camera rays beyond one per pixel.
         let more = (called.effect == Effect::Antialiasing).then_some(1.0 - 1.0 / a_pixel);
         called.rays = sent.or(more);
     }
@@ -99,7 +99,7 @@ fn mixed(places: Vec<(u32, u32)>) -> Vec<(u32, u32)> {
     let mut keyed: Vec<(u64, (u32, u32))> = places
         .into_iter()
         .enumerate()
-        // Multiples of the golden section, of 2^64.
+        // Multiples of the golden ratio, modulo 2^64.
         .map(|(i, place)| ((i as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15), place))
         .collect();
     keyed.sort_unstable();

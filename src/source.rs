@@ -240,7 +240,7 @@ impl Sources {
     }
 
     pub fn text(&self, span: Span) -> &str {
-        // Where two places of several files were put together, nothing.
+        // Returns nothing for a span that combines locations in different files.
         self.get(span.file).text.get(span.range()).unwrap_or("")
     }
 

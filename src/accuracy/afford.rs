@@ -107,8 +107,8 @@ fn finest(
         ((samples / f64::from(Reference::samples_at(step))) as usize).min(list.len())
     };
 
-    // Where even few pixels are too many, fewer samples; and nothing is lost where that was stopped: the
-    // pixels that were done are a list's first.
+    // If even few pixels are too many, uses fewer samples. If stopped, the finished pixels are a prefix of
+    // the list and can still be used.
     let roughly = || {
         let more = first(affordable(Reference::ROUGH), Reference::ROUGH);
         let is_more = more.pixels() > rough.reference.pixels();
@@ -122,7 +122,7 @@ fn finest(
     if known.pixels() < few {
         return roughly();
     }
-    // Where the prediction was too careful.
+    // Adds more pixels if the prediction was too cautious.
     let done = known.pixels();
     let more = if done < many { 0 } else { affordable(Reference::COARSEST) };
     let rest = &list[done..(done + more).min(list.len())];
@@ -158,7 +158,7 @@ fn deepest(
     }
     let allowed = FOR_LESS * left;
     let (mut found, mut failed) = (None, 0);
-    // A look all the way has failed already.
+    // Full depth has already failed.
     let mut ladder = Ladder::up_to(most.saturating_sub(1).max(1));
     let mut depth = 1;
     loop {
@@ -189,7 +189,8 @@ pub fn counted_depth(
     let mut depth = 1;
     loop {
         let allowed = if depth <= own { MOST_OWN_RAYS } else { MOST_RAYS };
-        // A ray leads to a step at most, and a sample is one: what takes longer sends more.
+        // Each ray and each sample takes at most one step, so exceeding this means sending more rays than
+        // allowed.
         let steps = 2.0 * (allowed + 1.0) * samples + STEPS_A_PIXEL * few.len() as f64;
         let limited = Limited::to_steps(steps as u64, studio.watch);
         let plan = depths.plan(studio, depth);
@@ -231,7 +232,7 @@ impl Ladder {
         let Self { found, over, most } = *self;
         match over {
             None => {
-                // Where paths do not fork a level is worth less.
+                // If paths do not fork, each level costs less than assumed.
                 let further = reach.unwrap_or(0).clamp(found / 8 + 1, found.max(1));
                 (found < most).then(|| found.saturating_add(further).min(most))
             }

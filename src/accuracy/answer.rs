@@ -20,7 +20,7 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
             (0, None, "keep the scene's own settings: no knob changes an audited pixel".to_owned())
         }
         Some(Verdict::Dominated { by, times, .. }) => {
-            // No dearer without being cheaper is the same work.
+            // Neither more expensive nor cheaper: the same work.
             let times =
                 times.map_or_else(|| "as fast as".to_owned(), |times| faster(times) + " than");
             (
@@ -58,12 +58,12 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
     let sorted = order.from_cheap_to_dear(&rows);
     let front = || sorted.iter().copied().filter(|&row| report.rows[row].verdict == Verdict::Front);
     let finer = front().find(|&row| order.gains(row, best));
-    // What was named is not named again.
+    // Does not repeat a setting that was already named.
     let quicker = front().rev().find(|&row| order.is_cheaper(row, best) && Some(row) != named);
     let mut lines = vec![first];
     if let Some(row) = finer {
         let instead = instead(report, row, best);
-        // What is not proven to take longer may.
+        // Without proof that it takes longer, it may not.
         let times = order.times(best, row).map_or_else(|| NO_LONGER.to_owned(), more);
         lines.push(format!("for less error {}: {instead}, for {times}", flag(row)));
     }
@@ -96,7 +96,7 @@ fn perhaps(report: &Report, order: &Order) -> Option<(usize, f64)> {
 
 fn instead(report: &Report, row: usize, of: usize) -> String {
     match (error(report, row), error(report, of)) {
-        // What lies below the same bound is told apart by nothing.
+        // Errors below the same bound cannot be distinguished.
         (less, than) if less == than && less.starts_with('<') => {
             format!("an error of {less} in both")
         }

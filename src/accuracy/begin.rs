@@ -158,10 +158,10 @@ fn affordable(
     let fits = |options: &PlanOptions| {
         let plan = plan(studio.world, origins, options);
         studio.geometry(&plan);
-        // What else the machine does may stand between: then the second look is shorter, and the mean of
-        // both tells. Twice what is allowed is too long whatever the second says.
+        // Other load on the machine may slow the first trial; the second is then shorter, and the mean of
+        // both is used. Twice the allowed time is too long whatever the second trial shows.
         let look = || {
-            // To begin takes time, too, and that is not multiplied.
+            // Startup takes time, too, and must not be scaled.
             let before = clock.wall();
             studio.pixels(&plan, &list[..1], Sampling::Planned);
             let now = clock.wall();

@@ -45,7 +45,7 @@ pub fn at_once(
 ) -> f64 {
     let region = candidate.plan.frame.region;
     let pixels = region.pixels();
-    // The tree of boxes is no part of it.
+    // Builds the bounding volume hierarchy first, so that it is not timed.
     studio.geometry(&candidate.plan);
     let half = (until - clock.wall()).max(0.0) / 2.0;
     let look = |antialias: Antialias, few: usize, until: f64| {
@@ -54,12 +54,11 @@ pub fn at_once(
         let studio = Studio { watch: &in_time, ..*studio };
         let plan = Plan { antialias, ..candidate.plan.clone() };
         let Pixels { radiance, counters } = studio.pixels(&plan, &list[..few], Sampling::Planned);
-        // Of those that are not done the others tell.
+        // Unfinished pixels are estimated from the finished ones.
         let done = radiance.iter().flatten().count().max(1) as f64;
         ((clock.wall() - began) / done, counters.camera as f64 / done)
     };
-    // More and more, until what they take is something that a clock can tell, beside all that it takes to
-    // begin.
+    // Adds pixels until their time is measurable and exceeds the startup cost.
     let (began, mut few) = (clock.wall(), PIXELS.min(list.len()));
     let (mut a_sample, _) = look(Antialias::Off, few, began + half);
     while few < list.len() && clock.wall() - began < ENOUGH * half {
@@ -70,7 +69,7 @@ pub fn at_once(
         Antialias::Off => 1.0,
         Antialias::Grid(n) => f64::from(n) * f64::from(n),
         Antialias::Adaptive { threshold, grid } => {
-            // A pixel by itself asks its neighbours, too, which in a picture have been asked.
+            // A single pixel also samples its neighbours, which are already sampled in a full picture.
             let rays = |threshold| {
                 let adaptive = Antialias::Adaptive { threshold, grid };
                 look(adaptive, PIXELS.min(few), clock.wall() + half).1

@@ -150,7 +150,7 @@ pub const KNOBS: &[Knob] = &[
         set: |options, tolerance| options.root_tolerance = tolerance,
         get: |options| options.root_tolerance,
         least: |_| 1.0,
-        // Of instructions, where nearly all that is met has iterated roots: Newton's last steps are few.
+        // Instructions saved where nearly all shapes have iterated roots: Newton's last steps are few.
         factor: |tolerance| if tolerance > 0.0 { 0.985 } else { 1.0 },
         label: |tolerance| match tolerance {
             0.0 => "all digits".to_owned(),
@@ -170,7 +170,7 @@ pub const KNOBS: &[Knob] = &[
         set: |options, most| options.julia_iterations = Some(most as u32),
         get: |options| options.julia_iterations.map_or(0.0, f64::from),
         least: |_| 1.0,
-        // Their price is counted with the equations.
+        // Their cost is included in the counted equations.
         factor: |_| 1.0,
         label: |most| format!("{most}"),
         flag: |most| format!("--julia-iterations {most}"),

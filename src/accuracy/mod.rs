@@ -180,7 +180,7 @@ fn tried(
     for this in turned {
         let timed = alike.timed(this.candidate);
         let made = pictures.iter().find(|picture| picture.candidate == timed);
-        // What was found to be the same only when it was made shares a row, too.
+        // Settings found to be the same after rendering share a row, too.
         let row = made.and_then(|made| pictures.iter().position(|other| is_same(made, other)));
         match row {
             Some(row) => tried.settings.push(Setting {

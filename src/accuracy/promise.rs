@@ -252,7 +252,7 @@ impl<'a> Search<'a> {
 
     fn tuning<'b>(&'b self, list: &'b [(u32, u32)], reference: &'b Reference) -> Tuning<'b> {
         let Easel { own, knobs, .. } = self.easel;
-        // Of what lies deeper than the reference looks that cannot tell the error.
+        // The reference cannot measure errors at greater depths than its own.
         let own = PlanOptions { depth: own.depth.map(|depth| depth.min(self.depth)), ..*own };
         let known = (list, reference);
         let mut tuning =
@@ -323,24 +323,25 @@ impl<'a> Search<'a> {
         let mut goal = promise;
         let resolution = 4.0 * reference.floor(self.options.metric);
         if is_dearest && choice.error.high.max(resolution) > promise {
-            // What these pixels could not tell, others need not.
+            // The audit need not resolve more than these pixels could.
             goal = choice.error.value.max(resolution).max(promise);
             let (error, pixels) = (choice.error, tuned.len());
             (self.tell)(Step::Unreachable { error, resolution, pixels });
         }
-        // No better picture follows the dearest: the pixels for its audit tell of this one, too.
+        // The most expensive settings are not followed by better ones, so the pixels for a second audit are
+        // added to this one.
         let spare: &[_] = if is_dearest { &again } else { &[] };
         let list: Vec<_> = audited.iter().chain(spare).copied().collect();
         let fresh = self.resolved(None, &list, goal)?;
         let (first, fresh) = self.rendered(&choice, &list, (fresh, goal), is_dearest);
-        // A better picture proves no more where the reference does not look all the way, nor does the
-        // same one.
+        // A better picture would prove nothing more if the reference is limited in depth, nor would the
+        // same picture.
         let (Some(audit), Some(fresh)) = (first.audit, fresh) else { return Some(first) };
         if audit.shows(promise) || is_dearest {
             return Some(first);
         }
         (self.tell)(Step::Refining(audit));
-        // What audited it now helps to choose.
+        // The audited pixels are now used to choose settings.
         let both: Vec<_> = tuned.iter().chain(audited).copied().collect();
         let reference = reference.and(fresh);
         let tells = 4.0 * reference.floor(self.options.metric) <= promise;
@@ -355,7 +356,7 @@ impl<'a> Search<'a> {
             &|error| expected(error) <= 0.3 * promise,
         ];
         let better = self.chosen(&both, &reference, &keeps, Some(&choice))?;
-        // There is nothing better: the same picture would prove no more.
+        // No better settings exist, and the same picture would prove nothing more.
         if better.options == choice.options {
             return Some(first);
         }
@@ -376,7 +377,7 @@ impl<'a> Search<'a> {
         let flags = self.easel.flags(&choice.options);
         let pixels = self.options.frame.region.pixels();
         let Effort { seconds, cost, .. } = self.effort.get();
-        // What no reference can tell is not asked of one.
+        // The goal is limited to what a reference can resolve.
         let least = if goal > self.promise { goal } else { 0.0 };
         let error = choice.error.value.max(least);
         (self.tell)(Step::Rendering {

@@ -172,7 +172,7 @@ impl Canvas {
         let prices = self.prices(worth);
         let parts = self.parts();
         let before = self.counters.camera;
-        // Samples where they are wanted are dearer than those before, which soon count for nothing.
+        // Samples in difficult pixels take longer than earlier ones, whose pace is therefore discounted.
         self.pace = Pace { seconds: self.pace.seconds / 16.0, samples: self.pace.samples / 16.0 };
         for part in 0..parts {
             let left = (time.until - time.clock.wall()) / (parts - part) as f64;

@@ -177,7 +177,7 @@ impl Report {
             row.verdict = verdict;
         }
         for tried in &mut self.knobs {
-            // Of rows of the same cost the first goes before here, too: so no two point at each other.
+            // Rows of equal cost keep their order here, too, so that no two refer to each other.
             let mut rows: Vec<usize> = tried.settings.iter().map(|setting| setting.row).collect();
             rows.sort_unstable();
             rows.dedup();

@@ -32,7 +32,7 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
     let worst = worse.iter().copied().max_by(|a, b| value(a).total_cmp(&value(b)));
     if let Some(worst) = worst.filter(|_| best.row == cheap.row) {
         let names: Vec<&str> = worse.iter().map(|setting| setting.label.as_str()).collect();
-        // By what was counted it is the cheapest; the clock may have seen otherwise.
+        // It is the cheapest by counts; another may be faster by the clock.
         let quicker = settings.iter().find(|other| order.is_quicker(other.row, best.row));
         let (cheapest, only, but) = match quicker {
             None => (", the cheapest,", " only", String::new()),
@@ -73,7 +73,7 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
 /// Describes a knob that changes `changed` pixels without a proven effect on the error.
 fn no_effect(report: &Report, tried: &Tried, dear: &Setting, changed: usize) -> String {
     let (name, settings, audited) = (tried.name, &tried.settings, report.audited);
-    // The error of a pixel's colour is of the kind of both but a share.
+    // For fractions of bad pixels, compares with the RMSE, whose unit is that of the change in color.
     let (floor, of) = match report.metric {
         Metric::Rmse | Metric::P99 => (report.floors[report.metric as usize], "the"),
         Metric::Bad => (report.floors[Metric::Rmse as usize], "the RMSE's"),

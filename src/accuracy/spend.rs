@@ -79,7 +79,7 @@ pub fn spend(
     let began = clock.wall();
     let easel = Easel::new(world, origins, options);
     let geometry = Geometries::default();
-    // Many parts, none of which is the whole.
+    // Suppresses the progress of individual parts.
     let quiet = Quiet(watch);
     let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &quiet };
     studio.geometry(&plan(world, origins, &easel.own));
@@ -142,13 +142,13 @@ impl Spending<'_> {
         let for_audit = (FOR_AUDIT * self.all).min(self.until - now);
         let for_samples = self.until - for_audit - now;
         self.sample(now + BEFORE_AUDIT * for_samples, self.until - for_audit, true);
-        // Where there is nothing else to be bought, all of the time is for the error.
+        // If the picture cannot be refined further, all of the remaining time is for the audit.
         let for_audit = match is_finest(&self.canvas.film) {
             true => self.until - self.clock.wall(),
             false => for_audit,
         };
         let truth = self.truth(for_audit);
-        // At the end it takes as long to find the error as it does now.
+        // Computing the audit at the end takes as long as it does now.
         let metric = self.options.metric;
         let began = self.clock.wall();
         let audit = |found: &Option<Found>, film: &Film| {
@@ -209,7 +209,7 @@ impl Spending<'_> {
         let all = plan(studio.world, origins, &deepest);
         let PlanOptions { depth, adc_bailout, .. } = self.own;
         let own = plan(studio.world, origins, &PlanOptions { depth, adc_bailout, ..deepest });
-        // Where no ray goes on from what it meets, one look is as deep as another.
+        // If no ray continues from a surface, depth makes no difference.
         let most = (all.max_trace_level, all.adc_bailout);
         let looks: &[(Plan, &dyn Fn(usize) -> f64)] = match goes_on(&own) {
             true => &[(all, &all_the_way), (own, &enough)],

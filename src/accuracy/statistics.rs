@@ -128,7 +128,7 @@ impl Metric {
         let mut drawn = vec![0.0; parts.len()];
         let draw = |resample| {
             let mut random = Random::of(SEED, resample as u64);
-            // The upper half of a product is as even as a remainder, and much sooner had.
+            // The upper half of a product is as uniform as a remainder, and much faster to compute.
             let mut place = || (((random.bits() >> 32) * parts.len() as u64) >> 32) as usize;
             drawn.iter_mut().for_each(|part| *part = parts[place()]);
             self.whole(&mut drawn)
@@ -151,8 +151,8 @@ impl Metric {
         let (low, high) = match self {
             Self::Rmse => {
                 let (low, _) = self.corrected(&parts);
-                // The next pixel may be as bad as the worst so far; where few are known, so may the next
-                // three: of what n draws did not show there may be 3/n.
+                // The next pixel may be as bad as the worst so far; with few pixels, so may the next three:
+                // a fraction of up to 3/n may be unseen in n draws.
                 let worst = parts.iter().copied().max_by(f64::total_cmp);
                 let unseen = if parts.len() < FEW { 3 } else { 1 };
                 parts.extend(worst.into_iter().flat_map(|worst| iter::repeat_n(worst, unseen)));
@@ -166,7 +166,7 @@ impl Metric {
                 let unseen = (1.0 - count / all).max(1.0 / count);
                 let draws = worth(&hits) / unseen;
                 let off = wilson(share * draws, draws);
-                // Noise shows where pixels are nearly bad: it adds more to their spread than its own.
+                // Noise matters for nearly bad pixels: it adds more to the spread than the noise's own.
                 let added = (successive(&parts) - successive(&hits)).max(successive(&noise));
                 with_noise(value, share, off, added.sqrt() / count)
             }

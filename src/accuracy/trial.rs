@@ -137,7 +137,7 @@ impl Bench<'_> {
             return Err(stopped());
         }
 
-        // Intervals take their time, too: for fewer pixels less.
+        // Computing the intervals takes time, too; less for fewer pixels.
         let all_rows = candidates.len() as f64 * statistics_take(self.clock, metric);
         let whole = self.until - self.clock.wall();
         let most = (FOR_STATISTICS * whole / all_rows) as usize;
@@ -168,7 +168,7 @@ impl Bench<'_> {
         let first_until = self.after(FOR_PICTURES, until);
         self.others((candidates, &timed), &mut forecast, &deep, list, first_until, &mut pictures)?;
 
-        // As fine a reference as is needed, or as there is time for.
+        // Refines the reference as far as needed, or as time permits.
         let finer_until = self.after(FOR_FINER, until);
         let in_time = Deadline { clock: self.clock, until: finer_until, watch: self.studio.watch };
         let finer = Studio { watch: &in_time, ..self.studio };

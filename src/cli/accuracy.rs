@@ -52,7 +52,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     let name = name_of(&arguments.file);
     let (world, origins) = road.compile(&name, bytes);
     let mut messages = arguments.scene.messages();
-    // The report takes standard output.
+    // Standard output is reserved for the report.
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
@@ -79,7 +79,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         return Ok(Exit::Done);
     }
     if arguments.knobs.is_empty() {
-        // Nobody asked about them.
+        // The user did not ask about specific knobs.
         idle.clear();
     }
     let cores = available_parallelism().map_or(1, NonZero::get);
@@ -134,7 +134,7 @@ fn too_short(budget: f64, (own, enough): (f64, f64), frame: Frame) -> Failure {
         duration(own)
     );
     let (part, side) = (frame.region, (budget / enough).sqrt());
-    // Where lines of the picture are left out, their pixels are fewer in both directions.
+    // The number of pixels scales with both sides.
     let smaller = |side_of: u32| (side * f64::from(side_of) / 8.0).floor() * 8.0;
     let (width, height) = (smaller(part.width), smaller(part.height));
     let is_whole = (part.width, part.height) == (frame.width, frame.height);

@@ -304,7 +304,7 @@ impl CheckArguments {
     pub fn options(&self, file: &Path, dialect: Dialect) -> Options {
         let frame = self.size.map(|(width, height)| Frame::whole(width, height));
         let mut options = self.scene.options(dialect, frame);
-        // Alone, an include is a part of a scene that is not known.
+        // An include file is part of an unknown scene, so warnings about complete scenes do not apply.
         if is_include(file) {
             OF_WHOLE_SCENES.iter().for_each(|code| options.levels.set_unnamed(*code, Level::Allow));
         }

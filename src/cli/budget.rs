@@ -46,7 +46,8 @@ pub(super) fn spend(
 ) -> Made {
     let desk = Desk::new(world, options, written, clock);
     let threads = options.trace.threads.or_else(|| Some(available_parallelism().ok()?.get()));
-    // When the scene was read and the tree of boxes stood, and how long the picture takes to write.
+    // Time at which the scene was read and the bounding volume hierarchy built; time needed to write the
+    // picture.
     let (read, to_end) = (Cell::new(0.0), Cell::new(0.0));
     let end = |Writing { seconds: write, busy }: Writing, busy_by_now: f64| {
         let busy = busy.max(busy_by_now);
@@ -61,13 +62,13 @@ pub(super) fn spend(
             if is_late(wall, seconds) {
                 return end.max(wall * (1.0 + LATE));
             }
-            // However long writing may take, half of the time is for a picture.
+            // Reserves half of the time for tracing, however long writing takes.
             end.max(wall + 0.5 * (PLANNED * seconds - wall))
         }
         Some(First { film, processors }) => {
             let busy = threads.map_or(1.0, |threads| threads as f64 / processors);
             let end = end(desk.writing(film), busy);
-            // A picture whose error is not known is worth less than one that is a little late.
+            // Prefers being slightly late to a picture with an unknown error.
             end.max(clock.wall() + FOR_ERROR * seconds)
         }
     };
@@ -243,7 +244,7 @@ impl<'a> Desk<'a> {
         let began = (clock.cpu(), clock.wall());
         let (mut trials, mut took) = (0, (0.0, 0.0));
         while trials < TRIALS && took.1 < TRIAL {
-            // What cannot be written is told when it is.
+            // Encoding errors are reported when the picture is written.
             drop(encode(&developer.develop(&some), *format));
             trials += 1;
             took = (clock.cpu() - began.0, clock.wall() - began.1);

@@ -28,7 +28,7 @@ pub fn run(arguments: &CheckArguments) -> Outcome {
             true => fix(file, arguments).and_then(|()| check(file, arguments, &mut messages)),
             false => check(file, arguments, &mut messages),
         };
-        // A file that cannot be read is no reason not to check the others.
+        // An unreadable file does not prevent checking the others.
         if let Err(failure) = checked {
             messages.fail(file, &failure)?;
             exit = exit.max(failure.exit);

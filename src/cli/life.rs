@@ -46,7 +46,7 @@ impl Life {
                 }
             }
         };
-        // Without a thread there are no lines, and the work is done all the same.
+        // If the thread cannot be started, no lines are printed, but the work goes on.
         let teller = thread::Builder::new().spawn(tell).ok();
         Self { shared, teller }
     }

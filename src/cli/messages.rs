@@ -75,7 +75,7 @@ impl Messages {
             }
             match self.format {
                 Format::Human | Format::Narrated => {
-                    // Neither the author's own words nor warnings take the room of errors.
+                    // Output of the scene and warnings do not count toward the limit of errors.
                     let shown = match diagnostic.severity {
                         Severity::Error => &mut errors,
                         Severity::Warning => &mut warnings,

@@ -107,7 +107,7 @@ fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let first = arguments.get(1).map(|first| first.to_string_lossy().into_owned());
     let render = first.is_some_and(|first| {
         let names = command.get_subcommands().map(|command| command.get_name());
-        // A misspelt subcommand, unless there is such a file.
+        // Probably a misspelt subcommand, unless such a file exists.
         let misspelt = !first.contains('.')
             && closest(&first, names).is_some()
             && !Path::new(&first).exists()
@@ -118,7 +118,7 @@ fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
     if render {
         arguments.insert(1, "render".into());
     }
-    // What is no file is a format, if perhaps one that does not exist.
+    // A word that is not a file is a format, possibly an invalid one.
     let is_format = |word: &OsString| {
         let text = word.to_string_lossy();
         !text.is_empty() && text.chars().all(char::is_alphanumeric) && !Path::new(word).exists()

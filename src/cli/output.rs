@@ -92,7 +92,7 @@ impl Output {
             return Err(Failure::usage(sentence).help(help));
         }
         let Self::File { path, format } = self else { return Ok(()) };
-        // To open a pipe is to wait for its other end.
+        // Opening a pipe would block until its other end is opened.
         can_be_made(path).map_err(|failure| match path.exists() {
             true => failure.help("`-o -` writes a PNG to standard output"),
             false => failure,
@@ -190,7 +190,7 @@ pub fn can_be_made(path: &Path) -> Result<(), Failure> {
     if fs::metadata(path).is_ok_and(|about| !about.is_file()) {
         return Err(cannot(path, "it is not a file"));
     }
-    // The one sure way to know is to make one.
+    // Creating a file is the only reliable test.
     temporary(path).map(drop)
 }
 
@@ -207,7 +207,7 @@ pub fn write_over(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
 /// Writes a file atomically and keeps its permissions.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: std::io::Error| cannot(file, &reason(&error));
-    // A link stays a link: what it leads to is replaced.
+    // Keeps a link and replaces its target.
     let path = &fs::canonicalize(file).unwrap_or(file.to_owned());
     let mut beside = temporary(path)?;
     beside.write_all(bytes).map_err(failed)?;
@@ -233,7 +233,7 @@ fn temporary(path: &Path) -> Result<tempfile::NamedTempFile, Failure> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // What any other new file would get; the system takes the umask off.
+        // Default permissions of new files; the system applies the umask.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder(path)).map_err(|error| {

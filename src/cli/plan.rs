@@ -32,7 +32,7 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
         false => print::dump(&plan, &road.sources),
     };
     let mut messages = arguments.scene.messages();
-    // The plan takes standard output.
+    // Standard output is reserved for the plan.
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();

@@ -33,7 +33,7 @@ const GRACE: Duration = Duration::from_secs(1);
 /// program. Before tracing, the first one stops a running loop of the scene, or else ends the program with
 /// the message `before_tracing`.
 pub fn hear_interrupts(before_tracing: &'static str) {
-    // Without a handler Ctrl-C ends the program at once, which is no error.
+    // If this fails, Ctrl-C ends the program at once, which is acceptable.
     let _ = ctrlc::set_handler(move || {
         let again = STOP.swap(true, Ordering::SeqCst);
         if !again && !TRACING.load(Ordering::SeqCst) {
@@ -78,7 +78,7 @@ impl Progress {
                 .unwrap_or_else(|_| ProgressStyle::default_bar())
                 .progress_chars("━━ "),
         );
-        // A piece may take long: the time goes on, and is seen to.
+        // Updates the elapsed time even while one step takes long.
         bar.enable_steady_tick(TICK);
         TRACING.store(true, Ordering::SeqCst);
         Self { bar, life: life(name), started: cpu_seconds(), built: OnceLock::new() }

@@ -45,7 +45,7 @@ pub fn make(
         return keep(world, origins, &options, promise, clock, progress);
     }
     if let Some(seconds) = arguments.time_budget {
-        // Time is saved at what is seen of the solids, and never at the solids.
+        // Excludes knobs that change the solids themselves.
         let knobs: Vec<Knob> =
             KNOBS.iter().filter(|knob| !knob.changes_solids()).copied().collect();
         let options = Options { knobs: &knobs, ..options };
@@ -112,7 +112,7 @@ fn keep(
     };
     let own = world.settings.max_trace_level;
     if audit.depth.is_some_and(|depth| depth < own) {
-        // An error told against less would be too small.
+        // An error measured against a shallower reference would be too small.
         let surfaces = if own == 1 { "surface" } else { "surfaces" };
         let said = format!(
             "warning: how far off it is is not known: it takes too long to look {own} {surfaces} deep, as the scene does\nthe same picture: {flags}\n"
@@ -217,11 +217,11 @@ const WORTH_TELLING: f64 = 5.0;
 /// Formats the error (`error 0.0088 [0.0081, 0.0096]`) and the limits of the reference.
 pub(super) fn error(audit: &Audit) -> String {
     let amount = |error: f64| table::amount(audit.metric, error);
-    // Below what the reference resolves nothing is known but that it lies there.
+    // Below the resolution of the reference, only an upper bound is known.
     let error = match audit.error.value < audit.resolution {
         true => {
             let most = audit.resolution.max(audit.error.high);
-            // Sums are rounded by as much.
+            // Errors this small are rounding errors of sums.
             let why = match most {
                 ..=NOTHING => "",
                 _ => " (it could not be told better than that)",

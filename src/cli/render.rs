@@ -80,7 +80,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let written = match traced.complete {
         true => Some(output.clone()),
         false if done == 0 && exit == Exit::Interrupted => None,
-        // What was interrupted is not wanted; what ran out of time is.
+        // Standard output gets a picture that ran out of time, but not an interrupted one.
         false => output.partial().or_else(|| (exit == Exit::Limit).then(|| output.clone())),
     };
     if let Some(place) = &written {

@@ -103,7 +103,7 @@ impl SceneArguments {
         options.evaluate.now = now();
         options.evaluate.interrupt = progress::interrupt();
         options.evaluate.declares = self.declares.clone();
-        // `clock` is a word of the language, not a name.
+        // `clock` is a keyword, not an identifier.
         if let Some((_, clock)) = self.declares.iter().rfind(|(name, _)| name == "clock") {
             options.evaluate.clock = *clock;
         }

@@ -49,7 +49,7 @@ pub fn show(
         }
     };
     let mut messages = arguments.messages();
-    // The stage takes standard output.
+    // Standard output is reserved for the stage.
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();

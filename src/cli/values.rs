@@ -71,7 +71,7 @@ pub fn region(text: &str) -> Result<Region, String> {
 }
 
 pub fn antialias(text: &str) -> Result<Antialias, String> {
-    // As tables write it: `3×3`.
+    // Also accepts the notation of tables: `3×3`.
     let side = text.split_once(['x', '×']).filter(|(a, b)| a == b).map_or(text, |(side, _)| side);
     match (text, side.parse::<u32>()) {
         ("off", _) | (_, Ok(1)) => Ok(Antialias::Off),
@@ -154,7 +154,7 @@ pub fn seconds(text: &str) -> Result<f64, String> {
 }
 
 pub fn knob(text: &str) -> Result<&'static str, String> {
-    // The scene's own `adc_bailout` is `adc-bailout` here.
+    // `adc_bailout`, as spelled in scenes, is `adc-bailout` here.
     let asked = text.trim().replace('_', "-");
     let mut names = KNOBS.iter().map(|knob| knob.name);
     names.find(|&name| name == asked).ok_or_else(|| {
@@ -171,7 +171,7 @@ pub fn declare(text: &str) -> Result<(String, f64), String> {
     if !name.starts_with(letter) || !name.chars().all(|c| letter(c) || c.is_ascii_digit()) {
         return Err(format!("`{name}` is not a name: letters, digits and `_`, no digit first"));
     }
-    // `#declare` takes these no more; only `clock` is set from outside.
+    // `#declare` rejects these, too; only `clock` can be set from outside.
     if name != "clock" && Word::from_name(name).is_some() {
         return Err(format!("`{name}` is a word of the language, and cannot be declared"));
     }

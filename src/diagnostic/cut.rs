@@ -82,25 +82,25 @@ pub fn parts(line: &str, places: &[Range<usize>], room: usize) -> Vec<Range<usiz
     let taken = |places: &[Range<usize>]| -> usize {
         places.iter().map(|place| columns(&line[place.clone()]) + 2).sum()
     };
-    // Long labels are cut at their end; where several are, each has its share.
+    // Truncates long labels at their end; several labels share the room.
     let mut places = clipped(room.saturating_sub(2 * AROUND + 2));
     if taken(&places) + AROUND > room {
         places = clipped((room / count).saturating_sub(AROUND / count + 2));
     }
-    // What room the labels leave is shared by what stands beside them.
+    // The remaining room is shared by the text next to the labels.
     let around = room.saturating_sub(taken(&places)) / (2 * count);
     let mut parts: Vec<Range<usize>> = Vec::new();
     for place in places {
         let part = back(line, place.start, around)..forward(line, place.end, around);
         match parts.last_mut() {
-            // An `…` for one column would gain none.
+            // Replacing a single column by `…` would gain nothing.
             Some(last) if forward(line, last.end, 1) >= part.start => {
                 last.end = last.end.max(part.end)
             }
             _ => parts.push(part),
         }
     }
-    // Of more labels than there is room for the first are shown.
+    // If there is not enough room for all labels, shows the first ones.
     let mut left = room.saturating_sub(1);
     parts.retain_mut(|part| {
         let any = left > 1;
@@ -115,8 +115,8 @@ pub fn parts(line: &str, places: &[Range<usize>], room: usize) -> Vec<Range<usiz
     let shown = |parts: &[Range<usize>]| -> usize {
         parts.iter().map(|part| columns(&line[part.clone()]) + 1).sum::<usize>() + 1
     };
-    // What is left, at a line's ends or where labels stand close to each other, goes to the last, to the first, and
-    // into the gaps.
+    // Unused room, at line ends or between close labels, goes to the last part, then the first, then the
+    // gaps.
     let spare = |parts: &[Range<usize>]| room.saturating_sub(shown(parts));
     let left = spare(&parts);
     if let Some(last) = parts.last_mut() {

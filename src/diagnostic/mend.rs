@@ -30,7 +30,7 @@ pub fn mend(
             break;
         }
         let after = messages(&all.0);
-        // All of them together, if each took its own message away.
+        // Applies all fixes together if each resolves its own message.
         let (count, of_errors) = (all.1.len(), errors(all.1.iter().copied()));
         let enough = match of_errors {
             0 => weight(&after) + count <= weight(&found),
@@ -61,13 +61,14 @@ pub fn mend(
     (mended > 0).then_some((text, mended))
 }
 
-/// Whether a fix helped: fewer errors, or as many errors and fewer messages.
+/// Whether a fix helped: fewer errors, as many errors and fewer messages, or errors revealed that the fixed
+/// mistake had hidden.
 fn is_better(before: &[Diagnostic], after: &[Diagnostic], fixed: &Diagnostic) -> bool {
     let (old, new) = (errors(before), errors(after));
-    // What a missing closer hid comes to light: that is no new mistake.
+    // Errors that a missing closing bracket had hidden are not new mistakes.
     let uncovers = fixed.code.shifts_what_follows()
         && !after.iter().any(|other| other.code == fixed.code && other.message == fixed.message);
-    // So does a misspelt word what its block hid, if all that is new stands behind it.
+    // Neither are those that a misspelt word had hidden, if all new messages are after it.
     let end = fixed.fixes.iter().map(|fix| fix.span.end).max();
     let behind = |other: &Diagnostic| {
         before.iter().any(|old| old.message == other.message)

@@ -84,7 +84,7 @@ fn read_line(span: Span, sources: &Sources) -> String {
     let source = sources.get(span.file);
     let position = source.position(span.start as usize);
     let line = source.line(position.line);
-    // Of a line too long to listen to, the part that it is about.
+    // Quotes only the relevant part of a line that is too long to listen to.
     let around = position.column.saturating_sub(READ / 2);
     match line.chars().count() > READ && around > 0 {
         true => cut(&format!("…{}", line.chars().skip(around).collect::<String>())),

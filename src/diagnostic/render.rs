@@ -135,7 +135,7 @@ impl View {
             ending(visible(&source.name).replace('\t', "␉").replace('\n', "␊"), room)
         };
         let names = sources.iter().map(|(_, source)| name(source, room)).collect();
-        // A message about the scene as a whole still says which scene.
+        // A message about the scene as a unit still names the scene.
         let mut code = diagnostic.code.name().to_owned();
         if let (true, Some((_, source))) = (diagnostic.labels.is_empty(), sources.iter().next()) {
             code += " in ";

@@ -38,7 +38,7 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .into_iter()
         .filter(|candidate| *candidate != word)
         .filter_map(|candidate| {
-            // One edit changes the length by one at most, and the set of letters by two.
+            // One edit changes the length by at most one, and the set of letters by at most two.
             let (other_count, other_set) = letters(candidate);
             let far = other_count.abs_diff(count) > bound
                 || (other_set ^ set).count_ones() as usize > 2 * bound;
@@ -223,7 +223,7 @@ pub fn reworded<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -
         **candidate != *word && equal > 0 && all && ours.is_empty()
     };
     let mut fitting = candidates.into_iter().filter(fits);
-    // Of several none is likely.
+    // If several candidates fit, none is likely.
     fitting.next().filter(|_| fitting.next().is_none())
 }
 

@@ -172,7 +172,7 @@ impl Census<'_> {
         if !self.world.materials.iter().any(reflects) {
             return because("no surface reflects", None);
         }
-        // Where paths fork at clear surfaces there are more rays than surfaces in a row.
+        // If paths fork at transparent surfaces, there are more rays than the depth.
         let forks = self.world.materials.iter().any(is_clear);
         let what = if forks { "surfaces deep" } else { "rays a camera ray" };
         let cost = format!("up to {} {what}", self.max_trace_level - 1);
@@ -193,7 +193,7 @@ impl Census<'_> {
         if self.world.interiors.is_empty() {
             return because("every object is filled with air", None);
         }
-        // What is as the air only matters beside what is not.
+        // An interior with the index of air only matters next to another index.
         let interiors = self.world.interiors.iter().zip(&self.origins.interiors);
         let bending = interiors.filter(|(interior, _)| interior.ior != 1.0);
         let by = bending.flat_map(|(_, sites)| sites).copied().collect();

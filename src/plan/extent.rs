@@ -36,7 +36,7 @@ impl Extent {
             }
             Shape::Box(at) => {
                 let solid = &world.boxes[at as usize];
-                // A flat box has two sides that count.
+                // Ignores the zero side of a flat box.
                 let sides = solid.half_widths.into_iter().filter(|&side| side > 0.0);
                 let least = sides.clone().fold(f64::INFINITY, f64::min);
                 along_axes(solid.centre, least, sides.fold(0.0, f64::max))
@@ -65,7 +65,7 @@ impl Extent {
             _ => body.is_sheet(),
         };
         let is_flat = is_sheet || matches!(**body, Body::HeightField(_));
-        // Of a sheet two count.
+        // Sheets have only two relevant sizes.
         let least_of = |sizes: [f64; 3], is_flat: bool| {
             let counted = if is_flat { 2 } else { 3 };
             sizes.into_iter().take(counted).rfind(|&half| half > 0.0)

@@ -84,7 +84,7 @@ pub(super) fn numerics(world: &World, origins: &Origins) -> Numerics {
             continue;
         };
         let Extent { centre, least, greatest, slenderness } = extent;
-        // Of what is smaller than numbers can say, no less than the greatest number.
+        // Limits an overflow to the greatest finite number.
         let distance = (length(centre - world.camera.location) / least).min(f64::MAX);
         keep(&mut found.smallest, least, site, |new, old| new < old);
         keep(&mut found.largest, greatest, site, |new, old| new > old);

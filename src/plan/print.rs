@@ -213,7 +213,7 @@ impl Printer<'_> {
         if each == 0.0 {
             return a_pixel(each);
         }
-        // A pilot that had to look less deep counts some of them only.
+        // A pilot with reduced depth counts only some of the rays.
         let is_short = self.plan.pilot.is_some_and(|pilot| pilot.depth.is_some());
         let (least, about) = if is_short { ("at least ", "") } else { ("", "about ") };
         format!("{least}{}, {about}{}", a_pixel(each), round(rays * self.plan.camera_rays()))
