@@ -1,7 +1,7 @@
-//! Light gathered, pixel by pixel, and what is shown of it.
+//! Holds the radiance of each pixel, and converts it to an image.
 //!
-//! **In:** the radiance the tracer gathered. **Out:** an [`Image`]. **Invariant:** the same bits for
-//! any number of threads; a pixel knows its samples; an unreached pixel is black.
+//! **In:** the radiance gathered by the tracer. **Out:** an [`Image`]. **Invariant:** the same bits for any
+//! number of threads; each pixel has its sample count; pixels not reached are black.
 
 use crate::color::{Gamma, Rgb, srgb_decode, srgb_encode};
 use crate::math::elementary::pow;
@@ -11,17 +11,17 @@ use crate::plan::{Frame, Region};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
     pub frame: Frame,
-    /// What turns radiance into linear light.
+    /// Transfer function from radiance to linear light.
     pub assumed_gamma: Gamma,
     /// `region.width × region.height` values, in the scene's working space.
     pub radiance: Vec<Rgb>,
-    /// How many samples each pixel got; 0 for one that was not reached.
+    /// Number of samples per pixel; 0 if not reached.
     pub samples: Vec<u32>,
 }
 
 impl Film {
-    /// The most memory that a pixel takes on its way from the tracer to a file: its place on the film
-    /// and what edges are found in, or, later, the place, the image and two copies of it.
+    /// Peak memory per pixel between the tracer and the file: the film and the data for edge detection or,
+    /// later, the film, the image and two copies of it.
     pub const BYTES_PER_PIXEL: u64 = {
         let place = size_of::<Rgb>() + size_of::<u32>();
         let (traced, encoded) = (size_of::<[f64; 3]>(), 3 * size_of::<[f32; 3]>());
@@ -33,16 +33,16 @@ impl Film {
         Self { frame, assumed_gamma, radiance: vec![Rgb::BLACK; pixels], samples: vec![0; pixels] }
     }
 
-    /// Where pixel (`x`, `y`) of the whole picture lies in the lists; it must be in the region.
+    /// Returns the index of pixel (`x`, `y`) of the full picture, which must be in the region.
     #[inline]
     pub fn index(&self, x: u32, y: u32) -> usize {
         let region = self.frame.region;
         (y - region.y) as usize * region.width as usize + (x - region.x) as usize
     }
 
-    /// The part of it in `region`, which must lie in its own.
+    /// Returns the part of the film in `region`, which must lie within its own.
     ///
-    /// No other film is made for it, as films are large: each row moves up.
+    /// Moves the rows in place instead of allocating a second film, as films are large.
     pub fn crop(mut self, region: Region) -> Self {
         if region == self.frame.region {
             return self;
@@ -62,7 +62,7 @@ impl Film {
     }
 }
 
-/// What is shown: the film's region, row by row from its top left.
+/// The image to show: the film's region, row by row from its top left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Image {
     pub width: u32,
@@ -73,15 +73,15 @@ pub struct Image {
 /// Red, green and blue of each pixel.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Pixels {
-    /// Display-referred: the sRGB curve, 0 … 255.
+    /// Display-referred, sRGB transfer function, 0 … 255.
     Eight(Vec<[u8; 3]>),
-    /// Display-referred: the sRGB curve, 0 … 65535.
+    /// Display-referred, sRGB transfer function, 0 … 65535.
     Sixteen(Vec<[u16; 3]>),
     /// Linear light, 0 … ∞; 1 is the display's white.
     Linear(Vec<[f32; 3]>),
 }
 
-/// What an [`Image`] is made of.
+/// Pixel format of an [`Image`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Depth {
     #[default]
@@ -90,13 +90,14 @@ pub enum Depth {
     Linear,
 }
 
-/// Shows a film: linear light is its `assumed_gamma` of the radiance; a display-referred number is the
-/// nearest to `255 · sRGB` (or `65535 · sRGB`) of it. Negative and undefined light is black.
+/// Converts a film to an image. Linear light is `assumed_gamma` applied to the radiance. Display-referred
+/// values are `255 · sRGB` (or `65535 · sRGB`) of that, rounded to nearest. Negative and undefined light is
+/// black.
 pub fn develop(film: &Film, depth: Depth) -> Image {
     Developer::new(depth, film.assumed_gamma, film.radiance.len()).develop(film)
 }
 
-/// Shows films of one `assumed_gamma` as [`develop`] does; what it looks up is made once.
+/// Converts films with the same `assumed_gamma` like [`develop`], building its lookup tables only once.
 pub struct Developer(Tones);
 
 enum Tones {
@@ -106,7 +107,7 @@ enum Tones {
 }
 
 impl Developer {
-    /// For about so many pixels.
+    /// `pixels` is the approximate number of pixels to convert.
     pub fn new(depth: Depth, gamma: Gamma, pixels: usize) -> Self {
         let curve = |last| Curve::new(last, gamma, 3 * pixels);
         Self(match depth {
@@ -116,7 +117,7 @@ impl Developer {
         })
     }
 
-    /// The whole of a film, or of a part of one.
+    /// Converts a film or a part of one.
     pub fn develop(&self, film: &Film) -> Image {
         let (width, height) = (film.frame.region.width, film.frame.region.height);
         let pixels = match &self.0 {
@@ -132,21 +133,21 @@ fn each<T>(film: &Film, encode: impl Fn(f64) -> T) -> Vec<[T; 3]> {
     film.radiance.iter().map(|c| [encode(c.red), encode(c.green), encode(c.blue)]).collect()
 }
 
-/// The number, 0 … `last`, that shows a component: the definition.
+/// Returns the code of a component, 0 … `last`, by definition.
 fn code(component: f64, gamma: Gamma, last: u32) -> u32 {
     (srgb_encode(gamma.linear(component)) * f64::from(last)).round() as u32
 }
 
-/// [`code`] by table: `steps[k]` is the least component whose code is above `k`.
+/// Computes [`code`] by table: `steps[k]` is the least component with a code above `k`.
 ///
-/// The definition takes two powers; a search takes a few comparisons. Both agree on every
-/// number, as the steps are found with the definition itself.
+/// The definition takes two powers, a search only a few comparisons. Both agree for every number, because
+/// the steps are computed with the definition itself.
 struct Curve {
     last: u32,
     gamma: Gamma,
-    /// Empty where so few numbers are wanted that finding the steps costs more.
+    /// Empty if there are so few pixels that computing the steps costs more than it saves.
     steps: Vec<f64>,
-    /// For each of `starts.len()` equal parts of 0 … 1: the code of its lower end.
+    /// For each of `starts.len()` equal parts of 0 … 1, the code of its lower end.
     starts: Vec<u32>,
 }
 
@@ -185,8 +186,8 @@ impl Curve {
     }
 }
 
-/// The least component whose code is above `k`, by bisection over the bits of a float around
-/// the inverse formula.
+/// Returns the least component with a code above `k`, by bisection over the bits of a float around the
+/// inverse formula.
 fn step_above(k: u32, gamma: Gamma, last: u32) -> f64 {
     let above = |bits: u64| code(f64::from_bits(bits), gamma, last) > k;
     let shown = (f64::from(k) + 0.5) / f64::from(last);

@@ -1,6 +1,7 @@
-//! lucarne: a compiler for a POV-Ray-like scene language, and the ray tracer behind it.
+//! Compiler and ray tracer for a POV-Ray-like scene language.
 //!
-//! The whole road, seven nouns joined by six verbs; diagnostics travel beside them:
+//! A scene passes through seven representations, connected by six stages. Each stage can report
+//! diagnostics.
 //!
 //! ```text
 //! Source ─parse→ Ast ─evaluate→ Scene ─lower→ World ─plan→ Plan ─trace→ Film ─develop→ Image

@@ -1,4 +1,4 @@
-//! The program: hands the command line to `cli` and its answer to the system.
+//! Entry point of the program: passes the command line to `cli` and returns its exit code.
 #![forbid(unsafe_code)]
 
 mod cli;

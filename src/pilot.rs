@@ -1,32 +1,33 @@
-//! The plan's pilot: some pixels of the picture, traced to see what all of them will cost.
+//! Traces a pilot: a sample of the picture's pixels, to predict the cost of the full picture.
 //!
-//! **In:** [`World`], its [`Plan`]. **Out:** the Plan with rays counted. **Invariant:** the same numbers
-//! on every run: they are counts, of pixels that depend on nothing but the picture's size, and of no more
-//! of them than limits that are counted, too.
+//! **In:** [`World`], its [`Plan`]. **Out:** the Plan with ray counts. **Invariant:** the numbers are
+//! reproducible. They are counts over pixels that depend only on the size of the picture, and the limits on
+//! their number are counts, too.
 
 use crate::math::random::Random;
 use crate::plan::{Antialias, Effect, Pilot, Plan, Region};
 use crate::trace::{Counters, Limited, Sampling, TraceOptions, Unwatched, geometry, pixels};
 use crate::world::World;
 
-/// Pixels along the longer side of the picture, of those that are traced.
+/// Maximum number of traced pixels along the longer side of the region.
 const SIDE: u32 = 64;
 
-/// Rays that are enough to count, without those of the neighbours that adaptive antialiasing looks at.
+/// Number of rays after which the pilot stops; excludes the neighbours that adaptive antialiasing examines.
 const RAYS: u64 = 1 << 20;
-/// Equations that are enough to solve, in those of a sphere: about as much time as so many rays take.
+/// Number of equations per ray of that limit, in sphere equations, after which it stops: they take about as
+/// much time as the rays.
 const SOLVED_A_RAY: u64 = 16;
-/// Pixels that are traced at a time: those of one that goes beyond the limit do not count.
+/// Number of pixels traced at a time. A chunk that exceeds the limit does not count.
 const CHUNK: usize = 64;
-/// Where not so many chunks are done, less deep is better.
+/// Minimum number of finished chunks; with fewer, the depth is reduced.
 const ENOUGH: usize = 2;
-/// How deep it looks then.
+/// Reduced depths to try, in order.
 const DEPTHS: [u32; 5] = [20, 10, 5, 3, 2];
 
-/// Traces some pixels, spread over the picture, and notes how many rays each effect sent. With adaptive
-/// antialiasing they and their neighbours are looked at as the picture will be, and those on an edge
-/// traced as finely; a regular grid of samples costs so many times one, which is traced. Where that is
-/// too much work it traces fewer pixels, and if even few are too many, looks less deep.
+/// Traces some pixels, spread over the picture, and records how many rays each effect sent. With adaptive
+/// antialiasing, traces these pixels and their neighbours as in the full picture, and supersamples those on
+/// an edge. For a regular grid of samples, traces one sample, whose cost is multiplied. If that is too much
+/// work, traces fewer pixels and, if even a few are too many, reduces the depth.
 pub fn pilot(world: &World, plan: &mut Plan) {
     pilot_within(world, plan, RAYS);
 }
@@ -86,26 +87,26 @@ fn pilot_within(world: &World, plan: &mut Plan, limit: u64) {
     for called in &mut plan.effects {
         let sent = sent(called.effect, &counters).map(|rays| rays as f64 / camera);
         all += sent.unwrap_or(0.0);
-        // The camera's own rays, those beyond one a pixel.
+        // Camera rays beyond one per pixel.
         let more = (called.effect == Effect::Antialiasing).then_some(1.0 - 1.0 / a_pixel);
         called.rays = sent.or(more);
     }
     plan.pilot = Some(Pilot { rays: all, ..found });
 }
 
-/// The same in an order of which any first part is spread over all.
+/// Reorders the pixels such that every prefix is spread over the region.
 fn mixed(places: Vec<(u32, u32)>) -> Vec<(u32, u32)> {
     let mut keyed: Vec<(u64, (u32, u32))> = places
         .into_iter()
         .enumerate()
-        // Multiples of the golden section, of 2^64.
+        // Multiples of the golden ratio, modulo 2^64.
         .map(|(i, place)| ((i as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15), place))
         .collect();
     keyed.sort_unstable();
     keyed.into_iter().map(|(_, place)| place).collect()
 }
 
-/// The rays of an effect; `None` for those that send none of their own.
+/// Returns the rays of an effect; `None` for effects that send none of their own.
 fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
     match effect {
         Effect::Shadows => Some(counters.shadow),
@@ -125,16 +126,16 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
     }
 }
 
-/// How many pixels are traced along each side of a region: all of a small one, and else so many that its
-/// shape is kept as far as whole pixels can.
+/// Returns how many pixels to trace along each side of a region: all of a small one, otherwise as many as
+/// keep its aspect ratio up to rounding.
 fn thinned(Region { width, height, .. }: Region) -> (u32, u32) {
     let longer = width.max(height);
     let scaled = |n: u32| (u64::from(n) * u64::from(SIDE) / u64::from(longer)) as u32;
     if longer <= SIDE { (width, height) } else { (scaled(width).max(1), scaled(height).max(1)) }
 }
 
-/// One pixel of each part of the region, somewhere in it: edges that run along rows of parts are hit as
-/// often as any.
+/// Returns one pixel at a random position in each cell of the region, so that edges along rows of cells are
+/// hit as often as others.
 fn spread(region: Region, (wide, high): (u32, u32)) -> Vec<(u32, u32)> {
     let within = |part: u32, parts: u32, length: u32, random: &mut Random| {
         let start = |part: u32| u64::from(part) * u64::from(length) / u64::from(parts);

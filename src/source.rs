@@ -1,15 +1,15 @@
-//! Texts, places in them, and the only way in for anything from outside.
+//! Source texts, locations in them, and the interface for all access to files.
 //!
 //! **Invariant:** a [`Source`] never changes after reading; every [`Span`] indexes into one.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Names one [`Source`] in [`Sources`].
+/// Identifies one [`Source`] in [`Sources`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FileId(pub u32);
 
-/// A range of bytes of one source, end exclusive, always on character borders.
+/// Range of bytes in one source; the end is exclusive. Bounds are always on character boundaries.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
     pub file: FileId,
@@ -28,7 +28,7 @@ impl Span {
         Self { file, start: start as u32, end: end as u32 }
     }
 
-    /// From the start of `self` to the end of `other` (same file).
+    /// Returns the span from the start of `self` to the end of `other`, in the same file.
     pub fn to(self, other: Self) -> Self {
         Self { end: other.end.max(self.end), ..self }
     }
@@ -38,7 +38,7 @@ impl Span {
         self.file == other.file && self.start <= other.start && other.end <= self.end
     }
 
-    /// The empty span just after this one.
+    /// Returns the empty span directly after this one.
     pub fn after(self) -> Self {
         Self { start: self.end, ..self }
     }
@@ -48,14 +48,14 @@ impl Span {
     }
 }
 
-/// A place in a text and how evaluation got there.
+/// A location in a text, and the expansions that led there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Site {
     pub span: Span,
     pub expansion: ExpansionId,
 }
 
-/// Names one [`Expansion`]; [`ExpansionId::MAIN`] is the main file's own text.
+/// Identifies one [`Expansion`]; [`ExpansionId::MAIN`] is the text of the main file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ExpansionId(pub u32);
 
@@ -63,12 +63,12 @@ impl ExpansionId {
     pub const MAIN: Self = Self(0);
 }
 
-/// Why a text is being evaluated: a call of a macro or an include.
+/// The reason why a text is evaluated: a macro call or an include.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expansion {
     /// The expansion that contains the call.
     pub parent: ExpansionId,
-    /// The call itself.
+    /// Span of the call.
     pub call: Span,
     pub kind: ExpansionKind,
     name: ExpansionName,
@@ -76,17 +76,17 @@ pub struct Expansion {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExpansionKind {
-    /// A call of a macro.
+    /// A macro call.
     Macro,
     /// An `#include` of a file.
     Include,
 }
 
-/// Index into the names that [`Expansions`] keeps, each once.
+/// Index into the names in [`Expansions`], which are unique.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExpansionName(u32);
 
-/// Every expansion of one evaluation, parents before children. Entry `n` has the id `n + 1`.
+/// All expansions of one evaluation, parents before children. Entry `n` has the id `n + 1`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Expansions {
     list: Vec<Expansion>,
@@ -95,7 +95,7 @@ pub struct Expansions {
 }
 
 impl Expansions {
-    /// What a macro or a file is called, to be told of its calls.
+    /// Returns the index of the name of a macro or file, for passing it to [`Self::add`].
     pub fn named(&mut self, name: &str) -> ExpansionName {
         if let Some(&known) = self.by_name.get(name) {
             return known;
@@ -106,7 +106,7 @@ impl Expansions {
         new
     }
 
-    /// Adds a call of the macro, or the include of the file, of this name.
+    /// Adds a call of the macro, or an include of the file, with this name.
     pub fn add(
         &mut self,
         parent: ExpansionId,
@@ -118,23 +118,23 @@ impl Expansions {
         self.newest()
     }
 
-    /// The newest of all, or [`ExpansionId::MAIN`] while there is none.
+    /// Returns the most recent expansion, or [`ExpansionId::MAIN`] if there is none.
     pub fn newest(&self) -> ExpansionId {
         ExpansionId(self.list.len() as u32)
     }
 
-    /// The expansion, or `None` for [`ExpansionId::MAIN`].
+    /// Returns the expansion, or `None` for [`ExpansionId::MAIN`].
     pub fn get(&self, id: ExpansionId) -> Option<&Expansion> {
         self.list.get((id.0 as usize).checked_sub(1)?)
     }
 
-    /// What is called or included.
+    /// Returns the name of the macro or file.
     pub fn name(&self, expansion: &Expansion) -> &str {
         &self.names[expansion.name.0 as usize]
     }
 
-    /// Two places as they are seen from the innermost text that holds both, in its order: what came
-    /// out of a macro is the macro's call.
+    /// Maps two locations to the innermost text that contains both, in its order. A location inside a macro
+    /// becomes the macro's call.
     pub fn side_by_side(&self, mut a: Site, mut b: Site) -> [Site; 2] {
         // Parents have the smaller ids, and the main file the smallest.
         while a.expansion != b.expansion {
@@ -145,33 +145,34 @@ impl Expansions {
         if a.span.start <= b.span.start { [a, b] } else { [b, a] }
     }
 
-    /// The calls that led to `id`, innermost first.
+    /// Returns the calls that led to `id`, innermost first.
     pub fn chain(&self, id: ExpansionId) -> impl Iterator<Item = &Expansion> {
         std::iter::successors(self.get(id), |expansion| self.get(expansion.parent))
     }
 }
 
-/// One file's text.
+/// The text of one file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Source {
-    /// How the author knows it: the path as given or as included.
+    /// Name of the file as given or as included.
     pub name: String,
     pub text: String,
     /// It was no UTF-8: each character is one byte of the file.
     pub is_latin: bool,
     line_starts: Vec<u32>,
-    /// How many characters begin before each block of [`BLOCK`] bytes: a line may be as long as the text.
+    /// Number of characters that start before each block of [`BLOCK`] bytes, since a line may be as long as
+    /// the text.
     blocks: Vec<u32>,
 }
 
 const BLOCK: usize = 1024;
 
-/// How many characters begin in these bytes.
+/// Returns the number of characters that start in these bytes.
 fn characters(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| !matches!(byte, 0x80..=0xbf)).count()
 }
 
-/// A line and a column, both counted from 1, the column in characters.
+/// Line and column, both counted from 1; columns are in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
     pub line: usize,
@@ -215,14 +216,14 @@ impl Source {
         before + characters(&self.text.as_bytes()[block * BLOCK..offset])
     }
 
-    /// The text of line `number` (from 1), without its line break.
+    /// Returns the text of line `number` (from 1), without its line break.
     pub fn line(&self, number: usize) -> &str {
         let start = self.line_starts[number - 1] as usize;
         let end = self.line_starts.get(number).map_or(self.text.len(), |&end| end as usize);
         self.text[start..end].trim_end_matches(['\n', '\r'])
     }
 
-    /// The byte at which line `number` (from 1) starts.
+    /// Returns the byte offset of the start of line `number` (from 1).
     pub fn line_start(&self, number: usize) -> usize {
         self.line_starts[number - 1] as usize
     }
@@ -232,7 +233,7 @@ impl Source {
     }
 }
 
-/// All texts of one run, in the order they were read.
+/// All texts of one run, in the order in which they were read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sources(Vec<Source>);
 
@@ -247,19 +248,19 @@ impl Sources {
     }
 
     pub fn text(&self, span: Span) -> &str {
-        // Where two places of several files were put together, nothing.
+        // Returns nothing for a span that combines locations in different files.
         self.get(span.file).text.get(span.range()).unwrap_or("")
     }
 
-    /// What stands between two places of one file, the first before the second.
+    /// Returns the text between two locations in one file, if the first precedes the second.
     pub fn between(&self, first: Span, second: Span) -> Option<&str> {
         let gap = Span { start: first.end, end: second.start, ..first };
         let in_order = first.file == second.file && gap.start <= gap.end;
         in_order.then(|| self.text(gap))
     }
 
-    /// The name, number or sign right before a place, where something is missing behind it; the place, where none
-    /// stands there.
+    /// Returns the name, number or sign directly before a location after which something is missing, or the
+    /// location itself if there is none.
     pub fn sign_before(&self, place: Span) -> Span {
         let before = self.get(place.file).text.get(..place.start as usize).unwrap_or("");
         let Some(last) = before.chars().next_back().filter(|last| !last.is_whitespace()) else {
@@ -273,7 +274,7 @@ impl Sources {
         Span { start: place.start - length as u32, end: place.start, ..place }
     }
 
-    /// `file:line:column` of where a span starts.
+    /// Returns the start of a span as `file:line:column`.
     pub fn place(&self, span: Span) -> String {
         let source = self.get(span.file);
         let Position { line, column } = source.position(span.start as usize);
@@ -288,60 +289,63 @@ impl Sources {
 /// A file that [`Files`] found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
-    /// Where it was found; also its identity (the same file has the same name).
+    /// Path of the file, which also identifies it: the same file has the same name.
     pub name: String,
     pub bytes: Vec<u8>,
 }
 
-/// Why a file could not be had.
+/// Reason why a file cannot be read.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FileError {
-    /// Nothing of that name; the folders that were searched, and names there that are near.
+    /// No such file; lists the searched folders, and similar names found there.
     NotFound { searched: Vec<String>, similar: Vec<String> },
-    /// It lies outside the folders that may be read, where only these may.
+    /// The file lies outside the folders to which reading is restricted.
     Forbidden,
-    /// It is there and cannot be read: the system's reason.
+    /// The file exists, but cannot be read, for the given system error.
     Unreadable(String),
 }
 
-/// Why a scene may not write a file.
+/// Reason why a scene may not write a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum WriteError {
-    /// Nobody has allowed this scene to write.
+    /// The scene has no permission to write.
     NotAllowed,
-    /// It lies outside of the current folder, or a link leads there.
+    /// The file, or the target of a link, lies outside the current folder.
     Outside,
-    /// It cannot be made: the reason.
+    /// The file cannot be created, for the given reason.
     Impossible(String),
 }
 
-/// The only way in for anything from outside, and the only way out for what a scene writes.
+/// Access to files: the only source of external data, and the only destination for files that a scene
+/// writes.
 pub trait Files {
-    /// Looks for `name` in the folder of the file `from`, then in the include folders. What the scene
-    /// has written is found, too.
+    /// Looks for `name` in the folder of the file `from`, then in the include folders. Also finds files
+    /// that the scene has written.
     fn read(&self, name: &str, from: &str) -> Result<Found, FileError>;
 
-    /// Starts the file `name` to be written, empty or (`append`) with what it holds; gives the name that it
-    /// is found under from now on.
+    /// Starts writing the file `name`, which is empty or (`append`) has its previous contents. Returns the
+    /// name under which the file is found from now on.
     ///
-    /// Nothing reaches a disk by this: whoever lends the files does so when the scene is whole.
+    /// Does not write to disk; the implementor does that once the scene has proved free of errors.
     ///
     /// # Errors
-    /// As [`WriteError`] lists them; unless this is implemented, nothing may be written.
+    ///
+    /// See [`WriteError`]. The default implementation does not allow writing.
     fn start(&self, _name: &str, _append: bool) -> Result<String, WriteError> {
         Err(WriteError::NotAllowed)
     }
 
-    /// Adds to a file that was started, by the name it is found under.
+    /// Appends to a started file, given the name returned by [`Self::start`].
     fn add(&self, _name: &str, _bytes: &[u8]) {}
 }
 
-/// The last part of a path as scenes write it, on any system: behind `/`, `\` or the `:` of a drive.
+/// Returns the last component of a path as written in scenes, on any system: the part after `/`, `\` or the
+/// `:` of a drive.
 pub fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\', ':']).next().unwrap_or(path)
 }
 
-/// No files at all: for texts that stand alone.
+/// Provides no files, for texts that stand alone.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoFiles;
 
@@ -351,7 +355,7 @@ impl Files for NoFiles {
     }
 }
 
-/// Signs of typography that Windows keeps where Latin-1 has none, beside the byte of each.
+/// Typographic characters that Windows has where Latin-1 has none, with their bytes.
 ///
 /// **Source:** the code page Windows-1252.
 const TYPOGRAPHY: [(u8, char); 8] = [
@@ -365,20 +369,20 @@ const TYPOGRAPHY: [(u8, char); 8] = [
     (0x97, '—'),
 ];
 
-/// A character of Latin-1, or a sign of typography as Windows has it.
+/// Decodes a byte as Latin-1, or as one of the typographic characters of Windows-1252.
 fn from_latin(byte: u8) -> char {
     TYPOGRAPHY.iter().find(|(own, _)| *own == byte).map_or(char::from(byte), |(_, sign)| *sign)
 }
 
-/// The bytes of a text that [`decode`] has read as Latin-1: a byte for each character, as it was.
+/// Returns the original bytes of a text that [`decode`] decoded as Latin-1, one per character.
 pub fn to_latin(text: &str) -> Vec<u8> {
     let byte =
         |c: char| TYPOGRAPHY.iter().find(|(_, sign)| *sign == c).map_or(c as u8, |own| own.0);
     text.chars().map(byte).collect()
 }
 
-/// Turns the bytes of a file into text: UTF-8, else Latin-1 with the signs of typography of Windows. `true` when it
-/// was not UTF-8. A byte order mark is dropped.
+/// Decodes the bytes of a file as UTF-8 or, failing that, as Latin-1 with the typographic characters of
+/// Windows. The flag is `true` if the text was not UTF-8. Drops a byte order mark.
 pub fn decode(bytes: Vec<u8>) -> (String, bool) {
     let (text, foreign) = match String::from_utf8(bytes) {
         Ok(text) => (text, false),

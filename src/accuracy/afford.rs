@@ -1,9 +1,8 @@
-//! The reference there is time for.
+//! Computes the best reference that fits the available time.
 //!
-//! **In:** pixels in an order that any first part of is spread over the picture, and a time to be done
-//! by. **Out:** a reference of a first part of them. **Invariant:** it looks as deep as can be, if need
-//! be at few pixels and with few samples; its pixels, its samples and the depth of its plan tell what
-//! was given up.
+//! **In:** pixels in an order such that every prefix is spread over the picture, and a deadline. **Out:** a
+//! reference of a prefix of these pixels. **Invariant:** depth has priority, at the cost of pixels and
+//! samples; the reference's pixels, samples and plan depth show what was given up.
 
 use super::measure::Clock;
 use super::reference::{Reference, Studio};
@@ -11,28 +10,28 @@ use crate::plan::{Plan, PlanOptions, plan};
 use crate::trace::{Limited, Watch};
 use crate::world::Origins;
 
-/// Fewer pixels than this say nothing of a picture.
+/// Minimum number of pixels to judge a picture by.
 pub const LEAST: usize = 30;
-/// Fewer pixels than this are not worth many samples each, as a rule.
+/// Minimum number of pixels that are, as a rule, worth many samples each.
 pub const FEW: usize = 128;
-/// Of the time there is: what a first look all the way may take, and each one less deep.
+/// Fractions of the available time: for a first trial at full depth, and for each trial at lower depth.
 const FOR_ALL_THE_WAY: f64 = 1.0 / 3.0;
 const FOR_LESS: f64 = 1.0 / 12.0;
-/// So many of those may turn out to be too deep.
+/// Maximum number of trials that may turn out to be too deep.
 const LOOKS_TOO_DEEP: u32 = 3;
-/// Of the time that is left then: what the prediction may be wrong by.
+/// Fraction of the remaining time to plan with; the rest covers errors of the prediction.
 const PREDICTED: f64 = 0.85;
-/// Where no clock is read: the most rays, of all kinds, that a sample of a reference may send as a rule,
-/// and where it looks no deeper than the scene itself.
+/// Without a clock: maximum number of rays, of all kinds, that a sample of a reference may send on average;
+/// and the maximum up to the scene's own depth.
 const MOST_RAYS: f64 = 2048.0;
 const MOST_OWN_RAYS: f64 = 8.0 * MOST_RAYS;
-/// Steps that stand for the questions whether to stop between the parts of a list, for each pixel.
+/// Step count per pixel that accounts for checks whether to stop between parts of a list.
 const STEPS_A_PIXEL: f64 = 256.0;
 
-/// Asks to stop when the time is up.
+/// Requests a stop at the deadline.
 pub struct Deadline<'a> {
     pub clock: &'a dyn Clock,
-    /// As the clock shows.
+    /// Deadline in clock time.
     pub until: f64,
     pub watch: &'a dyn Watch,
 }
@@ -51,10 +50,10 @@ impl Watch for Deadline<'_> {
     }
 }
 
-/// How deep a reference may look.
+/// Depths that a reference may have.
 pub struct Depths<'a> {
     pub origins: &'a Origins,
-    /// Everything at its dearest.
+    /// Settings with every knob at its most expensive.
     pub deepest: PlanOptions,
 }
 
@@ -73,12 +72,12 @@ impl Depths<'_> {
 pub struct Affordable {
     pub reference: Reference,
     pub plan: Plan,
-    /// What a sample took, in seconds.
+    /// Seconds per sample.
     pub a_sample: f64,
 }
 
-/// A reference of as many of the first pixels of `list` as are done when the clock shows `until`, the
-/// coarsest, or where that would be of too few a rough one. `None` where not even one is that looks one surface deep.
+/// Returns a coarsest-step reference of as many of the first pixels of `list` as fit before `until`, or a
+/// rough one if those would be too few. `None` if there is not even time for one at depth 1.
 pub fn reference(
     studio: &Studio,
     depths: &Depths,
@@ -93,7 +92,7 @@ pub fn reference(
     Some(Affordable { reference, ..rough })
 }
 
-/// As [`reference`], after a rough look.
+/// Like [`reference`], after a rough trial.
 fn finest(
     studio: &Studio,
     rough: &Affordable,
@@ -108,8 +107,8 @@ fn finest(
         ((samples / f64::from(Reference::samples_at(step))) as usize).min(list.len())
     };
 
-    // Where even few pixels are too many, fewer samples; and nothing is lost where that was stopped: the
-    // pixels that were done are a list's first.
+    // If even few pixels are too many, uses fewer samples. If stopped, the finished pixels are a prefix of
+    // the list and can still be used.
     let roughly = || {
         let more = first(affordable(Reference::ROUGH), Reference::ROUGH);
         let is_more = more.pixels() > rough.reference.pixels();
@@ -123,15 +122,15 @@ fn finest(
     if known.pixels() < few {
         return roughly();
     }
-    // Where the prediction was too careful.
+    // Adds more pixels if the prediction was too cautious.
     let done = known.pixels();
     let more = if done < many { 0 } else { affordable(Reference::COARSEST) };
     let rest = &list[done..(done + more).min(list.len())];
     known.and(Reference::first(studio, &rough.plan, rest, seed, Reference::COARSEST))
 }
 
-/// A rough reference of a few pixels, as deep as there is time for: all the way, or where that takes
-/// too long, from one surface on deeper and deeper.
+/// Returns a rough reference of a few pixels, as deep as time permits: full depth or, if that takes too
+/// long, increasing depths from 1.
 fn deepest(
     studio: &Studio,
     depths: &Depths,
@@ -159,7 +158,7 @@ fn deepest(
     }
     let allowed = FOR_LESS * left;
     let (mut found, mut failed) = (None, 0);
-    // A look all the way has failed already.
+    // Full depth has already failed.
     let mut ladder = Ladder::up_to(most.saturating_sub(1).max(1));
     let mut depth = 1;
     loop {
@@ -175,8 +174,8 @@ fn deepest(
     }
 }
 
-/// How deep a reference may look whose samples send no more than [`MOST_RAYS`] as a rule, or
-/// [`MOST_OWN_RAYS`] up to a depth of `own`: counted, so the same on every run. `None` when stopped.
+/// Returns the greatest depth at which a sample of a reference sends at most [`MOST_RAYS`] on average, or
+/// [`MOST_OWN_RAYS`] up to depth `own`. Rays are counted, so the result is reproducible. `None` if stopped.
 pub fn counted_depth(
     studio: &Studio,
     depths: &Depths,
@@ -190,7 +189,8 @@ pub fn counted_depth(
     let mut depth = 1;
     loop {
         let allowed = if depth <= own { MOST_OWN_RAYS } else { MOST_RAYS };
-        // A ray leads to a step at most, and a sample is one: what takes longer sends more.
+        // Each ray and each sample takes at most one step, so exceeding this means sending more rays than
+        // allowed.
         let steps = 2.0 * (allowed + 1.0) * samples + STEPS_A_PIXEL * few.len() as f64;
         let limited = Limited::to_steps(steps as u64, studio.watch);
         let plan = depths.plan(studio, depth);
@@ -208,11 +208,11 @@ pub fn counted_depth(
     }
 }
 
-/// Depths to look at: deeper and deeper, and once that was too deep, between.
+/// Sequence of depths to try: increasing until one is too deep, then bisecting.
 struct Ladder {
-    /// As deep as a look was done; 0 before.
+    /// Greatest depth that was completed; 0 at first.
     found: u32,
-    /// What was too deep.
+    /// Depth that was too deep, if any.
     over: Option<u32>,
     most: u32,
 }
@@ -222,7 +222,8 @@ impl Ladder {
         Self { found: 0, over: None, most }
     }
 
-    /// Behind a look that was done, `reach` levels more are thought to be; `None` of one that was too deep.
+    /// Returns the depth to try after `depth`. `reach` estimates how many more levels are possible; `None`
+    /// means that `depth` was too deep.
     fn next(&mut self, depth: u32, reach: Option<u32>) -> Option<u32> {
         match reach {
             Some(_) => self.found = depth,
@@ -231,7 +232,7 @@ impl Ladder {
         let Self { found, over, most } = *self;
         match over {
             None => {
-                // Where paths do not fork a level is worth less.
+                // If paths do not fork, each level costs less than assumed.
                 let further = reach.unwrap_or(0).clamp(found / 8 + 1, found.max(1));
                 (found < most).then(|| found.saturating_add(further).min(most))
             }
@@ -240,7 +241,8 @@ impl Ladder {
     }
 }
 
-/// How much deeper one can look for `allowed` than for `took`, if every path forks at each surface.
+/// Returns how much deeper a trial can go with `allowed` instead of `took`, if every path forks at each
+/// surface.
 fn doublings(took: f64, allowed: f64) -> u32 {
     let ratio = if took > 0.0 { allowed / took } else { 2.0 };
     std::iter::successors(Some(2.0), |power| Some(power * 2.0))

@@ -1,8 +1,9 @@
-//! Settings that make the same picture, known before any is timed.
+//! Finds settings that produce the same picture before any of them is timed.
 //!
-//! **In:** what a few pixels say of each setting, and all audited pixels. **Out:** [`Alike`]. **Invariant:**
-//! two settings are alike if at every audited pixel their rays are, one by one, and so the colours to the
-//! last bit; a knob is vain if under none of its settings an audited pixel changes, whatever the rays.
+//! **In:** the results of a few pixels for each setting, and all audited pixels. **Out:** [`Alike`].
+//! **Invariant:** two settings are alike if, at every audited pixel, their rays are the same one by one,
+//! and so the colors are identical to the last bit. A knob is vain if none of its settings changes an
+//! audited pixel, whatever the rays.
 
 use super::afford::Deadline;
 use super::forecast::{Forecast, Look};
@@ -11,37 +12,37 @@ use super::reference::Studio;
 use super::trial::Candidate;
 use crate::trace::Sampling;
 
-/// Of the time that is left: what looking at one setting may take.
+/// Fraction of the remaining time for evaluating one setting.
 const FOR_ONE: f64 = 0.25;
 
-/// What need not be timed.
+/// Candidates that need not be timed.
 pub struct Alike {
-    /// Of each candidate the one that it is the same work as.
+    /// For each candidate, another one that does the same work, if any.
     twin: Vec<Option<usize>>,
-    /// Those of knobs that change nothing.
+    /// Whether each candidate belongs to a knob that changes nothing.
     vain: Vec<bool>,
 }
 
 impl Alike {
-    /// The candidate that is timed for this one.
+    /// Returns the candidate that is timed in place of this one.
     pub fn timed(&self, candidate: usize) -> usize {
         self.twin[candidate].unwrap_or(candidate)
     }
 
-    /// It changes no audited pixel, and is not timed.
+    /// Whether the candidate changes no audited pixel and is not timed.
     pub fn is_vain(&self, candidate: usize) -> bool {
         self.vain[candidate]
     }
 
-    /// It has a picture of its own.
+    /// Whether the candidate has a picture of its own.
     pub fn is_timed(&self, candidate: usize) -> bool {
         self.twin[candidate].is_none() && !self.vain[candidate]
     }
 }
 
-/// Looks at the audited pixels under those settings that a few of them do not tell apart. `knobs` are each
-/// knob's candidates from coarse to fine; the first of all is the scene's own, and `is_exact` says that its
-/// picture has no error: what is finer has none either, and is not looked at.
+/// Compares the audited pixels under those settings that a few pixels do not distinguish. `knobs` lists
+/// each knob's candidates from coarse to fine; the first of all is the scene's own. `is_exact` says that
+/// the scene's own picture has no error: then finer settings have none either and are skipped.
 pub fn alike(
     studio: &Studio,
     candidates: &[Candidate],

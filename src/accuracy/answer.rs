@@ -1,9 +1,10 @@
-//! The answer that a report gives: what to use instead of the scene's own settings, if anything.
+//! Derives the recommendation of a report: which settings to use instead of the scene's own, if any.
 
 use super::table::{NO_LONGER, error, faster, more};
 use super::{Order, Report, Verdict};
 
-/// A line that says what to use, then one for those who want less error, and one for those with less time.
+/// Returns a line with the recommendation, then one for readers who want less error, and one for those with
+/// less time.
 pub fn of(report: &Report, order: &Order) -> Vec<String> {
     let flag = |row: usize| report.flag(row).unwrap_or("the scene's own settings").to_owned();
     let is_alone = report.rows.len() == 1;
@@ -19,7 +20,7 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
             (0, None, "keep the scene's own settings: no knob changes an audited pixel".to_owned())
         }
         Some(Verdict::Dominated { by, times, .. }) => {
-            // No dearer without being cheaper is the same work.
+            // Neither more expensive nor cheaper: the same work.
             let times =
                 times.map_or_else(|| "as fast as".to_owned(), |times| faster(times) + " than");
             (
@@ -57,12 +58,12 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
     let sorted = order.from_cheap_to_dear(&rows);
     let front = || sorted.iter().copied().filter(|&row| report.rows[row].verdict == Verdict::Front);
     let finer = front().find(|&row| order.gains(row, best));
-    // What was named is not named again.
+    // Does not repeat a setting that was already named.
     let quicker = front().rev().find(|&row| order.is_cheaper(row, best) && Some(row) != named);
     let mut lines = vec![first];
     if let Some(row) = finer {
         let instead = instead(report, row, best);
-        // What is not proven to take longer may.
+        // Without proof that it takes longer, it may not.
         let times = order.times(best, row).map_or_else(|| NO_LONGER.to_owned(), more);
         lines.push(format!("for less error {}: {instead}, for {times}", flag(row)));
     }
@@ -77,14 +78,15 @@ fn nothing_else() -> String {
     "keep the scene's own settings: nothing is clearly faster and as good".to_owned()
 }
 
-/// Whether another is faster and, as the table shows them, has no more error: who reads that one is `perhaps`
-/// as good wonders why it is not the other.
+/// Whether another row is faster and has no larger error as shown in the table. A row that is so outdone
+/// would be a puzzling recommendation.
 fn is_outdone(report: &Report, order: &Order, row: usize) -> bool {
     let error = |row: usize| report.error(row).value;
     (1..report.rows.len()).any(|other| order.is_cheaper(other, row) && error(other) <= error(row))
 }
 
-/// Of what is faster than the scene's own settings and not proven to be worse, what has the least error.
+/// Returns the row with the least error among those faster than the scene's own settings and not proven to
+/// be worse.
 fn perhaps(report: &Report, order: &Order) -> Option<(usize, f64)> {
     let rows = (1..report.rows.len()).filter(|&row| !order.gains(0, row));
     let faster = rows.filter_map(|row| Some((row, order.times(row, 0)?)));
@@ -94,7 +96,7 @@ fn perhaps(report: &Report, order: &Order) -> Option<(usize, f64)> {
 
 fn instead(report: &Report, row: usize, of: usize) -> String {
     match (error(report, row), error(report, of)) {
-        // What lies below the same bound is told apart by nothing.
+        // Errors below the same bound cannot be distinguished.
         (less, than) if less == than && less.starts_with('<') => {
             format!("an error of {less} in both")
         }

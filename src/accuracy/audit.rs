@@ -1,19 +1,18 @@
-//! Which pixels are looked at: spread over the picture, at random, and never twice.
+//! Selects the pixels to audit: spread over the picture, at random, without repetition.
 //!
-//! **Invariant:** every pixel of the picture is as likely as any other; sets from one call have no
-//! pixel in common.
+//! **Invariant:** every pixel of the picture is equally likely; sets from one call are disjoint.
 
 use crate::math::random::Random;
 use crate::plan::Region;
 
-/// About how many pixels a set has where the picture has enough.
+/// Approximate number of pixels in a set, if the picture has enough.
 pub const WANTED: u32 = 4096;
 
-/// `count` sets of about `wanted` pixels each: one pixel a set out of each square of a lattice, in
-/// the lattice's order. A picture of few pixels has fewer: a square has at least `count`.
+/// Returns `count` sets of about `wanted` pixels each: one pixel per set from each square of a lattice, in
+/// the lattice's order. Sets of small pictures have fewer pixels, as a square has at least `count`.
 ///
-/// **Source:** jittered (stratified) sampling; a square that hangs over the border keeps its empty
-/// part in the draw, which is what makes all pixels equally likely.
+/// **Source:** jittered (stratified) sampling; a square that extends beyond the border keeps its empty part
+/// in the draw, which makes all pixels equally likely.
 pub fn sets(region: Region, wanted: u32, count: usize, seed: u64) -> Vec<Vec<(u32, u32)>> {
     let pixels = region.pixels();
     let least = (count as f64).sqrt().ceil() as u32;
@@ -42,7 +41,7 @@ pub fn sets(region: Region, wanted: u32, count: usize, seed: u64) -> Vec<Vec<(u3
     sets
 }
 
-/// A set in an order that any first part of is spread over the picture like the whole.
+/// Returns a set in an order such that every prefix is spread over the picture like the full set.
 pub fn shuffled(mut set: Vec<(u32, u32)>, seed: u64) -> Vec<(u32, u32)> {
     let mut random = Random::of(seed, 1);
     for last in (1..set.len()).rev() {
@@ -51,10 +50,10 @@ pub fn shuffled(mut set: Vec<(u32, u32)>, seed: u64) -> Vec<(u32, u32)> {
     set
 }
 
-/// One value for each pixel of a list, in an order in which pixels side by side stand close together.
+/// Returns the values, one per pixel of a list, in an order that keeps neighbouring pixels close together.
 ///
-/// **Source:** G. Morton, A Computer Oriented Geodetic Data Base (1966): the bits of both coordinates in
-/// turn.
+/// **Source:** G. Morton, A Computer Oriented Geodetic Data Base (1966): interleaves the bits of both
+/// coordinates.
 pub fn by_place<T>(list: &[(u32, u32)], values: Vec<T>) -> Vec<T> {
     let spread = |c: u32| (0..32).fold(0u64, |bits, i| bits | u64::from(c >> i & 1) << (2 * i));
     let mut placed: Vec<(u64, T)> =

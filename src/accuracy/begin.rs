@@ -1,8 +1,8 @@
-//! The first ray of each pixel, by settings there is time for.
+//! Traces the first ray of each pixel, with settings that fit the time.
 //!
-//! **In:** a World, and when its first pass must be done. **Out:** a film of one ray a pixel.
-//! **Invariant:** one setting for the whole picture: the scene's own wherever it fits. Only pixels that
-//! were still left when a forecast turned out wrong have others, and they are counted.
+//! **In:** a World, and the deadline of its first pass. **Out:** a film of one ray per pixel.
+//! **Invariant:** one setting for the entire picture, the scene's own if it fits. Only pixels left over
+//! when a forecast turns out wrong have other settings, and they are counted.
 
 use super::afford::{Deadline, LEAST};
 use super::audit;
@@ -16,39 +16,40 @@ use crate::plan::{Antialias, Plan, PlanOptions, plan};
 use crate::trace::{Sampling, Traced, Watch};
 use crate::world::Origins;
 
-/// Of the time there is, what the first pass may be predicted to take: the rest is for what the
-/// prediction is wrong by. On the gallery and on heaps of glass it was off by up to a fifth.
+/// Fraction of the available time that the first pass may take by prediction; the rest covers errors of the
+/// prediction. On the gallery and on scenes with much glass, these were up to a fifth.
 const FOR_FIRST: f64 = 0.75;
-/// Of the pixels one of so many is looked at to predict it: they take a hundredth of the time.
+/// One pixel in this many is traced for the prediction, which takes a hundredth of the time.
 const ONE_OF: u32 = 100;
-/// Of what is allowed: a look that took less is believed at once.
+/// Fraction of the allowed time; a trial that took less is accepted at once.
 const SURELY: f64 = 0.5;
-/// Of the time for the first pass: what is kept for the cheapest settings, if others take too long after
-/// all. Those are many times as fast.
+/// Fraction of the time for the first pass that is reserved for the cheapest settings, in case others take
+/// too long after all. The cheapest are many times faster.
 const FOR_REST: f64 = 0.1;
-/// Into so many parts is a picture split, or what of a part was not done in its share of the time.
+/// Number of parts into which a picture is split, or the remainder of a part that exceeded its share of the
+/// time.
 const PARTS: usize = 16;
-/// So many shares of the time a part may take, for parts are not alike; so many once one took longer, for
-/// others will; and of the time that is left never more than that.
+/// Maximum number of shares of the time that a part may take, as parts differ; the maximum after one part
+/// took longer, as others will; and the maximum fraction of the remaining time.
 const UNEVEN: f64 = 4.0;
 const IN_DOUBT: f64 = 0.5;
 const AT_MOST: f64 = 0.8;
 
-/// What came of it.
+/// Result of the first pass.
 pub struct Begun {
     pub traced: Traced,
     pub settings: PlanOptions,
-    /// The cheapest.
+    /// The cheapest settings.
     pub least: PlanOptions,
-    /// The settings are less than the scene's own.
+    /// Whether the settings are cheaper than the scene's own.
     pub is_less: bool,
-    /// How many pixels even those took too long for: they have the cheapest.
+    /// Number of pixels for which even those took too long; they have the cheapest settings.
     pub rest: usize,
     /// CPU and wall-clock seconds.
     pub took: (f64, f64),
 }
 
-/// Traces one ray a pixel before the clock shows `until`.
+/// Traces one ray per pixel before the clock reaches `until`.
 pub fn begin(
     studio: &Studio,
     origins: &Origins,
@@ -75,7 +76,7 @@ pub fn begin(
     Begun { traced, settings, least, is_less: settings != own, rest, took }
 }
 
-/// Each knob at its cheapest, where the scene's `own` settings are dearer.
+/// Returns the settings with each knob at its cheapest, if the scene's `own` setting is more expensive.
 fn least(easel: &Easel, own: PlanOptions) -> PlanOptions {
     let mut options = own;
     for knob in turned(easel) {
@@ -88,14 +89,14 @@ fn least(easel: &Easel, own: PlanOptions) -> PlanOptions {
     options
 }
 
-/// The knobs that the first pass may turn.
+/// Returns the knobs that the first pass may change.
 fn turned<'a>(easel: &'a Easel) -> impl Iterator<Item = &'a Knob> {
     easel.knobs.iter().copied().filter(|knob| knob.name != "antialias")
 }
 
-/// Traces the pixels that are undone, spread over the whole picture, and returns how many still are when
-/// the clock shows `until`. No part has more than a few shares of the time; of parts that took longer, smaller
-/// ones are tried with what the others left: a pixel that takes all the time there is holds up no other.
+/// Traces the unfinished pixels, spread over the picture, and returns how many are left when the clock
+/// reaches `until`. Each part is limited to a few shares of the time. Parts that took longer are split and
+/// retried with the time left by the others, so that one slow pixel does not delay the others.
 fn complete(
     studio: &Studio,
     plan: &Plan,
@@ -139,8 +140,8 @@ fn complete(
     list.len()
 }
 
-/// The settings of the first pass: the scene's `own`; where a few pixels say that those will not fit, each
-/// knob in turn as far toward them as will, and the rest at their `least`.
+/// Returns the settings of the first pass: the scene's `own`. If a few pixels show that these do not fit,
+/// each knob in turn comes as close to them as fits, with the others at their `least`.
 fn affordable(
     studio: &Studio,
     origins: &Origins,
@@ -157,10 +158,10 @@ fn affordable(
     let fits = |options: &PlanOptions| {
         let plan = plan(studio.world, origins, options);
         studio.geometry(&plan);
-        // What else the machine does may stand between: then the second look is shorter, and the mean of
-        // both tells. Twice what is allowed is too long whatever the second says.
+        // Other load on the machine may slow the first trial; the second is then shorter, and the mean of
+        // both is used. Twice the allowed time is too long whatever the second trial shows.
         let look = || {
-            // To begin takes time, too, and that is not multiplied.
+            // Startup takes time, too, and must not be scaled.
             let before = clock.wall();
             studio.pixels(&plan, &list[..1], Sampling::Planned);
             let now = clock.wall();

@@ -1,7 +1,7 @@
-//! Which settings to render with: the cheapest that keep a promise, or the best that are affordable.
+//! Chooses the settings to render with: the cheapest that keep a promise, or the best affordable ones.
 //!
-//! **In:** tuning pixels and their reference. **Out:** a [`Choice`]. **Invariant:** costs are rays
-//! times unit costs: the same choice on every run, unless a time is set in which to choose.
+//! **In:** tuning pixels and their reference. **Out:** a [`Choice`]. **Invariant:** costs are ray counts
+//! times unit costs, so the choice is reproducible, unless a time limit is set for choosing.
 
 use std::collections::BTreeMap;
 
@@ -12,35 +12,36 @@ use crate::plan::{Antialias, PlanOptions, plan};
 use crate::trace::{Counters, Sampling, Watch};
 use crate::world::Origins;
 
-/// Settings and what the tuning pixels say of them.
+/// Settings and their results on the tuning pixels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     pub options: PlanOptions,
-    /// In camera rays a pixel.
+    /// In camera rays per pixel.
     pub cost: f64,
     pub error: Estimate,
 }
 
-/// Pixels whose truth is known, to try settings on.
+/// Pixels with a known reference, on which settings are tried.
 pub struct Tuning<'a> {
     pub studio: Studio<'a>,
     pub origins: &'a Origins,
     pub list: &'a [(u32, u32)],
     pub reference: &'a Reference,
     pub metric: Metric,
-    /// Those the scene calls for.
+    /// Knobs that affect the scene.
     pub knobs: &'a [&'a Knob],
     /// The scene's own settings.
     pub own: PlanOptions,
     tried: BTreeMap<Vec<usize>, Choice>,
     settings: Vec<Vec<f64>>,
-    /// Who is told how much of the work of turning a knob is done.
+    /// Receives the progress of changing a knob.
     pub watch: Option<&'a dyn Watch>,
-    /// Hears of a knob before it is turned, and of how many samples of each pixel that takes at most.
+    /// Called before a knob is changed, with its name and the maximum number of samples per pixel that this
+    /// takes.
     pub tell: Option<&'a dyn Fn(&'static str, f64)>,
 }
 
-/// Of the work that a setting is predicted to be: what it is at least.
+/// Fraction of the predicted work that a setting is assumed to take at least.
 const PREDICTED: f64 = 0.9;
 
 impl<'a> Tuning<'a> {
@@ -68,8 +69,8 @@ impl<'a> Tuning<'a> {
         }
     }
 
-    /// Nothing deeper is tried, unless the scene's own setting is: of what looks deeper than the
-    /// reference that cannot tell the error.
+    /// Excludes depths greater than `most`, except the scene's own: a reference of that depth cannot
+    /// measure the error of deeper settings.
     pub fn no_deeper_than(&mut self, most: u32) {
         for (knob, settings) in self.knobs.iter().zip(&mut self.settings) {
             let own = self.own;
@@ -81,13 +82,13 @@ impl<'a> Tuning<'a> {
         }
     }
 
-    /// The colours of the tuning pixels.
+    /// Returns the colors of the tuning pixels.
     fn colors(&self, options: &PlanOptions) -> Option<(Vec<[f64; 3]>, Counters)> {
         let plan = plan(self.studio.world, self.origins, options);
         self.studio.colors(&plan, self.list, Sampling::Planned)
     }
 
-    /// What the tuning pixels say of settings, one of each knob. `None` when stopped, or not to be had.
+    /// Evaluates settings, one per knob, on the tuning pixels. `None` if stopped or unavailable.
     fn try_out(&mut self, places: &[usize]) -> Option<Choice> {
         if let Some(known) = self.tried.get(places) {
             return Some(known.clone());
@@ -115,7 +116,7 @@ impl<'a> Tuning<'a> {
         self.settings.iter().map(|all| all.len() - 1).collect()
     }
 
-    /// What the tuning pixels say of every knob at its dearest. `None` when stopped.
+    /// Evaluates every knob at its most expensive setting. `None` if stopped.
     pub fn dearest(&mut self) -> Option<Choice> {
         self.try_out(&self.last_places())
     }
@@ -124,8 +125,8 @@ impl<'a> Tuning<'a> {
         self.options(&self.last_places()) == *options
     }
 
-    /// The cheapest settings whose error is one that `keeps` the promise; the dearest when none is. One
-    /// knob after the other is lowered, the rest at their dearest or as settled before.
+    /// Returns the cheapest settings whose error satisfies `keeps`, or the most expensive if none does.
+    /// Lowers one knob after the other; the rest are at their most expensive or as settled before.
     pub fn cheapest(&mut self, keeps: &dyn Fn(&Estimate) -> bool) -> Option<Choice> {
         let mut places = self.last_places();
         let mut best: Option<Choice> = None;
@@ -175,7 +176,7 @@ impl<'a> Tuning<'a> {
     }
 }
 
-/// That a pixel is tried with: where neighbours decide, theirs count.
+/// Maximum number of samples with which a pixel is tried. If neighbours decide, theirs are included.
 fn most_samples(antialias: Antialias) -> f64 {
     let samples = |grid: u32| f64::from(grid) * f64::from(grid);
     match antialias {

@@ -1,8 +1,9 @@
-//! The error of a picture whose samples are spread unevenly: more pixels are looked at where it may hide.
+//! Estimates the error of a picture with unevenly distributed samples by drawing more pixels where errors
+//! are likely.
 //!
-//! **In:** how wrong each pixel is taken to be. **Out:** pixels drawn at random, what they really look
-//! like, and the error of the whole. **Invariant:** a pixel counts as many times less as it is likelier to
-//! be drawn, so that the estimate has the true error as its mean, whatever was taken for it.
+//! **In:** the expected error of each pixel. **Out:** randomly drawn pixels, their true colors, and the
+//! error of the picture. **Invariant:** each pixel is weighted by the inverse of its probability, so that
+//! the estimate is unbiased whatever errors were expected.
 //!
 //! **Source:** M. Hansen, W. Hurwitz, "On the theory of sampling from finite populations", Annals of
 //! Mathematical Statistics 14, 1943.
@@ -20,38 +21,38 @@ use crate::math::random::Random;
 use crate::plan::Plan;
 use crate::trace::{Aim, Counters};
 
-/// The part of all draws that takes any pixel for as likely as any other: so no pixel counts more than
-/// the inverse of it, however unlikely it was taken to be wrong.
+/// Fraction of draws that are uniform over all pixels. It bounds the weight of a pixel by its inverse,
+/// however small the expected error.
 const ANYWHERE: f64 = 0.5;
-/// Draws between two looks at what is left: enough for many threads.
+/// Number of draws between checks of the remaining time; enough for many threads.
 const BLOCK: usize = 64;
-/// Pixels whose parts are added up before one is drawn among them.
+/// Number of pixels whose shares are summed before one of them is drawn.
 const CHUNK: usize = 64;
-/// More than this tell little more: the interval is about a tenth of the error wide.
+/// Maximum number of draws; more add little, as the interval is about a tenth of the error wide.
 pub const MOST: usize = 2000;
 
 /// A pixel that was drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Drawn {
     place: (u32, u32),
-    /// How much it counts: 1 on the mean.
+    /// Weight, 1 on average.
     weight: f64,
-    /// Samples along its side.
+    /// Square root of the number of samples.
     side: u32,
 }
 
-/// Draws pixels one after the other, and any of them again.
+/// Draws pixels with replacement.
 pub struct Urn<'a> {
     canvas: &'a Canvas,
-    /// How wrong each pixel is taken to be, squared.
+    /// Square of the expected error of each pixel.
     errors: Vec<f32>,
-    /// Of those, chunk by chunk, each with all before it.
+    /// Cumulative sums of `errors`, by chunk.
     sums: Vec<f64>,
     random: Random,
 }
 
 impl<'a> Urn<'a> {
-    /// `worth` is of the same `canvas`.
+    /// `worth` must belong to the same `canvas`.
     pub fn new(canvas: &'a Canvas, worth: &Worth, seed: u64) -> Self {
         // The error of n × n samples, one in the middle of each part of a pixel: an edge crosses about n of
         // the parts, and each is then wrong at random; so its square falls with n³.
@@ -98,7 +99,7 @@ impl<'a> Urn<'a> {
     }
 }
 
-/// What drawn pixels really look like: two independent halves, as in a `Reference`.
+/// True colors of drawn pixels, as two independent halves like a `Reference`.
 pub struct Truth {
     drawn: Vec<Drawn>,
     halves: [Vec<[f64; 3]>; 2],
@@ -106,8 +107,8 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// Of as many pixels as are done when the clock shows what `until` says to those that are known, and
-    /// of no more than [`MOST`].
+    /// Computes as many pixels, up to [`MOST`], as fit before the clock reaches the time that `until`
+    /// returns for those already known.
     pub fn find(
         studio: &Studio,
         plan: &Plan,
@@ -154,7 +155,7 @@ impl Truth {
         self.drawn.len()
     }
 
-    /// What they say of a film.
+    /// Estimates the error of a film.
     pub fn audit(&self, film: &Film, metric: Metric) -> Audit {
         let list: Vec<_> = self.drawn.iter().map(|drawn| drawn.place).collect();
         let weights: Vec<f64> = self.drawn.iter().map(|drawn| drawn.weight).collect();
@@ -173,9 +174,10 @@ impl Truth {
     }
 }
 
-/// Below this an error cannot be told from the reference's own. The mean of (x − A)(x − B) is the true
-/// square error whatever the noise of A and B, and its interval knows of it: where that reaches down to
-/// nothing, nothing is known but its end. The other metrics take noise for error.
+/// Returns the bound below which an error cannot be distinguished from that of the reference. The mean of
+/// (x − A)(x − B) is the true square error whatever the noise of A and B, and its interval accounts for
+/// that noise; if the interval reaches 0, only its upper end is known. The other metrics count noise as
+/// error.
 fn resolution(metric: Metric, error: Estimate, noise: f64) -> f64 {
     match metric {
         Metric::Rmse if error.low > 0.0 => 0.0,
@@ -184,9 +186,9 @@ fn resolution(metric: Metric, error: Estimate, noise: f64) -> f64 {
     }
 }
 
-/// Samples along the side of each half of a pixel's truth. For RMSE as many as the pixel itself has and a
-/// fifth more: their noise is then of the size of its error, which is where a given time tells most;
-/// others take noise for error, and want it small.
+/// Returns the samples along the side of each half of a pixel's reference. For RMSE, a fifth more than the
+/// pixel itself has: their noise is then about as large as its error, which is the most efficient use of a
+/// given time. Other metrics count noise as error and need it to be small.
 fn side(metric: Metric, side: u32) -> u32 {
     match metric {
         Metric::Rmse => (side + side.div_ceil(10)).max(2),

@@ -1,17 +1,18 @@
-//! The settings a promised picture is made and judged by, and the flags that make them.
+//! Holds the settings with which a picture under a promise is rendered and judged, and the flags for them.
 //!
-//! **In:** a World and its frame. **Out:** its own settings, the dearest, and the knobs between.
+//! **In:** a World and its frame. **Out:** its own settings, the most expensive ones, and the knobs between
+//! them.
 
 use super::knob::Knob;
 use super::{Options, called_for, dearest, own};
 use crate::plan::PlanOptions;
 use crate::world::{Origins, World};
 
-/// The plans a picture is made and judged by.
+/// The plans with which a picture is rendered and judged.
 pub struct Easel<'a> {
     pub own: PlanOptions,
     pub deepest: PlanOptions,
-    /// Those the scene calls for.
+    /// Knobs that affect the scene.
     pub knobs: Vec<&'a Knob>,
 }
 
@@ -27,7 +28,7 @@ impl<'a> Easel<'a> {
         flags.collect::<Vec<_>>().join(" ")
     }
 
-    /// The same without the number of samples, which is each pixel's own.
+    /// Returns the flags without the number of samples, which differs between pixels.
     pub fn flags_of_rays(&self, options: &PlanOptions) -> String {
         let knobs = self.knobs.iter().filter(|knob| knob.name != "antialias");
         let flags = knobs.map(|knob| (knob.flag)((knob.get)(options)));

@@ -1,8 +1,8 @@
-//! About how long each setting's picture will take, before it is made.
+//! Forecasts how long the picture of each setting takes, before rendering it.
 //!
-//! **In:** settings, pixels spread over the picture, a time to be done by. **Out:** a [`Forecast`].
-//! **Invariant:** settings are compared by what was counted at the same pixels, so what else the machine
-//! does changes no order; seconds are those of the pictures made so far, for as much work.
+//! **In:** settings, pixels spread over the picture, a deadline. **Out:** a [`Forecast`]. **Invariant:**
+//! settings are compared by counts at the same pixels, so the load of the machine does not change their
+//! order; seconds are extrapolated from the pictures rendered so far, in proportion to the work.
 
 use std::cmp::Ordering;
 
@@ -14,29 +14,29 @@ use super::trial::{Candidate, Picture};
 use crate::plan::{Antialias, Plan};
 use crate::trace::{Counters, Pixels, Sampling};
 
-/// Pixels that are looked at: enough to tell dear from cheap.
+/// Number of pixels traced, enough to distinguish expensive from cheap settings.
 const PIXELS: usize = 64;
-/// How many times more pixels are looked at next, where it was told too soon: before this part of the time
-/// there is.
+/// Factor by which the number of pixels grows if the trial was too short, that is, took less than this
+/// fraction of the available time.
 const MORE: usize = 4;
 const ENOUGH: f64 = 0.25;
-/// Of all audited pixels of a small picture.
+/// Minimum number of pixels, for small pictures.
 const FEWEST: usize = 16;
-/// Of the time that is left: what looking at one setting may take.
+/// Fraction of the remaining time for evaluating one setting.
 const FOR_ONE: f64 = 0.25;
 
-/// What a few pixels say of each candidate.
+/// Results of a few pixels for each candidate.
 pub struct Forecast {
-    /// In rays of the camera for those pixels; infinite where it is not known, for want of time.
+    /// In camera rays for those pixels; infinite if unknown for lack of time.
     costs: Vec<f64>,
     pub looks: Vec<Option<Look>>,
 }
 
-/// The colours of some pixels under a setting, and what was counted.
+/// Colors of some pixels under a setting, and the counters.
 pub type Look = (Vec<[f64; 3]>, Counters);
 
-/// About how many seconds a candidate's picture takes by the clock on the wall, from one ray of each of a few
-/// pixels and the samples that its antialiasing gives them: known at once, and too low rather than too high.
+/// Estimates how many wall-clock seconds a candidate's picture takes, from one ray for each of a few pixels
+/// and the samples that its antialiasing gives them. Available at once; too low rather than too high.
 pub fn at_once(
     studio: &Studio,
     candidate: &Candidate,
@@ -45,7 +45,7 @@ pub fn at_once(
 ) -> f64 {
     let region = candidate.plan.frame.region;
     let pixels = region.pixels();
-    // The tree of boxes is no part of it.
+    // Builds the bounding volume hierarchy first, so that it is not timed.
     studio.geometry(&candidate.plan);
     let half = (until - clock.wall()).max(0.0) / 2.0;
     let look = |antialias: Antialias, few: usize, until: f64| {
@@ -54,12 +54,11 @@ pub fn at_once(
         let studio = Studio { watch: &in_time, ..*studio };
         let plan = Plan { antialias, ..candidate.plan.clone() };
         let Pixels { radiance, counters } = studio.pixels(&plan, &list[..few], Sampling::Planned);
-        // Of those that are not done the others tell.
+        // Unfinished pixels are estimated from the finished ones.
         let done = radiance.iter().flatten().count().max(1) as f64;
         ((clock.wall() - began) / done, counters.camera as f64 / done)
     };
-    // More and more, until what they take is something that a clock can tell, beside all that it takes to
-    // begin.
+    // Adds pixels until their time is measurable and exceeds the startup cost.
     let (began, mut few) = (clock.wall(), PIXELS.min(list.len()));
     let (mut a_sample, _) = look(Antialias::Off, few, began + half);
     while few < list.len() && clock.wall() - began < ENOUGH * half {
@@ -70,7 +69,7 @@ pub fn at_once(
         Antialias::Off => 1.0,
         Antialias::Grid(n) => f64::from(n) * f64::from(n),
         Antialias::Adaptive { threshold, grid } => {
-            // A pixel by itself asks its neighbours, too, which in a picture have been asked.
+            // A single pixel also samples its neighbours, which are already sampled in a full picture.
             let rays = |threshold| {
                 let adaptive = Antialias::Adaptive { threshold, grid };
                 look(adaptive, PIXELS.min(few), clock.wall() + half).1
@@ -81,7 +80,7 @@ pub fn at_once(
     a_sample * samples * pixels
 }
 
-/// Looks at a few pixels under each setting, those first that cost least at least.
+/// Evaluates a few pixels under each setting, in order of the settings' minimum costs.
 pub fn forecast(
     studio: &Studio,
     candidates: &[Candidate],
@@ -108,18 +107,19 @@ pub fn forecast(
 }
 
 impl Forecast {
-    /// From cheap to dear; what is not known last, by what it costs at least.
+    /// Orders candidates from cheap to expensive; those with unknown costs come last, in order of their
+    /// minimum costs.
     pub fn compare(&self, candidates: &[Candidate], a: usize, b: usize) -> Ordering {
         let least = |number: usize| candidates[number].least;
         self.costs[a].total_cmp(&self.costs[b]).then(least(a).total_cmp(&least(b)))
     }
 
-    /// What a candidate's picture will take by the clock on the wall, from those of others.
+    /// Forecasts the wall-clock seconds for a candidate's picture from those of other pictures.
     pub fn seconds(&self, number: usize, pictures: &[Picture]) -> f64 {
         self.costs[number] * self.a_unit(pictures)
     }
 
-    /// A candidate's picture was not done after so many seconds.
+    /// Records that a candidate's picture was not finished after `seconds`.
     pub fn is_at_least(&mut self, number: usize, seconds: f64, pictures: &[Picture]) {
         let a_unit = self.a_unit(pictures);
         if a_unit > 0.0 && self.costs[number].is_finite() {
@@ -127,7 +127,7 @@ impl Forecast {
         }
     }
 
-    /// Seconds for each unit of cost.
+    /// Returns the seconds per unit of cost.
     fn a_unit(&self, pictures: &[Picture]) -> f64 {
         let known = || pictures.iter().filter(|picture| self.costs[picture.candidate].is_finite());
         let seconds: f64 = known().map(|picture| Span::of(&picture.times.wall).median).sum();

@@ -1,48 +1,46 @@
-//! Which settings are worth their cost: a partial order, and what it says of each.
+//! Decides which settings are worth their cost: a partial order, and the verdict on each setting.
 //!
-//! **Invariant:** one setting is cheaper than another when its counted cost is less and, in the seconds,
-//! its middle run is shorter than the other's shortest (of a row with too few runs, by more than those of
-//! others lie apart); or when it is shorter by more than counted costs are off. So no verdict goes against a column that the
-//! reader sees, and [`Order::dominates`] is a strict partial order by construction: a number, an interval
-//! order and a product order over shared resamples are transitive, and so are they together; and what is
-//! shorter by much than what is not longer is shorter by much. What is
-//! not proven is never taken for equal: equal is only what was the same work, or the same error to the
-//! last bit.
+//! **Invariant:** a setting is cheaper than another if its counted cost is less and its median run time is
+//! shorter than the other's shortest (for a row with too few runs, by more than the spread of the other
+//! rows); or if it is faster by more than the error of counted costs. So no verdict contradicts a column of
+//! the table, and [`Order::dominates`] is a strict partial order by construction: a number, an interval
+//! order and a product order over shared resamples are transitive, and so is their combination; and a
+//! setting that is much faster than one that is not slower is itself much faster. Unproven differences are
+//! never taken for equality: only identical work, or errors identical to the last bit, are equal.
 
 use super::Span;
 use super::statistics::Estimate;
 use crate::trace::Counters;
 
-/// Less than this is no reason to pay more.
+/// Ratio of errors below which a difference is not worth paying for.
 const WORTH: f64 = 1.01;
-/// Of two settings, how much longer the dearer takes where counted costs may be wrong and the clock is not:
-/// those are off by up to 9 % within a scene.
+/// Ratio of run times above which a setting is slower whatever the counted costs; these are off by up to 9
+/// % within a scene.
 const SURELY: f64 = 1.15;
 
-/// A setting as the order sees it.
+/// A setting, as used for ordering.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
-    /// What was counted, and the unit cost of the arithmetic: alike for settings that are the same work.
+    /// Counters, and the unit cost of the arithmetic; equal for settings that do the same work.
     pub work: (Counters, f64),
-    /// The counted work in rays of the camera.
+    /// Counted work in camera rays.
     pub cost: f64,
-    /// CPU seconds; those that are the same work share their runs.
+    /// CPU seconds; settings that do the same work share their runs.
     pub cpu: Span,
-    /// How far those may be off, as a part of them: nothing where there are runs enough, elsewhere as far
-    /// as the runs of others lie apart.
+    /// Relative uncertainty of those: 0 with enough runs, otherwise the spread of the runs of other
+    /// settings.
     pub doubt: f64,
-    /// The error as measured, with its 95 % interval.
+    /// Measured error with its 95 % interval.
     pub error: Estimate,
-    /// That of the resamples, which all points share.
+    /// Errors of the resamples, which are shared by all points.
     pub resamples: Vec<f64>,
-    /// Whatever is below cannot be told from nothing: of an error measured there, all that is known is
-    /// that it lies between. The same for all points.
+    /// Errors below this cannot be distinguished from 0. The same for all points.
     pub resolution: f64,
 }
 
 impl Point {
-    /// Where each of its errors lies: of the one measured, and of every resample, which counts no
-    /// further than the interval goes.
+    /// Returns the bounds of each error: of the measured one, and of every resample, limited to the
+    /// interval.
     fn bounds(&self) -> impl Iterator<Item = (f64, f64)> {
         let Estimate { value, low, high } = self.error;
         let inside = move |&resample: &f64| resample.max(low).min(high);
@@ -54,7 +52,7 @@ impl Point {
 }
 
 impl Point {
-    /// The error that is printed: where it cannot be told from nothing, the most that it can be.
+    /// Returns the error to print: if it cannot be distinguished from 0, its upper bound.
     fn shown(&self) -> f64 {
         match self.error.value < self.resolution {
             true => self.error.high.max(self.resolution),
@@ -62,7 +60,7 @@ impl Point {
         }
     }
 
-    /// By the clock, so many times: what is surely longer than the other takes less than this.
+    /// Whether this point is faster than `than` by the clock, by the factor `times`.
     fn is_quicker(&self, than: &Self, times: f64) -> bool {
         // A clock too coarse to see a run says nothing of it.
         let surely = (1.0 + self.doubt) * (1.0 + than.doubt) * times;
@@ -70,24 +68,24 @@ impl Point {
     }
 }
 
-/// What is to be said of a setting; how many times as long as another it takes is of the middle runs.
+/// Verdict on a setting. Time ratios are those of the median runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
     /// Every cheaper setting is proven to be worse.
     Front,
-    /// Another is no dearer and no worse, and one of both it is better: this one takes `times` as
-    /// long (nothing where both are the same work), and that one has `error` times the error.
+    /// Another setting is no more expensive and no worse, and better in one of these. This one takes
+    /// `times` as long (`None` if both do the same work), and the other has `error` times its error.
     Dominated { by: usize, times: Option<f64>, error: f64 },
-    /// A cheaper one, or one that is quicker by the clock alone and better, is not proven to be worse.
+    /// A cheaper setting, or one that is faster by the clock alone and better, is not proven to be worse.
     Unproven { over: usize, times: f64 },
-    /// Neither in cost nor in error can it be told from this one.
+    /// Not distinguishable from another setting in cost or in error.
     Tied { with: usize },
 }
 
-/// Points in order of cost and of error.
+/// Partial order of points by cost and error.
 pub struct Order {
     points: Vec<Point>,
-    /// Which point gains over which: each resample of each pair is looked at once.
+    /// Which point gains over which, so that the resamples of each pair are compared only once.
     gains: Vec<Vec<bool>>,
     dominates: Vec<Vec<bool>>,
 }
@@ -115,18 +113,18 @@ impl Order {
         a.work == b.work && a.cost == b.cost && a.cpu == b.cpu && a.doubt == b.doubt
     }
 
-    /// By what was counted, and by the clock; or by the clock beyond doubt.
+    /// Whether `a` is cheaper than `b`, by counts and by the clock, or by the clock beyond doubt.
     pub fn is_cheaper(&self, a: usize, b: usize) -> bool {
         let (a, b) = (&self.points[a], &self.points[b]);
         a.cost < b.cost && a.is_quicker(b, 1.0) || a.is_quicker(b, SURELY)
     }
 
-    /// By the clock alone.
+    /// Whether `a` is cheaper than `b` by the clock alone.
     pub fn is_quicker(&self, a: usize, b: usize) -> bool {
         self.points[a].is_quicker(&self.points[b], 1.0)
     }
 
-    /// How many times as long as `a`, if it is dearer, `b` takes.
+    /// Returns how many times as long as `a` `b` takes, if it is more expensive.
     pub fn times(&self, a: usize, b: usize) -> Option<f64> {
         self.is_cheaper(a, b).then(|| self.longer(a, b))
     }
@@ -135,7 +133,7 @@ impl Order {
         self.points[b].cpu.median / self.points[a].cpu.median
     }
 
-    /// Of each error the most that the one's can be, against the least that the other's can be.
+    /// Whether `holds` is true for each error, given the upper bound of `a` and the lower bound of `b`.
     fn each_error(&self, a: usize, b: usize, holds: impl Fn(f64, f64) -> bool) -> bool {
         let pairs = self.points[a].bounds().zip(self.points[b].bounds());
         pairs.into_iter().all(|((_, most), (least, _))| holds(most, least))
@@ -146,35 +144,35 @@ impl Order {
         a.error == b.error && a.resamples == b.resamples
     }
 
-    /// In no resample is its error the larger.
+    /// Whether the error of `a` is not larger in any resample.
     fn is_no_worse(&self, a: usize, b: usize) -> bool {
         self.has_same_errors(a, b) || self.each_error(a, b, |a, b| a <= b)
     }
 
-    /// In every resample its error is the smaller: among as many pairs as a report has, less than all
-    /// of a thousand would be seen by chance. Always where the intervals have nothing in common.
+    /// Whether the error of `a` is smaller in every resample, or the intervals are disjoint. With as many
+    /// pairs as a report has, smaller errors in nearly all of a thousand resamples would occur by chance.
     fn is_better(&self, a: usize, b: usize) -> bool {
         self.each_error(a, b, |a, b| a < b)
     }
 
-    /// Its error is proven to be the smaller by more than a hundredth.
+    /// Whether the error of `a` is proven to be smaller by more than a hundredth.
     pub fn gains(&self, a: usize, over: usize) -> bool {
         self.gains[a][over]
     }
 
-    /// No dearer, no worse, and one of both it is better.
+    /// Whether `a` is no more expensive and no worse than `b`, and better in one of these.
     pub fn dominates(&self, a: usize, b: usize) -> bool {
         self.dominates[a][b]
     }
 
-    /// The points of a list by counted cost; of the same cost, as they came.
+    /// Sorts the points of a list by counted cost; equal costs keep their order.
     pub fn from_cheap_to_dear(&self, list: &[usize]) -> Vec<usize> {
         let mut sorted = list.to_vec();
         sorted.sort_by(|&a, &b| self.points[a].cost.total_cmp(&self.points[b].cost));
         sorted
     }
 
-    /// A verdict for each point of a list, among these alone.
+    /// Returns a verdict for each point of a list, considering only this list.
     pub fn verdicts(&self, list: &[usize]) -> Vec<Verdict> {
         let sorted = self.from_cheap_to_dear(list);
         list.iter().map(|&i| self.verdict(i, &sorted)).collect()

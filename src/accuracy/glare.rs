@@ -1,14 +1,15 @@
-//! Light so far beyond white that what shows it is seen in less of a pixel than a sample has.
+//! Detects lights so bright that they matter even in a fraction of a pixel that falls between samples.
 //!
-//! **Invariant:** what no sample met is in no error that samples tell; where that may be much, it is said.
+//! **Invariant:** features that no sample hits do not appear in the estimated error; if they may be
+//! significant, a note says so.
 
 use crate::world::World;
 
-/// In whites: from here on a sliver of a thirtieth of a pixel makes all of it white.
+/// Brightness in units of white from which a sliver of a thirtieth of a pixel makes all of it white.
 const GLARING: f64 = 30.0;
 
-/// How many times white the brightest light or glow is, where that is so much that it may hide between
-/// samples. A light that fades is as bright as it is where it shines, which is not known.
+/// Returns the brightness of the brightest light or emission in units of white, if it is high enough to
+/// matter between samples. Lights that fade are excluded, because their brightness depends on the distance.
 pub fn glare(world: &World) -> Option<f64> {
     let lights = world
         .lights

@@ -1,4 +1,4 @@
-//! The report for programs: one JSON object.
+//! Formats the report as one JSON object.
 
 use serde::Serialize;
 
@@ -6,7 +6,7 @@ use super::{Estimate, Metric, Report, Verdict, answer, table};
 use crate::geometry;
 use crate::trace::Counters;
 
-/// What was measured where.
+/// Environment of the measurement.
 #[derive(Debug, Clone, Serialize)]
 pub struct Host {
     pub os: String,
@@ -14,7 +14,7 @@ pub struct Host {
     pub cpu: String,
     pub cores: usize,
     pub threads: usize,
-    /// Of lucarne.
+    /// Version of lucarne.
     pub version: String,
 }
 
@@ -30,12 +30,12 @@ struct Whole<'a> {
     cut: Vec<String>,
     reference_samples: u32,
     noise_floor: Numbers,
-    /// The fewest of a row, and the most.
+    /// Minimum and maximum number of runs per row.
     runs: [usize; 2],
-    /// The part of the threads' time that tracing had.
+    /// Fraction of the threads' time that tracing had.
     share_of_time: f64,
     does_nothing: &'a [String],
-    /// What to use, as sentences.
+    /// Recommendation, as sentences.
     answer: Vec<String>,
     knobs: Vec<KnobJson<'a>>,
     rows: Vec<RowJson<'a>>,
@@ -52,7 +52,7 @@ struct Numbers {
 struct KnobJson<'a> {
     name: &'a str,
     sentence: &'a str,
-    /// Settings that change no audited pixel, and were not timed.
+    /// Settings that change no audited pixel and were not timed.
     same_picture: &'a [String],
     left_out: &'a [String],
     settings: Vec<SettingJson<'a>>,
@@ -81,8 +81,8 @@ struct RowJson<'a> {
     verdict: VerdictJson,
 }
 
-/// `front`; `tied` with another row; `unproven` over a cheaper one; or `dominated` by one whose error
-/// is `part_of_error` of this one's. This one takes `times_as_long` as the other.
+/// `front`; `tied` with another row; `unproven` over a cheaper one; or `dominated` by one whose error is
+/// `part_of_error` times this one's. This row takes `times_as_long` as the other.
 #[derive(Serialize)]
 struct VerdictJson {
     verdict: &'static str,
@@ -119,7 +119,7 @@ struct Rays {
 struct Work {
     box_visits: u64,
     root_solves: u64,
-    /// What those took, in equations of a sphere.
+    /// Cost of solving them, in equations of a sphere.
     solving: u64,
 }
 
@@ -130,7 +130,7 @@ struct Errors {
     bad: Bounds,
 }
 
-/// Where it is not `resolved`, the error is less than `value`.
+/// If not `resolved`, the error is less than `value`.
 #[derive(Serialize)]
 struct Bounds {
     value: f64,
@@ -146,7 +146,7 @@ impl Bounds {
     }
 }
 
-/// What is to be said where no knob that was asked for does anything.
+/// Report if none of the requested knobs has an effect.
 #[derive(Serialize)]
 struct Nothing<'a> {
     file: &'a str,
@@ -155,14 +155,14 @@ struct Nothing<'a> {
     rows: [(); 0],
 }
 
-/// One line, where nothing was measured: none of the knobs does anything.
+/// Returns one line that reports that nothing was measured because no knob has an effect.
 pub fn nothing(file: &str, idle: &[String]) -> String {
     let nothing = Nothing { file, does_nothing: idle, knobs: [], rows: [] };
     // Texts only: nothing here can fail to serialise.
     serde_json::to_string(&nothing).unwrap_or_default()
 }
 
-/// One line.
+/// Returns the report on one line.
 pub fn line(report: &Report, file: &str, host: &Host) -> String {
     let [rmse, p99, bad] = report.floors;
     let knobs = report.knobs.iter().map(|knob| KnobJson {

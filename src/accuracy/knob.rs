@@ -1,60 +1,60 @@
-//! The knobs: every setting that buys accuracy with time, in one table.
+//! Lists the knobs: every setting that trades time for accuracy, in one table.
 //!
-//! **Invariant:** a knob is a field of [`PlanOptions`] and one entry of [`KNOBS`]; one whose effect the
-//! scene does not call for is not looked at. Unit costs are constants, so what is chosen by them is the
-//! same on every machine and run.
+//! **Invariant:** a knob is a field of [`PlanOptions`] and one entry of [`KNOBS`]; a knob for an effect
+//! that the scene does not use is skipped. Unit costs are constants, so choices based on them are the same
+//! on every machine and run.
 
 use crate::geometry::Work;
 use crate::plan::{Antialias, Effect, Plan, PlanOptions, Precision};
 use crate::trace::Counters;
 use crate::world::{Object, World};
 
-/// A setting of the plan with its values from cheap to dear.
+/// A setting of the plan, with its values from cheap to expensive.
 #[derive(Debug, Clone, Copy)]
 pub struct Knob {
     pub name: &'static str,
-    /// Without it the knob does nothing.
+    /// What the scene must contain for the knob to have an effect.
     pub needs: Need,
-    /// What is to be said of a scene that has nothing of that.
+    /// Message for scenes that do not contain it.
     pub idle: &'static str,
-    /// From coarse to fine, rising or falling; that is from cheap to dear, but for `precision`, whose
-    /// coarse setting costs more. A report has them in the order of what they cost there.
+    /// Settings from coarse to fine, ascending or descending. They are also in order of cost, except for
+    /// `precision`, whose coarse setting costs more. A report orders them by measured cost.
     pub settings: &'static [f64],
     pub own: Own,
     pub set: fn(&mut PlanOptions, f64),
     pub get: fn(&PlanOptions) -> f64,
-    /// The least a setting can cost, in camera rays a pixel.
+    /// Minimum cost of a setting, in camera rays per pixel.
     pub least: fn(f64) -> f64,
-    /// What a setting does to the cost of every ray.
+    /// Factor by which a setting changes the cost of every ray.
     pub factor: fn(f64) -> f64,
     pub label: fn(f64) -> String,
-    /// The flag of `render` that sets it.
+    /// Flag of `render` that selects the setting.
     pub flag: fn(f64) -> String,
 }
 
-/// Where the scene's own value stands among the settings.
+/// Position of the scene's own value among the settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Own {
-    /// It is one of them.
+    /// It is one of the settings.
     Among,
-    /// It may stand between them.
+    /// It may lie between two settings.
     Between,
-    /// It is the finest, whatever they are: none beyond it changes anything.
+    /// It is the finest, whatever the settings: no finer one changes anything.
     Last,
 }
 
-/// What a scene must call for.
+/// What a scene must contain.
 #[derive(Debug, Clone, Copy)]
 pub enum Need {
-    /// Anything that is not one colour all over.
+    /// Anything that is not a single uniform color.
     Edges,
     /// One of these effects.
     Effect(&'static [Effect]),
-    /// Something that rays can meet in 32 bits.
+    /// A shape with a single-precision kernel.
     SinglePrecision,
-    /// A solid whose crossings are found by steps that come nearer and nearer.
+    /// A solid whose intersections are found iteratively.
     IteratedRoots,
-    /// A fractal of some iterations.
+    /// A fractal with several iterations.
     Fractals,
 }
 
@@ -70,7 +70,7 @@ impl Need {
     }
 }
 
-/// Every knob. A later effect adds its entry here.
+/// All knobs. A new effect adds its entry here.
 pub const KNOBS: &[Knob] = &[
     Knob {
         name: "antialias",
@@ -150,7 +150,7 @@ pub const KNOBS: &[Knob] = &[
         set: |options, tolerance| options.root_tolerance = tolerance,
         get: |options| options.root_tolerance,
         least: |_| 1.0,
-        // Of instructions, where nearly all that is met has iterated roots: Newton's last steps are few.
+        // Instructions saved where nearly all shapes have iterated roots: Newton's last steps are few.
         factor: |tolerance| if tolerance > 0.0 { 0.985 } else { 1.0 },
         label: |tolerance| match tolerance {
             0.0 => "all digits".to_owned(),
@@ -170,7 +170,7 @@ pub const KNOBS: &[Knob] = &[
         set: |options, most| options.julia_iterations = Some(most as u32),
         get: |options| options.julia_iterations.map_or(0.0, f64::from),
         least: |_| 1.0,
-        // Their price is counted with the equations.
+        // Their cost is included in the counted equations.
         factor: |_| 1.0,
         label: |most| format!("{most}"),
         flag: |most| format!("--julia-iterations {most}"),
@@ -178,11 +178,11 @@ pub const KNOBS: &[Knob] = &[
 ];
 
 const PRECISIONS: [Precision; 2] = [Precision::Single, Precision::Double];
-/// What is counted costs in single precision, of what it costs in double: rounding a ray as seen from
-/// each shape costs more than the kernels save.
+/// Cost of counted work in single precision, relative to double: rounding a ray for each shape costs more
+/// than the kernels save.
 const SINGLE: f64 = 1.11;
 
-/// `1/255`, `0.3` or `1e-6`: read again it is the same number.
+/// Formats a weight as `1/255`, `0.3` or `1e-6`, such that parsing it returns the same number.
 pub fn share(weight: f64) -> String {
     let parts = (1.0 / weight).round();
     let (plain, short) = (format!("{weight}"), format!("{weight:e}"));
@@ -199,7 +199,7 @@ fn precision(double: f64) -> &'static str {
     if double > 0.0 { "double" } else { "single" }
 }
 
-/// The ways to antialias, about from coarse to fine; the third is what `render` does.
+/// Antialiasing modes, approximately from coarse to fine; the third is the default of `render`.
 const LADDER: [Antialias; 14] = [
     Antialias::Off,
     Antialias::Adaptive { threshold: 0.1, grid: 3 },
@@ -217,7 +217,7 @@ const LADDER: [Antialias; 14] = [
     Antialias::Grid(32),
 ];
 
-/// Their places, as settings.
+/// Indices into [`LADDER`], as settings.
 const RUNGS: [f64; LADDER.len()] = {
     let mut places = [0.0; LADDER.len()];
     let mut place = 1;
@@ -228,19 +228,20 @@ const RUNGS: [f64; LADDER.len()] = {
     places
 };
 
-/// What stands at a place of [`RUNGS`].
+/// Returns the mode for an index in [`RUNGS`].
 fn rung(place: f64) -> Antialias {
     debug_assert!(RUNGS.contains(&place), "{place} is no rung");
     LADDER[(place as usize).min(LADDER.len() - 1)]
 }
 
 impl Knob {
-    /// Whether a coarser setting makes other solids of the scene's, and not only a coarser picture of them.
+    /// Whether a coarser setting changes the scene's solids, rather than only the accuracy of their
+    /// picture.
     pub fn changes_solids(&self) -> bool {
         matches!(self.needs, Need::IteratedRoots | Need::Fractals)
     }
 
-    /// The setting that costs least in any scene.
+    /// Returns the setting with the lowest cost in any scene.
     pub fn cheapest(&self) -> f64 {
         let cost = |setting: f64| (self.least)(setting) * (self.factor)(setting);
         let first = self.settings.first().copied().unwrap_or_default();
@@ -250,7 +251,7 @@ impl Knob {
             .fold(first, |best, s| if cost(s) < cost(best) { s } else { best })
     }
 
-    /// The settings, with the scene's `own` among them: each once, from coarse to fine.
+    /// Returns the settings and the scene's `own`, without duplicates, from coarse to fine.
     pub fn with(&self, own: f64) -> Vec<f64> {
         let mut all = self.settings.to_vec();
         let rising = all.first() < all.last();
@@ -266,16 +267,16 @@ impl Knob {
     }
 }
 
-/// What a ray costs beyond what it takes to find what it meets, and what that takes: in rays of the camera
-/// that meet nothing. Fitted to CPU seconds of the gallery, see `docs/accuracy.md`; a ray toward a light
-/// costs nothing beyond.
+/// Cost of a ray apart from finding its intersection, and of finding it, in camera rays that hit nothing.
+/// Fitted to CPU seconds of the gallery, see `docs/accuracy.md`. Apart from its intersection, a ray toward
+/// a light costs nothing.
 const REFLECTION: f64 = 0.15;
 const TRANSMISSION: f64 = 6.1;
 const BOX_VISIT: f64 = 0.24;
-/// Of a sphere's equation; others are counted as so many of it.
+/// Cost of solving the equation of a sphere; other equations are counted as multiples of it.
 const ROOT_SOLVE: f64 = 0.24;
 
-/// What was counted, in rays of the camera that meet nothing.
+/// Returns the counted work in camera rays that hit nothing.
 pub fn cost(counters: &Counters) -> f64 {
     let Counters {
         camera,

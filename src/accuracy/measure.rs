@@ -1,35 +1,35 @@
-//! How long pictures take: tracing is timed apart from what surrounds it.
+//! Measures how long pictures take; tracing is timed separately from setup.
 
 use std::sync::Mutex;
 
 use crate::trace::Watch;
 
-/// Seconds, from wherever they are counted.
+/// Clocks, in seconds from an arbitrary origin.
 pub trait Clock: Sync {
     fn wall(&self) -> f64;
-    /// Of all threads of the process together.
+    /// CPU time of all threads of the process.
     fn cpu(&self) -> f64;
 }
 
-/// Seconds of tracing alone: the tree of boxes is built before.
+/// Seconds for tracing alone; the bounding volume hierarchy is built before.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Times {
     pub cpu: Vec<f64>,
     pub wall: Vec<f64>,
 }
 
-/// Fewer runs do not tell how far runs lie apart.
+/// Minimum number of runs from which a spread can be computed.
 const TELL: usize = 3;
 
 impl Times {
-    /// How much longer the longest run took than the shortest, of the shortest, in CPU seconds; `None` where
-    /// there are too few runs to tell.
+    /// Returns the spread of the runs: the difference of the longest and the shortest, relative to the
+    /// shortest, in CPU seconds. `None` with too few runs.
     pub fn apart(&self) -> Option<f64> {
         let (least, most) = self.ends()?;
         (self.cpu.len() >= TELL && least > 0.0).then_some(most / least - 1.0)
     }
 
-    /// The shortest run and the longest, in CPU seconds.
+    /// Returns the shortest and the longest run, in CPU seconds.
     pub fn ends(&self) -> Option<(f64, f64)> {
         let least = self.cpu.iter().copied().reduce(f64::min)?;
         let most = self.cpu.iter().copied().reduce(f64::max)?;
@@ -37,7 +37,7 @@ impl Times {
     }
 }
 
-/// The least and the middle one.
+/// Minimum and median.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Span {
     pub min: f64,
@@ -58,7 +58,7 @@ impl Span {
     }
 }
 
-/// Watches one picture: notes when tracing begins, and passes on only the wish to stop.
+/// Watches one picture: records when tracing begins, and forwards only stop requests.
 pub struct Timer<'a> {
     clock: &'a dyn Clock,
     watch: &'a dyn Watch,
@@ -70,7 +70,7 @@ impl<'a> Timer<'a> {
         Self { clock, watch, began: Mutex::new(None) }
     }
 
-    /// CPU and wall-clock seconds since tracing began.
+    /// Returns CPU and wall-clock seconds since tracing began.
     pub fn read(&self) -> (f64, f64) {
         let began = self.began.lock().map_or(None, |began| *began).unwrap_or_default();
         (self.clock.cpu() - began.0, self.clock.wall() - began.1)
@@ -93,11 +93,11 @@ impl Watch for Timer<'_> {
     }
 }
 
-/// Watches many pictures, and says at each step of any of them how much of the time is spent.
+/// Watches many pictures, and reports the fraction of the budget that is spent at each step of any of them.
 pub struct Elapsing<'a> {
     pub clock: &'a dyn Clock,
     pub began: f64,
-    /// Seconds.
+    /// In seconds.
     pub budget: f64,
     pub watch: &'a dyn Watch,
 }

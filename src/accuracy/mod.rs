@@ -1,8 +1,8 @@
-//! The same World under many Plans: what each setting costs and what it buys.
+//! Renders a World under many Plans to measure the cost and the accuracy of each setting.
 //!
-//! **In:** a [`World`], the knobs to try, a budget of seconds. **Out:** a [`Report`]. **Invariant:**
-//! pixels, samples and intervals are drawn from seeds, so errors are the same on every run that has
-//! time for the same reference; only seconds differ. Nothing here prints or reads disks.
+//! **In:** a [`World`], the knobs to try, a budget in seconds. **Out:** a [`Report`]. **Invariant:**
+//! pixels, samples and intervals are drawn from seeds, so errors are the same on every run that has time
+//! for the same reference; only seconds differ. Nothing here prints or accesses disks.
 
 mod afford;
 mod alike;
@@ -50,32 +50,33 @@ use measure::Elapsing;
 use reference::{Geometries, Reference, Studio};
 use trial::{Bench, Candidate, Picture, Trial};
 
-/// What is asked.
+/// Options of a measurement.
 #[derive(Debug, Clone, Copy)]
 pub struct Options<'a> {
     pub frame: Frame,
     pub knobs: &'a [Knob],
     pub metric: Metric,
-    /// Seconds by the wall clock.
+    /// In wall-clock seconds.
     pub budget: f64,
-    /// Of the audited pixels and the reference's samples.
+    /// Seed for the audited pixels and the samples of the reference.
     pub seed: u64,
     pub trace: TraceOptions,
 }
 
-/// Why there is no report.
+/// Reason why there is no report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unmeasured {
     Stopped,
-    /// The scene's own picture takes about `own` seconds or more, which is too much of the budget; about
-    /// `enough` are enough for something beside it.
+    /// The scene's own picture takes about `own` seconds or more, which is too much of the budget. About
+    /// `enough` seconds would allow at least one more picture.
     TooShort {
         own: f64,
         enough: f64,
     },
 }
 
-/// Every knob at its dearest, antialiasing aside: what the reference is traced with.
+/// Returns the options with every knob except antialiasing at its most expensive, for tracing the
+/// reference.
 fn dearest(own: PlanOptions, knobs: &[Knob]) -> PlanOptions {
     let mut options = own;
     for knob in knobs {
@@ -85,7 +86,7 @@ fn dearest(own: PlanOptions, knobs: &[Knob]) -> PlanOptions {
     options
 }
 
-/// What `render` does with this scene when it is told nothing, each knob spelt out.
+/// Returns the default options of `render` for this scene, with each knob set explicitly.
 fn own(world: &World, frame: Frame) -> PlanOptions {
     PlanOptions {
         depth: Some(world.settings.max_trace_level),
@@ -95,7 +96,7 @@ fn own(world: &World, frame: Frame) -> PlanOptions {
     }
 }
 
-/// The knobs whose effect the scene calls for, at least with every knob at its dearest.
+/// Returns the knobs that affect the scene, at least with every knob at its most expensive.
 fn called_for<'a>(
     world: &World,
     origins: &Origins,
@@ -107,7 +108,7 @@ fn called_for<'a>(
     knobs.iter().filter(called).collect()
 }
 
-/// For each knob that the scene does not call for, one sentence that says so and why.
+/// Returns a sentence with the reason for each knob that does not affect the scene.
 pub fn idle(world: &World, origins: &Origins, frame: Frame, knobs: &[Knob]) -> Vec<String> {
     let called = called_for(world, origins, own(world, frame), knobs);
     let is_idle = |knob: &&Knob| called.iter().all(|called| called.name != knob.name);
@@ -115,14 +116,14 @@ pub fn idle(world: &World, origins: &Origins, frame: Frame, knobs: &[Knob]) -> V
     knobs.iter().filter(is_idle).map(say).collect()
 }
 
-/// A setting of a knob, and the candidate that has it.
+/// A setting of a knob, and the candidate with that setting.
 struct Turned<'a> {
     knob: &'a Knob,
     setting: f64,
     candidate: usize,
 }
 
-/// The scene's own settings and each other that the knobs have, one turned at a time; and every knob's, from
+/// Returns the scene's own settings and those with one knob changed, and the settings of each knob from
 /// coarse to fine.
 fn candidates<'a>(
     world: &World,
@@ -158,7 +159,7 @@ fn candidates<'a>(
     (candidates, turned)
 }
 
-/// Which of a knob's settings have a row, and which have none.
+/// Returns which settings of a knob have a row, and which have none.
 fn tried(
     turned: &[Turned],
     pictures: &[Picture],
@@ -179,7 +180,7 @@ fn tried(
     for this in turned {
         let timed = alike.timed(this.candidate);
         let made = pictures.iter().find(|picture| picture.candidate == timed);
-        // What was found to be the same only when it was made shares a row, too.
+        // Settings found to be the same after rendering share a row, too.
         let row = made.and_then(|made| pictures.iter().position(|other| is_same(made, other)));
         match row {
             Some(row) => tried.settings.push(Setting {
@@ -196,10 +197,11 @@ fn tried(
     tried
 }
 
-/// Tries every setting of every knob that there is time for, the others as the scene has them.
+/// Tries each setting of each knob, as far as time permits, with the other knobs as in the scene.
 ///
 /// # Errors
-/// When it is stopped, or the budget is too short to measure anything.
+///
+/// If stopped, or if the budget is too short to measure anything.
 pub fn accuracy(
     world: &World,
     origins: &Origins,
@@ -267,7 +269,7 @@ pub fn accuracy(
     Ok(report)
 }
 
-/// Passes on the wish to stop, and not how far one of many parts has come.
+/// Forwards stop requests, but not the progress of one of many parts.
 struct Quiet<'a>(&'a dyn Watch);
 
 impl Watch for Quiet<'_> {

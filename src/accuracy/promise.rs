@@ -1,8 +1,7 @@
-//! Pictures of a promised error.
+//! Renders pictures with a promised error.
 //!
-//! **Invariant:** the error reported is found on pixels that had no part in the choice of settings. A
-//! clock is read to say how long it will take, and for nothing else: the same picture and the same
-//! numbers on every run.
+//! **Invariant:** the reported error is measured on pixels that were not used to choose the settings. A
+//! clock is read only to announce how long a step takes, so the picture and the numbers are reproducible.
 
 use std::cell::Cell;
 
@@ -20,69 +19,69 @@ use crate::plan::{Antialias, Plan, PlanOptions, plan};
 use crate::trace::{Counters, Sampling, TraceOptions, Traced, Watch};
 use crate::world::{Origins, World};
 
-/// Part of the promised error that is aimed at: room for what chance does to the audit.
+/// Fraction of the promised error to aim for; leaves room for the randomness of the audit.
 const AIM: f64 = 0.9;
-/// About how many pixels there are of each kind where the picture has enough.
+/// Approximate number of pixels of each kind, if the picture has enough.
 pub const WANTED: u32 = 2048;
-/// Pixels that tell about how long a sample takes.
+/// Number of pixels used to estimate the time per sample.
 const TIMED: usize = 256;
-/// The most rays that samples of the pixels of one kind may send, each as the dearest setting has it;
-/// where those are too many, fewer pixels are looked at, and at least so many.
+/// Maximum number of rays for the pixels of one kind, at the most expensive setting. If that is exceeded,
+/// fewer pixels are used, but at least `LEAST_KEPT`.
 const MOST_RAYS: f64 = 4e9;
 const LEAST_KEPT: usize = 256;
-/// Samples of each pixel that a picture is taken to have: it costs as much as the coarsest reference of all of
-/// the pixels of one kind, or more. Where that leaves fewer pixels than are enough to prove by, it does not.
+/// Samples per pixel that a picture is assumed to have: it costs at least as much as the coarsest reference
+/// of all pixels of one kind, unless that leaves fewer pixels than are enough for a proof.
 const PICTURE: f64 = 9.0;
 const ENOUGH: f64 = 512.0;
-/// What the noise of a reference falls by from one step to the next; and how far beyond a promise the noise of
-/// the finest would have to lie for it not to be made. (Samples stratified in two dimensions lessen it by .6
-/// where they find edges, by .5 where all is smooth.)
+/// Factor by which the noise of a reference falls from one step to the next; and the factor by which the
+/// forecast noise of the finest must exceed a promise for the attempt to be skipped. (Samples stratified in
+/// two dimensions reduce it by a factor of 0.6 at edges and 0.5 in smooth regions.)
 const FALLS: f64 = 0.6;
 const SURELY: f64 = 2.0;
-/// Of the promised error: what need not be told from nothing.
+/// Fraction of the promised error that need not be distinguished from 0.
 const SMALL: f64 = 0.25;
-/// Samples of a pixel from which on more of them are dearer than to try the dearest settings.
+/// Samples per pixel from which taking more of them costs more than trying the most expensive settings.
 const DEAREST: u32 = 1000;
 
-/// A picture whose error was promised.
+/// A picture with a promised error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kept {
     pub traced: Traced,
-    /// The flags of `render` that make the same picture.
+    /// Flags of `render` that reproduce the picture.
     pub flags: String,
-    /// None when it was interrupted.
+    /// `None` if interrupted.
     pub audit: Option<Audit>,
-    /// A second picture had to be made.
+    /// Whether a second picture had to be rendered.
     pub refined: bool,
-    /// No setting of any knob is finer.
+    /// Whether no knob has a finer setting.
     pub is_dearest: bool,
 }
 
-/// The picture has too few pixels to choose by some and audit by others.
+/// The picture has too few pixels for separate sets for choosing and auditing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TooSmall;
 
-/// What [`keep`] does next. Seconds are about those that will pass.
+/// Next step of [`keep`]. Seconds are estimates.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step {
-    /// Choosing settings, on a few pixels.
+    /// Choosing settings on a few pixels.
     Choosing,
-    /// Finding out what so many pixels look like, by so many samples of each.
+    /// Computing a reference of `pixels` pixels with `samples` samples each.
     Learning { pixels: usize, samples: u32, seconds: f64 },
-    /// Trying the settings of this knob on these pixels, which takes no longer.
+    /// Trying the settings of this knob on these pixels; takes at most `seconds`.
     Trying { knob: &'static str, seconds: f64 },
-    /// Not even the dearest settings are known to keep the promise: so many pixels say that their error is
-    /// this, and what is below `resolution` cannot be told.
+    /// Not even the most expensive settings are known to keep the promise: their error, measured on
+    /// `pixels` pixels, is `error`, and errors below `resolution` cannot be distinguished from 0.
     Unreachable { error: Estimate, resolution: f64, pixels: usize },
-    /// Rendering with the settings of these flags, and then finding out more of what pixels look like.
+    /// Rendering with the settings of these flags, then computing a reference for the audit.
     Rendering { flags: String, seconds: f64, audit: f64 },
-    /// Choosing better ones: the first picture did not prove the promise.
+    /// Choosing better settings, because the first picture did not prove the promise.
     Refining(Audit),
 }
 
-/// Renders with the cheapest settings whose error is at most `promise`, and audits. `None` when
-/// stopped before the picture was begun; `options.budget` is not used. `tell` hears of each step; `watch`
-/// how far it has come.
+/// Renders with the cheapest settings whose error is at most `promise`, and audits the picture. `None` if
+/// stopped before the picture was begun. `options.budget` is not used. `tell` is called for each step;
+/// `watch` receives its progress.
 pub fn keep(
     world: &World,
     origins: &Origins,
@@ -110,7 +109,7 @@ pub fn keep(
     Ok(search.and_then(|search| search.kept()))
 }
 
-/// What was traced to find things out.
+/// Work done for measurements.
 #[derive(Debug, Clone, Copy, Default)]
 struct Effort {
     seconds: f64,
@@ -124,13 +123,13 @@ struct Search<'a> {
     easel: &'a Easel<'a>,
     options: &'a Options<'a>,
     promise: f64,
-    /// What the reference is traced with, and how deep that is.
+    /// Plan for tracing the reference.
     deep: Plan,
     depth: u32,
-    /// That depth, where it is not as deep as can be.
+    /// Depth of that plan, if reduced from the maximum.
     cut: Option<u32>,
-    /// To choose by, to audit by, and to audit a second picture by; the fourth, of a small picture, is what is
-    /// left for that, too.
+    /// Pixels to choose by, to audit by, and to audit a second picture by. The fourth set, for small
+    /// pictures, holds the remaining pixels, which serve for the latter, too.
     sets: Vec<Vec<(u32, u32)>>,
     effort: Cell<Effort>,
     clock: &'a dyn Clock,
@@ -139,7 +138,7 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Finds out how deep the reference can look. `None` when stopped.
+    /// Determines how deep the reference can be. `None` if stopped.
     fn new(
         studio: Studio<'a>,
         origins: &'a Origins,
@@ -195,7 +194,7 @@ impl<'a> Search<'a> {
         seconds / samples.max(1.0)
     }
 
-    /// A finer reference than `known`, or the coarsest. `None` when stopped.
+    /// Returns a reference finer than `known`, or the coarsest. `None` if stopped.
     fn finer(&self, known: Option<Reference>, list: &[(u32, u32)]) -> Option<Reference> {
         let step = known.as_ref().map_or(Reference::COARSEST, |known| known.step() + 1);
         let (pixels, samples) = (list.len(), Reference::samples_at(step));
@@ -213,8 +212,8 @@ impl<'a> Search<'a> {
         resolution <= error.max(SMALL * self.promise) || known.is_finest() || known.is_exact()
     }
 
-    /// Not even the finest reference will tell so small an error from its own. (Of shares nothing is
-    /// foretold.)
+    /// Whether not even the finest reference will resolve so small an error. (Not predicted for
+    /// [`Metric::Bad`].)
     fn is_hopeless(&self, known: &Reference) -> bool {
         let metric = self.options.metric;
         let steps = Reference::finest_within(usize::MAX) - known.step();
@@ -222,7 +221,7 @@ impl<'a> Search<'a> {
         metric != Metric::Bad && 4.0 * finest > SURELY * self.promise
     }
 
-    /// Until its own error is below a quarter of that, or it is as fine as it gets.
+    /// Refines a reference until its own error is below a quarter of `error`, or it is as fine as possible.
     fn resolved(
         &self,
         mut known: Option<Reference>,
@@ -235,7 +234,7 @@ impl<'a> Search<'a> {
         known
     }
 
-    /// Seconds that [`Search::resolved`] will take, if noise falls as [`FALLS`] has it.
+    /// Returns the seconds that [`Search::resolved`] will take if noise falls as given by [`FALLS`].
     fn to_resolve(&self, known: &Reference, error: f64) -> f64 {
         let (mut floor, mut step, mut samples) =
             (known.floor(self.options.metric), known.step(), 0.0);
@@ -253,7 +252,7 @@ impl<'a> Search<'a> {
 
     fn tuning<'b>(&'b self, list: &'b [(u32, u32)], reference: &'b Reference) -> Tuning<'b> {
         let Easel { own, knobs, .. } = self.easel;
-        // Of what lies deeper than the reference looks that cannot tell the error.
+        // The reference cannot measure errors at greater depths than its own.
         let own = PlanOptions { depth: own.depth.map(|depth| depth.min(self.depth)), ..*own };
         let known = (list, reference);
         let mut tuning =
@@ -262,8 +261,8 @@ impl<'a> Search<'a> {
         tuning
     }
 
-    /// A reference to choose by; with the dearest settings, where even those are known not to keep the
-    /// promise.
+    /// Returns a reference to choose by, and the most expensive settings if even those are known not to
+    /// keep the promise.
     fn learned(&self) -> Option<(Reference, Option<Choice>)> {
         let list = &self.sets[0];
         let mut known = self.finer(None, list)?;
@@ -279,7 +278,8 @@ impl<'a> Search<'a> {
         Some((known, None))
     }
 
-    /// The first of what `keeps` that does not lead to settings that are known to fail, or the last.
+    /// Returns the first choice that satisfies `keeps` and does not lead to settings known to fail, or the
+    /// last one.
     fn chosen(
         &self,
         list: &[(u32, u32)],
@@ -323,24 +323,25 @@ impl<'a> Search<'a> {
         let mut goal = promise;
         let resolution = 4.0 * reference.floor(self.options.metric);
         if is_dearest && choice.error.high.max(resolution) > promise {
-            // What these pixels could not tell, others need not.
+            // The audit need not resolve more than these pixels could.
             goal = choice.error.value.max(resolution).max(promise);
             let (error, pixels) = (choice.error, tuned.len());
             (self.tell)(Step::Unreachable { error, resolution, pixels });
         }
-        // No better picture follows the dearest: the pixels for its audit tell of this one, too.
+        // The most expensive settings are not followed by better ones, so the pixels for a second audit are
+        // added to this one.
         let spare: &[_] = if is_dearest { &again } else { &[] };
         let list: Vec<_> = audited.iter().chain(spare).copied().collect();
         let fresh = self.resolved(None, &list, goal)?;
         let (first, fresh) = self.rendered(&choice, &list, (fresh, goal), is_dearest);
-        // A better picture proves no more where the reference does not look all the way, nor does the
-        // same one.
+        // A better picture would prove nothing more if the reference is limited in depth, nor would the
+        // same picture.
         let (Some(audit), Some(fresh)) = (first.audit, fresh) else { return Some(first) };
         if audit.shows(promise) || is_dearest {
             return Some(first);
         }
         (self.tell)(Step::Refining(audit));
-        // What audited it now helps to choose.
+        // The audited pixels are now used to choose settings.
         let both: Vec<_> = tuned.iter().chain(audited).copied().collect();
         let reference = reference.and(fresh);
         let tells = 4.0 * reference.floor(self.options.metric) <= promise;
@@ -355,7 +356,7 @@ impl<'a> Search<'a> {
             &|error| expected(error) <= 0.3 * promise,
         ];
         let better = self.chosen(&both, &reference, &keeps, Some(&choice))?;
-        // There is nothing better: the same picture would prove no more.
+        // No better settings exist, and the same picture would prove nothing more.
         if better.options == choice.options {
             return Some(first);
         }
@@ -365,7 +366,7 @@ impl<'a> Search<'a> {
         Some(Kept { refined: true, ..second })
     }
 
-    /// A picture, and what the pixels of a list, whose truth is known to within `goal`, say of it.
+    /// Renders a picture and audits it on the pixels of a list, with a reference accurate to within `goal`.
     fn rendered(
         &self,
         choice: &Choice,
@@ -376,7 +377,7 @@ impl<'a> Search<'a> {
         let flags = self.easel.flags(&choice.options);
         let pixels = self.options.frame.region.pixels();
         let Effort { seconds, cost, .. } = self.effort.get();
-        // What no reference can tell is not asked of one.
+        // The goal is limited to what a reference can resolve.
         let least = if goal > self.promise { goal } else { 0.0 };
         let error = choice.error.value.max(least);
         (self.tell)(Step::Rendering {

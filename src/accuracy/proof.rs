@@ -1,42 +1,41 @@
-//! What fresh pixels say of a picture, and whether that proves a promise.
+//! Audits a picture on fresh pixels, to prove a promise.
 //!
-//! **In:** a picture, and pixels whose truth is known and that had no part in its settings. **Out:** an
-//! [`Audit`].
+//! **In:** a picture, and pixels with a known reference that were not used to choose its settings. **Out:**
+//! an [`Audit`].
 
 use super::audit;
 use super::reference::{Reference, colors_of};
 use super::statistics::{Estimate, Metric};
 use crate::trace::Traced;
 
-/// What fresh pixels say of a picture.
+/// Error of a picture, measured on fresh pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Audit {
     pub metric: Metric,
     pub error: Estimate,
-    /// Four times the reference's own error: what is below cannot be told from it.
+    /// Four times the reference's own error; smaller errors cannot be distinguished from it.
     pub resolution: f64,
     pub pixels: usize,
-    /// How deep the reference looked, where that was not as deep as can be: of what lies deeper nothing
-    /// is known.
+    /// Depth of the reference, if less than the maximum: nothing is known about deeper contributions.
     pub depth: Option<u32>,
-    /// Below which weight the reference gave up rays, where that was not as little as can be.
+    /// Weight below which the reference dropped rays, if above the minimum.
     pub adc_bailout: Option<f64>,
 }
 
 impl Audit {
-    /// Its interval ends below `most`, the reference tells so small an error, and all that it can see was
-    /// looked at.
+    /// Whether the interval ends at or below `most`, the reference resolves so small an error, and was not
+    /// limited in depth or weight.
     pub fn proves(&self, most: f64) -> bool {
         self.shows(most) && self.depth.is_none() && self.adc_bailout.is_none()
     }
 
-    /// The same, of what was looked at.
+    /// Like [`Self::proves`], but within the limits of the reference.
     pub fn shows(&self, most: f64) -> bool {
         self.error.high.max(self.resolution) <= most
     }
 }
 
-/// What the pixels of a list, whose truth is known, say of a picture.
+/// Audits a picture on the pixels of a list with a known reference.
 pub fn audited(
     traced: &Traced,
     list: &[(u32, u32)],
@@ -57,8 +56,9 @@ pub fn audited(
     }
 }
 
-/// The upper end that an audit by `fresh` pixels will hardly exceed, of settings of which `known` pixels
-/// tell an error: intervals are as much wider as there are fewer pixels, and both are off by chance.
+/// Returns the upper end that an audit on `fresh` pixels is unlikely to exceed, for settings whose error is
+/// known from `known` pixels: intervals widen as the number of pixels falls, and both are subject to
+/// chance.
 pub fn expected(error: &Estimate, known: usize, fresh: usize) -> f64 {
     let more = known as f64 / fresh as f64;
     let width = (error.high - error.value) * more.sqrt();

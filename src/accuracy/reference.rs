@@ -1,7 +1,7 @@
-//! What the pixels really look like, as closely as one cares to know, and how closely that is.
+//! Computes the true colors of pixels to a chosen accuracy, with an estimate of that accuracy.
 //!
-//! **Invariant:** made of two halves that share no sample; half their difference is the reference's
-//! own error, and is reported.
+//! **Invariant:** a reference consists of two halves that share no sample. Half their difference is the
+//! reference's own error, and is reported.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -17,34 +17,34 @@ use crate::trace::{
 };
 use crate::world::World;
 
-/// Samples along the side of a pixel, a half: from [`Reference::COARSEST`] on each has about twice the
-/// samples of the last.
+/// Samples along the side of a pixel, for each half. From [`Reference::COARSEST`] on, each step has about
+/// twice the samples of the previous one.
 const SIDES: [u32; 8] = [2, 8, 11, 16, 23, 32, 45, 64];
 
-/// A list is looked at in so many blocks, the two halves of one after those of the other: where it is
-/// stopped, no more than a block is lost.
+/// Number of blocks into which a list is divided. Both halves of a block are traced before the next block,
+/// so that at most one block is lost when stopped.
 const BLOCKS: usize = 16;
-/// Pixels of a block at least: enough for many threads.
+/// Minimum number of pixels per block; enough for many threads.
 const LEAST_BLOCK: usize = 64;
 
-/// A colour as errors are measured: linear, clamped to 0 … 1.
+/// Returns a color as used for measuring errors: linear, clamped to 0 … 1.
 pub fn clamped(radiance: Rgb, assumed_gamma: Gamma) -> [f64; 3] {
     radiance.components().map(|c| assumed_gamma.linear(c).min(1.0))
 }
 
-/// The colours of some pixels of a film, as errors are measured.
+/// Returns the colors of some pixels of a film, as used for measuring errors.
 pub fn colors_of(film: &Film, list: &[(u32, u32)]) -> Vec<[f64; 3]> {
     let radiance = |&(x, y): &(u32, u32)| film.radiance[film.index(x, y)];
     list.iter().map(|place| clamped(radiance(place), film.assumed_gamma)).collect()
 }
 
-/// The same World in each arithmetic, each made when it is first asked for.
+/// The World prepared for each precision, created on first use.
 #[derive(Default)]
 pub struct Geometries {
     made: Mutex<Vec<(Arithmetic, Arc<Geometry>)>>,
 }
 
-/// What is traced, and with what.
+/// What is traced, and the resources for tracing it.
 #[derive(Clone, Copy)]
 pub struct Studio<'a> {
     pub world: &'a World,
@@ -54,7 +54,7 @@ pub struct Studio<'a> {
 }
 
 impl Studio<'_> {
-    /// Made now if it is not yet.
+    /// Returns the geometry for a plan, creating it if needed.
     pub fn geometry(&self, plan: &Plan) -> Arc<Geometry> {
         let mut made = self.geometry.made.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, geometry)) = made.iter().find(|(made, _)| *made == plan.arithmetic()) {
@@ -66,23 +66,23 @@ impl Studio<'_> {
         geometry
     }
 
-    /// The whole picture under a Plan.
+    /// Traces the entire picture.
     pub fn picture(&self, plan: &Plan, watch: &dyn Watch) -> Traced {
         trace_in(self.world, &self.geometry(plan), plan, &self.options, watch)
     }
 
-    /// Some pixels under a Plan.
+    /// Traces some pixels.
     pub fn pixels(&self, plan: &Plan, list: &[(u32, u32)], sampling: Sampling) -> Pixels {
         let geometry = self.geometry(plan);
         pixels(self.world, &geometry, plan, list, sampling, &self.options, self.watch)
     }
 
-    /// Some pixels under a Plan, each by as many samples as it says.
+    /// Traces some pixels, each with its own number of samples.
     pub fn seen(&self, plan: &Plan, aims: &[Aim]) -> (Vec<Option<Seen>>, Counters) {
         seen(self.world, &self.geometry(plan), plan, aims, &self.options, self.watch)
     }
 
-    /// The colours of the first pixels of a list: of all of them, unless it was stopped.
+    /// Returns the colors of the first pixels of a list: all of them, unless stopped.
     pub fn first_colors(
         &self,
         plan: &Plan,
@@ -94,7 +94,7 @@ impl Studio<'_> {
         (radiance.into_iter().map_while(|c| Some(clamped(c?, gamma))).collect(), counters)
     }
 
-    /// The colours of some pixels under a Plan, and the work they were. `None` when stopped.
+    /// Returns the colors of some pixels, and the work they took. `None` if stopped.
     pub fn colors(
         &self,
         plan: &Plan,
@@ -106,10 +106,10 @@ impl Studio<'_> {
     }
 }
 
-/// Passes on how far a part has come as so much of the whole.
+/// Forwards the progress of a part as progress of the total.
 struct Part<'a> {
     watch: &'a dyn Watch,
-    /// What was done before this part.
+    /// Work done before this part.
     before: AtomicUsize,
     all: usize,
 }
@@ -136,32 +136,33 @@ fn is_rounding(a: &[f64; 3], b: &[f64; 3]) -> bool {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
     halves: [Vec<[f64; 3]>; 2],
-    /// Which of [`SIDES`].
+    /// Index into [`SIDES`].
     step: usize,
     seed: u64,
     pub counters: Counters,
 }
 
-/// What sums of samples are rounded by, of a colour's full scale.
+/// Rounding error of sums of samples, relative to full scale.
 pub const ROUNDING: f64 = 4096.0 * f64::EPSILON;
 
 impl Reference {
-    /// The step of a reference that says little of a pixel, and something of many: for want of time.
+    /// Step of a reference that is inaccurate per pixel but usable over many pixels, for lack of time.
     pub const ROUGH: usize = 0;
-    /// The step of the coarsest that settings are chosen by.
+    /// Coarsest step by which settings are chosen.
     pub const COARSEST: usize = 1;
-    /// The last step that `samples` a pixel are enough for, or the rough one.
+    /// Returns the last step that needs at most `samples` samples per pixel, or the rough one.
     pub fn finest_within(samples: usize) -> usize {
         SIDES.iter().rposition(|&side| 2 * side as usize * side as usize <= samples).unwrap_or(0)
     }
 
-    /// Samples of each pixel at a step.
+    /// Returns the samples per pixel at a step.
     pub fn samples_at(step: usize) -> u32 {
         let side = SIDES[step.min(SIDES.len() - 1)];
         2 * side * side
     }
 
-    /// The reference of a step; `None` when stopped. `plan` says how deep; its antialiasing is not used.
+    /// Computes the reference of a step; `None` if stopped. `plan` sets the depth; its antialiasing is
+    /// ignored.
     pub fn new(
         studio: &Studio,
         plan: &Plan,
@@ -173,8 +174,7 @@ impl Reference {
         (first.pixels() == list.len()).then_some(first)
     }
 
-    /// As [`Reference::new`], of those pixels of the list that were done when it was stopped, from the
-    /// first on.
+    /// Like [`Reference::new`], for the first pixels of the list that were finished before it was stopped.
     pub fn first(
         studio: &Studio,
         plan: &Plan,
@@ -211,7 +211,8 @@ impl Reference {
         reference
     }
 
-    /// Of twice the samples; `Some(false)` where it is as fine as it gets.
+    /// Doubles the samples. Returns `Some(false)` if the reference is already as fine as possible, `None`
+    /// if stopped.
     pub fn double(&mut self, studio: &Studio, plan: &Plan, list: &[(u32, u32)]) -> Option<bool> {
         if self.is_finest() || self.is_exact() {
             return Some(false);
@@ -227,17 +228,17 @@ impl Reference {
         self.step + 1 == SIDES.len()
     }
 
-    /// Its own error is no more than what sums are rounded by: more samples make it no less.
+    /// Whether its own error is at most the rounding error of sums, which more samples do not reduce.
     pub fn is_exact(&self) -> bool {
         self.halves[0].iter().zip(&self.halves[1]).all(|(a, b)| is_rounding(a, b))
     }
 
-    /// As far as it can tell, these are the pixels' colours.
+    /// Whether `colors` equal the reference within its own accuracy.
     pub fn has(&self, colors: &[[f64; 3]]) -> bool {
         self.is_exact() && self.halves[0].iter().zip(colors).all(|(a, color)| is_rounding(a, color))
     }
 
-    /// How many pixels.
+    /// Returns the number of pixels.
     pub fn pixels(&self) -> usize {
         self.halves[0].len()
     }
@@ -246,12 +247,12 @@ impl Reference {
         self.step
     }
 
-    /// Samples of each pixel.
+    /// Returns the samples per pixel.
     pub fn samples(&self) -> u32 {
         Self::samples_at(self.step)
     }
 
-    /// How far `colors` are from it, pixel by pixel.
+    /// Returns the deviation of `colors` from the reference, pixel by pixel.
     pub fn deviations(&self, colors: &[[f64; 3]]) -> Vec<Deviation> {
         let halves = self.halves[0].iter().zip(&self.halves[1]);
         let of = |(color, (a, b)): (&[f64; 3], (&[f64; 3], &[f64; 3]))| Deviation {
@@ -261,7 +262,8 @@ impl Reference {
         colors.iter().zip(halves).map(of).collect()
     }
 
-    /// Its own error: by chance, and at least by rounding, which no number of samples makes less.
+    /// Rounds a side near the maximum to the largest from which retracing the pixel still pays, or to the
+    /// maximum.
     pub fn floor(&self, metric: Metric) -> f64 {
         let rounding = match metric {
             Metric::Rmse | Metric::P99 => ROUNDING,
@@ -270,7 +272,7 @@ impl Reference {
         metric.floor(&self.deviations(&self.halves[0])).max(rounding)
     }
 
-    /// Both, as one list after the other.
+    /// Concatenates two references.
     pub fn and(mut self, other: Self) -> Self {
         let [a, b] = other.halves;
         self.halves[0].extend(a);

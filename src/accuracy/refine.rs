@@ -1,9 +1,9 @@
-//! A picture made better as long as there is time, first where it buys most.
+//! Refines a picture as long as time permits, first where that reduces the error most.
 //!
-//! **In:** a film of one ray a pixel. **Out:** the same film with more samples in its pixels, spread over
-//! the whole of it. **Invariant:** each pixel has the bits of `--antialias N` for some N, and its samples
-//! say which. No pixel is left alone: a third of all samples is spread evenly, and none is far ahead of
-//! its neighbours. Between two looks at the clock stands bounded work.
+//! **In:** a film of one ray per pixel. **Out:** the same film with more samples in its pixels, spread over
+//! all of it. **Invariant:** each pixel has the exact bits of `--antialias N` for some N, which its sample
+//! count shows. No pixel is neglected: a third of all samples is spread evenly, and no pixel is far ahead
+//! of its neighbours. The work between two checks of the clock is bounded.
 
 use std::num::NonZero;
 use std::thread;
@@ -15,46 +15,47 @@ use crate::film::Film;
 use crate::plan::{Plan, Region};
 use crate::trace::{Aim, Counters, Seen, Watch};
 
-/// Samples along a pixel's side at most: as in the dearest setting of the knob.
+/// Maximum number of samples along a pixel's side, as in the most expensive setting of the knob.
 pub const MOST_SIDE: u32 = 32;
-/// As surely as so many samples say what a pixel holds, its neighbours do.
+/// Number of samples that the information from a pixel's neighbours counts as.
 const NEIGHBOURS: f32 = 1.0;
-/// The most times as many samples as its neighbour that a pixel has, square: weights are roots of
+/// Maximum ratio of a pixel's samples to those of a neighbour, squared, since weights are roots of
 /// variances.
 const AHEAD: f32 = 16.0 * 16.0;
-/// The part of all samples that is spread evenly.
+/// Fraction of all samples that is spread evenly.
 const EVENLY: f64 = 1.0 / 3.0;
-/// A pixel traced anew gets at least so many times the samples along its side: 4/3 buys most for a
-/// sample, as (1 − x⁻³)/x² has its greatest value at 1.36.
+/// Minimum factor, along its side, by which a retraced pixel's samples grow. 4/3 is the most efficient, as
+/// (1 − x⁻³)/x² has its maximum at 1.36.
 const ANEW: (u32, u32) = (4, 3);
-/// Neighbours in the film that are traced one after the other.
+/// Number of adjacent pixels that are traced in sequence.
 const RUN: usize = 16;
-/// Parts that a pass is cut into, each as fine as there is time for after those before; more where they
-/// would have more pixels than are listed in a few milliseconds.
+/// Number of parts of a pass; each is as fine as time permits after the previous ones. More parts are used
+/// if one would have more pixels than can be listed in a few milliseconds.
 const PARTS: usize = 8;
 pub const MOST_IN_PART: usize = 1 << 16;
-/// Pixels that tell what a pass will cost.
+/// Number of pixels used to predict the cost of a pass.
 const PRICED: usize = 1 << 14;
-/// Fineness rises by this from one level to the next, from less than a sample for sixteen pixels to where
-/// the last pixel has all there is.
+/// Ratio of fineness between levels. Levels range from less than a sample for sixteen pixels to the maximum
+/// for every pixel.
 const LEVEL: f64 = 1.189_207_115_002_721;
 const LEVELS: i32 = 72;
 const COARSEST: i32 = -20;
 
-/// Rows of pixels between two looks at the clock, and pixels that a thread of its own is begun for.
+/// Rows of pixels between checks of the clock, and number of pixels that justifies another thread.
 const ROWS: usize = 64;
 const LEAST_OF_THREAD: usize = 1 << 14;
 
-/// A film, and what its samples say of each pixel.
+/// A film, with the variance of each pixel's samples.
 pub struct Canvas {
     pub film: Film,
-    /// Of each pixel's samples, linear and clamped, all components together; 0 of a single one.
+    /// Variance of each pixel's samples, linear and clamped, summed over the components; 0 for a single
+    /// sample.
     variances: Vec<f32>,
     pub counters: Counters,
     pace: Pace,
 }
 
-/// What samples took so far.
+/// Time that samples took so far.
 #[derive(Debug, Clone, Copy)]
 pub struct Pace {
     pub seconds: f64,
@@ -62,25 +63,25 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Seconds.
+    /// Returns the seconds per sample.
     pub fn a_sample(self) -> f64 {
         self.seconds / self.samples.max(1.0)
     }
 }
 
-/// How much of the samples each pixel is worth, and how wrong it is taken to be.
+/// Weight of each pixel for distributing samples, and its expected error.
 pub struct Worth {
-    /// Variances, as [`Canvas::worth`] estimates them.
+    /// Variances, as estimated by [`Canvas::worth`].
     pub variances: Vec<f32>,
-    /// What each pixel has in common with all: its part in what is spread evenly.
+    /// Contribution of the evenly spread samples, equal for all pixels.
     evenly: f64,
-    /// Of the roots of variances.
+    /// Mean of the roots of variances.
     mean: f64,
 }
 
 impl Worth {
-    /// Samples along a pixel's side where a mean pixel has `fineness` samples: by Neyman's allocation,
-    /// as many as the root of the variance says, and those that are spread evenly.
+    /// Returns the samples along a pixel's side if an average pixel has `fineness` samples: Neyman
+    /// allocation in proportion to the standard deviation, plus the evenly spread samples.
     fn side(&self, i: usize, fineness: f64) -> u32 {
         let weight =
             (f64::from(self.variances[i].sqrt()) + self.evenly) / (self.mean + self.evenly);
@@ -88,16 +89,16 @@ impl Worth {
     }
 }
 
-/// Time there is to make a film finer in.
+/// Time available for refining a film.
 #[derive(Clone, Copy)]
 pub struct Until<'a> {
     pub clock: &'a dyn Clock,
-    /// As the clock shows.
+    /// Deadline in clock time.
     pub until: f64,
 }
 
 impl Canvas {
-    /// Of a film of one ray a pixel, which took `pace`.
+    /// Starts from a film of one ray per pixel, which took `pace`.
     pub fn new(film: Film, counters: Counters, pace: Pace) -> Self {
         Self { variances: vec![0.0; film.samples.len()], film, counters, pace }
     }
@@ -114,11 +115,11 @@ impl Canvas {
         self.film.samples[i].isqrt()
     }
 
-    /// What each pixel's samples and its neighbours' say of how much it may hold. `None` when stopped.
+    /// Estimates each pixel's variance from its own samples and its neighbours'. `None` if stopped.
     ///
-    /// Of n samples that agree nothing follows for what is smaller than an n-th of the pixel. So each
-    /// pixel's variance is shrunk toward what is near: the mean of its neighbours' variances, or what an
-    /// edge as high as it differs from one of them would have, d²/4.
+    /// If n samples agree, features smaller than 1/n of the pixel may be missed. Each pixel's variance is
+    /// therefore shrunk toward its surroundings: the mean of its neighbours' variances, or the variance of
+    /// an edge as high as its difference from a neighbour, d²/4.
     pub fn worth(&self, studio: &Studio) -> Option<Worth> {
         let threads =
             studio.options.threads.or(thread::available_parallelism().ok().map(NonZero::get));
@@ -155,7 +156,7 @@ impl Canvas {
         Some(Worth { variances, evenly, mean })
     }
 
-    /// Traces every pixel by at about `side` × `side` samples. False when stopped.
+    /// Traces every pixel with about `side` × `side` samples. Returns false if stopped.
     pub fn pilot(&mut self, studio: &Studio, plan: &Plan, side: u32, clock: &dyn Clock) -> bool {
         let side = in_reach(side);
         let parts = self.parts();
@@ -165,13 +166,13 @@ impl Canvas {
         })
     }
 
-    /// One pass over the film, as fine as there is time for. False when stopped, or where there is nothing
-    /// to do.
+    /// Makes one pass over the film, as fine as time permits. Returns false if stopped or if nothing is
+    /// left to do.
     pub fn pass(&mut self, studio: &Studio, plan: &Plan, worth: &Worth, time: Until) -> bool {
         let prices = self.prices(worth);
         let parts = self.parts();
         let before = self.counters.camera;
-        // Samples where they are wanted are dearer than those before, which soon count for nothing.
+        // Samples in difficult pixels take longer than earlier ones, whose pace is therefore discounted.
         self.pace = Pace { seconds: self.pace.seconds / 16.0, samples: self.pace.samples / 16.0 };
         for part in 0..parts {
             let left = (time.until - time.clock.wall()) / (parts - part) as f64;
@@ -188,7 +189,7 @@ impl Canvas {
         self.counters.camera > before
     }
 
-    /// Of each level of fineness the samples that a pass takes for a pixel on the mean.
+    /// Returns each level of fineness with the average number of samples per pixel that a pass takes.
     fn prices(&self, worth: &Worth) -> Vec<(f64, f64)> {
         // Odd, so that it walks through all columns.
         let step = (self.pixels() / PRICED) | 1;
@@ -212,7 +213,7 @@ impl Canvas {
         PARTS.max(self.pixels().div_ceil(MOST_IN_PART))
     }
 
-    /// Traces the pixels of one part that `aim` gives a side. False when stopped.
+    /// Traces the pixels of one part for which `aim` returns a side. Returns false if stopped.
     fn trace(
         &mut self,
         studio: &Studio,
@@ -252,7 +253,7 @@ impl Canvas {
     }
 }
 
-/// Each pixel has the most samples there are.
+/// Whether each pixel has the maximum number of samples.
 pub fn is_finest(film: &Film) -> bool {
     film.samples.iter().all(|&samples| samples == MOST_SIDE * MOST_SIDE)
 }
@@ -261,7 +262,8 @@ fn is_anew(now: u32, side: u32) -> bool {
     side > now && ANEW.1 * side >= ANEW.0 * now
 }
 
-/// Of sides near the most: what is not so near that a pixel traced anew would no longer pay, or the most.
+/// Rounds a side near the maximum to the largest from which retracing the pixel still pays, or to the
+/// maximum.
 fn in_reach(side: u32) -> u32 {
     let last = MOST_SIDE * ANEW.1 / ANEW.0;
     match side {
@@ -271,8 +273,8 @@ fn in_reach(side: u32) -> u32 {
     }
 }
 
-/// The first level that takes as many `samples` a pixel, or the last; what it takes more, the next parts
-/// take less. `None` where there is time for nothing.
+/// Returns the first level that takes as many `samples` per pixel, or the last; any excess is saved in the
+/// next parts. `None` if there is no time at all.
 fn finest(prices: &[(f64, f64)], samples: f64) -> Option<f64> {
     if samples <= 0.0 {
         return None;
@@ -281,8 +283,8 @@ fn finest(prices: &[(f64, f64)], samples: f64) -> Option<f64> {
     enough.or(prices.last()).map(|&(fineness, _)| fineness)
 }
 
-/// Of linear light as errors are measured, given the mean of samples in the working space and their
-/// standard deviation: beyond white there is none.
+/// Returns the variance in linear light, as used for measuring errors, given the mean of samples in the
+/// working space and their standard deviation. Above white it is 0.
 fn variance(mean: Rgb, deviation: [f64; 3], gamma: Gamma) -> f32 {
     let shown = |c: f64| gamma.linear(c).min(1.0);
     let parts = mean.components().into_iter().zip(deviation);
@@ -290,13 +292,13 @@ fn variance(mean: Rgb, deviation: [f64; 3], gamma: Gamma) -> f32 {
     spread.map(|off| off * off).sum::<f64>() as f32
 }
 
-/// Where the pixel lies that a film of this region has at `i`.
+/// Returns the pixel at index `i` of a film of this region.
 pub fn place(region: Region, i: usize) -> (u32, u32) {
     let width = region.width as usize;
     (region.x + (i % width) as u32, region.y + (i / width) as u32)
 }
 
-/// The pixels of a film in an order any first part of which is spread over the whole.
+/// Indices of a film's pixels, in an order such that every prefix is spread over the film.
 pub struct Spread {
     count: usize,
     runs: usize,
@@ -312,7 +314,7 @@ impl Spread {
         Self { count, runs, step }
     }
 
-    /// The k-th of `parts` parts.
+    /// Returns the k-th of `parts` parts.
     pub fn part(self, k: usize, parts: usize) -> impl Iterator<Item = usize> {
         let Self { count, runs, step } = self;
         let (from, to) = (runs * k / parts, runs * (k + 1) / parts);
@@ -323,12 +325,12 @@ impl Spread {
     }
 }
 
-/// The greatest common one.
+/// Returns the greatest common divisor.
 fn divisor(a: usize, b: usize) -> usize {
     if b == 0 { a } else { divisor(b, a % b) }
 }
 
-/// Something of each pixel, found by several threads.
+/// Computes a value for each pixel on several threads.
 struct Rows<'a> {
     width: usize,
     threads: Option<usize>,
@@ -336,7 +338,7 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// `None` when stopped.
+    /// Returns `None` if stopped.
     fn map<T: Copy + Default + Send>(
         &self,
         count: usize,
@@ -368,7 +370,7 @@ impl Rows<'_> {
         is_whole.then_some(values)
     }
 
-    /// The up to eight neighbours of a pixel.
+    /// Visits the up to eight neighbours of a pixel.
     fn around(&self, i: usize, count: usize, mut each: impl FnMut(usize)) {
         let (row, column) = (i / self.width, i % self.width);
         let last = count / self.width;

@@ -1,7 +1,7 @@
-//! The report: what each setting of each knob costs and buys, and what is to be said of it.
+//! Report on the cost and the accuracy of each setting of each knob, with verdicts.
 //!
-//! **Out:** rows, and the lines of each knob that point to them. **Invariant:** the first row is the picture
-//! as `render` makes it; verdicts and sentences follow from the numbers alone.
+//! **Out:** rows, and the lines of each knob that refer to them. **Invariant:** the first row is the
+//! picture as `render` makes it; verdicts and sentences follow from the numbers alone.
 
 use super::front::Point;
 use super::statistics::{Estimate, Metric};
@@ -9,12 +9,12 @@ use super::{Order, Span, Times, Verdict, knob, sentence};
 use crate::plan::{Frame, Region};
 use crate::trace::Counters;
 
-/// How far runs may lie apart, of the shortest, where no row has enough to tell.
+/// Assumed spread of runs, relative to the shortest, if no row has enough of them.
 const UNKNOWN: f64 = 1.0;
-/// Seconds of tracing below which it is not told whether the machine was busy.
+/// Minimum tracing time in seconds for judging whether the machine was busy.
 const LEAST_TO_TELL: f64 = 0.5;
 
-/// What the settings cost and buy.
+/// Measured costs and accuracies of the settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     pub frame: Frame,
@@ -22,55 +22,55 @@ pub struct Report {
     pub seed: u64,
     pub audited: usize,
     pub cut: Cut,
-    /// Of each audited pixel.
+    /// Samples of each audited pixel.
     pub reference_samples: u32,
     /// The reference's own error, in each of [`Metric::ALL`].
     pub floors: [f64; 3],
     pub knobs: Vec<Tried>,
-    /// What the caller wants said of knobs that do nothing here.
+    /// Sentences for the caller to print on knobs without effect.
     pub idle: Vec<String>,
-    /// The first is the picture as `render` makes it.
+    /// The first row is the picture as `render` makes it.
     pub rows: Vec<Row>,
 }
 
-/// What had to be given up to keep the budget, settings aside.
+/// What was reduced to keep the budget, apart from settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cut {
-    /// How many pixels were to be audited.
+    /// Intended number of audited pixels, if it was reduced.
     pub pixels: Option<usize>,
-    /// How few samples of each the reference has.
+    /// Samples of the reference per pixel, if reduced.
     pub samples: Option<u32>,
-    /// How deep the reference looks, and how deep it was to.
+    /// Actual and intended depth of the reference, if reduced.
     pub depth: Option<(u32, u32)>,
 }
 
-/// A knob, and what came of turning it.
+/// A knob and the results of its settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tried {
     pub name: &'static str,
-    /// Its coarsest setting, and its finest.
+    /// Coarsest and finest setting.
     pub ends: [String; 2],
-    /// From cheap to dear. Those that are the same work at every audited pixel share a row.
+    /// From cheap to expensive. Settings that do the same work at every audited pixel share a row.
     pub settings: Vec<Setting>,
-    /// Those that change no audited pixel, and were not timed.
+    /// Settings that change no audited pixel and were not timed.
     pub vain: Vec<String>,
-    /// What did not fit into the budget.
+    /// Settings that did not fit into the budget.
     pub left_out: Vec<String>,
-    /// What it bought, or that it buys nothing here.
+    /// Summary of the knob's effect, or that it has none.
     pub sentence: String,
 }
 
 /// Settings that share a row.
 pub struct Line<'a> {
-    /// `5`, or of several the coarsest and the finest: `10 … 250`.
+    /// `5`, or the coarsest and the finest of several: `10 … 250`.
     pub label: String,
-    /// One of them is the scene's own.
+    /// Whether one of them is the scene's own.
     pub is_own: bool,
     pub first: &'a Setting,
 }
 
 impl Tried {
-    /// From cheap to dear; those that share a row are one line.
+    /// Returns lines from cheap to expensive; settings that share a row are one line.
     pub fn lines(&self) -> impl Iterator<Item = Line<'_>> {
         self.settings.chunk_by(|a, b| a.row == b.row).filter_map(|same| {
             let (first, last) = (same.first()?, same.last()?);
@@ -87,43 +87,43 @@ impl Tried {
 pub struct Setting {
     pub label: String,
     pub flag: String,
-    /// The scene's own, or `render`'s.
+    /// Whether it is the scene's own setting, or the default of `render`.
     pub is_own: bool,
-    /// Which of the rows.
+    /// Index of its row.
     pub row: usize,
-    /// Among the settings of its knob.
+    /// Verdict among the settings of its knob.
     pub verdict: Verdict,
 }
 
-/// One picture: all settings as the scene has them, but one.
+/// One picture, with all settings but one as in the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// `depth 3`; `*` for the first.
     pub name: String,
-    /// Of all rows that are the same work: their runs are runs of each.
+    /// Shared by all rows that do the same work: their runs count for each.
     pub times: Times,
-    /// Of the whole picture.
+    /// Counters of the entire picture.
     pub counters: Counters,
-    /// The unit cost of a ray in this row's arithmetic, in rays of the camera.
+    /// Unit cost of a ray in this row's precision, in camera rays.
     pub factor: f64,
     /// In each of [`Metric::ALL`].
     pub errors: [Estimate; 3],
-    /// Among all rows.
+    /// Verdict among all rows.
     pub verdict: Verdict,
-    /// The audited pixels' colours, linear and clamped.
+    /// Colors of the audited pixels, linear and clamped.
     pub colors: Vec<[f64; 3]>,
-    /// Of the metric asked.
+    /// Errors of the resamples, in the requested metric.
     pub resamples: Vec<f64>,
 }
 
 impl Report {
-    /// As it is shown.
+    /// Returns the error as shown.
     pub fn error(&self, row: usize) -> Estimate {
         self.shown(self.metric, row)
     }
 
-    /// An error with what can be said of it: below what the reference resolves, nothing but that it
-    /// lies between 0 and there, or where its own interval ends if that is further.
+    /// Returns the error as far as it is known. Below the resolution of the reference, only an upper bound
+    /// is: that resolution, or the end of its own interval if greater.
     pub fn shown(&self, metric: Metric, row: usize) -> Estimate {
         let (error, resolution) = (self.rows[row].errors[metric as usize], self.resolution(metric));
         match error.value < resolution {
@@ -132,7 +132,7 @@ impl Report {
         }
     }
 
-    /// Errors below this cannot be told from the reference's own.
+    /// Returns the bound below which errors cannot be distinguished from the reference's own.
     pub fn resolution(&self, metric: Metric) -> f64 {
         4.0 * self.floors[metric as usize]
     }
@@ -141,19 +141,19 @@ impl Report {
         self.rows[row].errors[metric as usize].value >= self.resolution(metric)
     }
 
-    /// What the rows cost, counted.
+    /// Returns the counted cost of a row.
     pub fn cost(&self, row: usize) -> f64 {
         self.rows[row].factor * knob::cost(&self.rows[row].counters)
     }
 
-    /// The fewest runs of a row, and the most.
+    /// Returns the minimum and maximum number of runs per row.
     pub fn runs(&self) -> (usize, usize) {
         let runs = || self.rows.iter().map(|row| row.times.cpu.len());
         (runs().min().unwrap_or(0), runs().max().unwrap_or(0))
     }
 
-    /// The part of its threads' time that tracing had, all runs together: much less than 1 where the
-    /// machine had other things to do. 1 where runs are too short to tell.
+    /// Returns the fraction of its threads' time that tracing had, over all runs: much less than 1 on a
+    /// busy machine, and 1 if runs are too short to tell.
     pub fn share_of_time(&self, threads: usize) -> f64 {
         let total = |of: fn(&Times) -> &[f64]| -> f64 {
             self.rows.iter().flat_map(|row| of(&row.times)).sum()
@@ -163,13 +163,13 @@ impl Report {
         if wall >= LEAST_TO_TELL { (cpu / whole).min(1.0) } else { 1.0 }
     }
 
-    /// The flag that makes a row's picture; none for that of the scene's own settings.
+    /// Returns the flag that produces a row's picture; `None` for the scene's own settings.
     pub fn flag(&self, row: usize) -> Option<&str> {
         let mut settings = self.knobs.iter().flat_map(|knob| &knob.settings);
         settings.find(|setting| setting.row == row && row > 0).map(|setting| setting.flag.as_str())
     }
 
-    /// Puts settings in order and says what they are worth.
+    /// Sorts the settings and computes their verdicts.
     pub(super) fn judge(&mut self) {
         let order = self.order();
         let all: Vec<usize> = (0..self.rows.len()).collect();
@@ -177,7 +177,7 @@ impl Report {
             row.verdict = verdict;
         }
         for tried in &mut self.knobs {
-            // Of rows of the same cost the first goes before here, too: so no two point at each other.
+            // Rows of equal cost keep their order here, too, so that no two refer to each other.
             let mut rows: Vec<usize> = tried.settings.iter().map(|setting| setting.row).collect();
             rows.sort_unstable();
             rows.dedup();
@@ -195,7 +195,7 @@ impl Report {
         }
     }
 
-    /// Which rows are cheaper, which better.
+    /// Returns the partial order of the rows.
     pub fn order(&self) -> Order {
         let times = || self.rows.iter().map(|row| &row.times);
         let apart = times().filter_map(Times::apart).fold(None, |most: Option<f64>, apart| {
@@ -219,7 +219,7 @@ impl Report {
         Order::of((0..self.rows.len()).map(point).collect())
     }
 
-    /// Of a count of the whole picture.
+    /// Converts a count for the entire picture to one per pixel.
     pub fn a_pixel(&self, count: f64) -> f64 {
         let Region { width, height, .. } = self.frame.region;
         count / (f64::from(width) * f64::from(height))

@@ -1,10 +1,10 @@
-//! One sentence a knob: what it bought, or that it buys nothing here.
+//! Summarizes each knob in one sentence: its benefit, or that it has none in this scene.
 
 use super::reference::ROUNDING;
 use super::statistics::difference;
 use super::{Metric, Order, Report, Setting, Tried, table};
 
-/// What turning the knob did to this picture.
+/// Describes the effect of the knob on this picture.
 pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
     let name = tried.name;
     let settings = &tried.settings;
@@ -32,7 +32,7 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
     let worst = worse.iter().copied().max_by(|a, b| value(a).total_cmp(&value(b)));
     if let Some(worst) = worst.filter(|_| best.row == cheap.row) {
         let names: Vec<&str> = worse.iter().map(|setting| setting.label.as_str()).collect();
-        // By what was counted it is the cheapest; the clock may have seen otherwise.
+        // It is the cheapest by counts; another may be faster by the clock.
         let quicker = settings.iter().find(|other| order.is_quicker(other.row, best.row));
         let (cheapest, only, but) = match quicker {
             None => (", the cheapest,", " only", String::new()),
@@ -70,10 +70,10 @@ pub fn of(report: &Report, order: &Order, tried: &Tried) -> String {
     )
 }
 
-/// Of a knob under which `changed` pixels change, and the error is not proven to.
+/// Describes a knob that changes `changed` pixels without a proven effect on the error.
 fn no_effect(report: &Report, tried: &Tried, dear: &Setting, changed: usize) -> String {
     let (name, settings, audited) = (tried.name, &tried.settings, report.audited);
-    // The error of a pixel's colour is of the kind of both but a share.
+    // For fractions of bad pixels, compares with the RMSE, whose unit is that of the change in color.
     let (floor, of) = match report.metric {
         Metric::Rmse | Metric::P99 => (report.floors[report.metric as usize], "the"),
         Metric::Bad => (report.floors[Metric::Rmse as usize], "the RMSE's"),
@@ -101,27 +101,27 @@ fn no_effect(report: &Report, tried: &Tried, dear: &Setting, changed: usize) -> 
     )
 }
 
-/// How many audited pixels are not the same, to the last bit, under both.
+/// Returns how many audited pixels differ between two settings, to the last bit.
 fn changed(report: &Report, a: &Setting, b: &Setting) -> usize {
     let (a, b) = (&report.rows[a.row].colors, &report.rows[b.row].colors);
     a.iter().zip(b).filter(|(a, b)| a != b).count()
 }
 
-/// By how much a component of an audited pixel differs between both, at most.
+/// Returns the maximum difference of a component of an audited pixel between two settings.
 fn change(report: &Report, a: &Setting, b: &Setting) -> f64 {
     let (a, b) = (&report.rows[a.row].colors, &report.rows[b.row].colors);
     let pairs = a.iter().flatten().zip(b.iter().flatten());
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// The cheapest that no other is proven to be better than.
+/// Returns the cheapest setting that no other is proven to be better than.
 fn best<'a>(order: &Order, settings: &'a [Setting]) -> &'a Setting {
     let unsurpassed =
         |this: &&Setting| !settings.iter().any(|other| order.gains(other.row, this.row));
     settings.iter().find(unsurpassed).unwrap_or(&settings[0])
 }
 
-/// What the second costs beyond the first.
+/// Describes the additional cost of the second setting.
 fn price(order: &Order, from: &Setting, to: &Setting) -> String {
     order.times(from.row, to.row).map_or_else(|| table::NO_LONGER.to_owned(), table::more)
 }

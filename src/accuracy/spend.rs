@@ -1,8 +1,8 @@
-//! Pictures of a promised time.
+//! Renders pictures within a promised time.
 //!
-//! **In:** a World, and when its picture must be done. **Out:** the best picture there is time for, and
-//! what is known of its error. **Invariant:** it is done in time, also where that is too short for the
-//! scene's own settings; and an error is told only against what looks as deep as the scene does.
+//! **In:** a World, and the deadline of its picture. **Out:** the best picture possible in that time, and
+//! what is known of its error. **Invariant:** the deadline is kept even if it is too short for the scene's
+//! own settings; an error is reported only against a reference as deep as the scene.
 
 use super::afford::{Deadline, Depths, LEAST};
 use super::begin::{Begun, begin};
@@ -18,52 +18,56 @@ use crate::plan::{Effect, Plan, PlanOptions, plan};
 use crate::trace::{Traced, Watch};
 use crate::world::{Origins, World};
 
-/// Of all the time: what finding the error may take, and what it may take where there are fewer than
-/// so many pixels by then: what samples have left. Ten pixels of a hundred fewer samples make an error 8 % larger.
+/// Fraction of the total time for the audit, and the fraction if fewer than `FEW` pixels were done by then;
+/// the rest is for samples. A tenth fewer samples increase the error by 8 %.
 const FOR_AUDIT: f64 = 0.1;
 const FOR_FEW: f64 = 0.14;
 const FEW: usize = 200;
-/// Of all the time: what the first pass leaves at least, so that a whole picture's error is known.
+/// Fraction of the total time that the first pass leaves at least, so that the error of a complete picture
+/// is known.
 const KEPT: f64 = 0.05;
-/// Of the time for the audit: what a first block of pixels may take that looks all the way.
+/// Fraction of the audit time for a first block of pixels at full depth.
 const FOR_ALL_THE_WAY: f64 = 0.25;
-/// Of the time for more samples: what is spent before the audit. What is left is spent with what those
-/// samples have shown, and with what the audit did not need. Pixels traced anew lose the samples they had:
-/// with 0.8, and 16 for [`PILOT`], errors were a fifth larger than with nearly all and 64.
+/// Fraction of the time for more samples that is used before the audit. The rest is used afterwards, guided
+/// by those samples and together with time that the audit did not need. Retraced pixels lose their previous
+/// samples: with 0.8, and 16 for [`PILOT`], errors were a fifth larger than with nearly all and 64.
 const BEFORE_AUDIT: f64 = 0.95;
-/// Of the samples there is time for: one of so many goes to every pixel alike, to learn which need more.
+/// One sample in this many is spread evenly over the pixels, to learn which need more.
 const PILOT: f64 = 64.0;
-/// How much longer the same may take the second time.
+/// Factor by which the same work may take longer the second time.
 const SLACK: f64 = 1.2;
 
-/// A picture whose time was promised.
+/// A picture with a promised time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spent {
-    /// Not complete when even the first pass did not fit. Its film says how many samples each pixel has.
+    /// Incomplete if even the first pass did not fit. Its film contains the number of samples of each
+    /// pixel.
     pub traced: Traced,
-    /// The flags that all of it was made with but `rest`, the number of samples aside.
+    /// Flags with which all of it but `rest` was rendered, without the number of samples.
     pub flags: String,
-    /// Those are less than the scene's own, which would not have fit.
+    /// Whether those are cheaper than the scene's own settings, which would not have fit.
     pub is_less: bool,
-    /// How many pixels even they were too much for, and the flags of those: the cheapest.
+    /// Number of pixels for which even those were too expensive, and the flags of these pixels: the
+    /// cheapest.
     pub rest: usize,
     pub least: String,
-    /// Each pixel has the most samples there are: more time would change nothing.
+    /// Whether each pixel has the maximum number of samples, so that more time would change nothing.
     pub is_finest: bool,
-    /// None when there was no time to look at pixels as deep as the scene does.
+    /// `None` if there was no time to trace pixels as deep as the scene does.
     pub audit: Option<Audit>,
 }
 
-/// What the first pass made.
+/// Result of the first pass.
 #[derive(Debug, Clone, Copy)]
 pub struct First<'a> {
     pub film: &'a Film,
-    /// How many processors it had, on the mean.
+    /// Average number of processors it had.
     pub processors: f64,
 }
 
-/// Renders as well as can be before the clock shows what `until` says, and audits in what is left of it.
-/// `until` is asked twice: once the tree of boxes stands, and then with what the first pass made.
+/// Renders as well as possible before the clock reaches the time returned by `until`, and audits the
+/// picture in the rest of it. `until` is called twice: when the bounding volume hierarchy is built, and
+/// with the result of the first pass.
 pub fn spend(
     world: &World,
     origins: &Origins,
@@ -75,7 +79,7 @@ pub fn spend(
     let began = clock.wall();
     let easel = Easel::new(world, origins, options);
     let geometry = Geometries::default();
-    // Many parts, none of which is the whole.
+    // Suppresses the progress of individual parts.
     let quiet = Quiet(watch);
     let studio = Studio { world, geometry: &geometry, options: options.trace, watch: &quiet };
     studio.geometry(&plan(world, origins, &easel.own));
@@ -125,26 +129,26 @@ struct Spending<'a> {
     canvas: Canvas,
     options: &'a Options<'a>,
     clock: &'a dyn Clock,
-    /// Seconds.
+    /// In seconds.
     all: f64,
-    /// As the clock shows.
+    /// Deadline in clock time.
     until: f64,
 }
 
 impl Spending<'_> {
-    /// More samples, the audit's truth, and more samples again; then what the audit says.
+    /// Adds samples, computes the reference of the audit, adds samples again, and returns the audit.
     fn spend(&mut self) -> Option<Audit> {
         let now = self.clock.wall();
         let for_audit = (FOR_AUDIT * self.all).min(self.until - now);
         let for_samples = self.until - for_audit - now;
         self.sample(now + BEFORE_AUDIT * for_samples, self.until - for_audit, true);
-        // Where there is nothing else to be bought, all of the time is for the error.
+        // If the picture cannot be refined further, all of the remaining time is for the audit.
         let for_audit = match is_finest(&self.canvas.film) {
             true => self.until - self.clock.wall(),
             false => for_audit,
         };
         let truth = self.truth(for_audit);
-        // At the end it takes as long to find the error as it does now.
+        // Computing the audit at the end takes as long as it does now.
         let metric = self.options.metric;
         let began = self.clock.wall();
         let audit = |found: &Option<Found>, film: &Film| {
@@ -165,8 +169,8 @@ impl Spending<'_> {
         audit(&truth, &self.canvas.film)
     }
 
-    /// Passes of more samples, so fine that they are done when the clock shows `until`; `latest` stops
-    /// them.
+    /// Makes passes of more samples, as fine as can be finished when the clock reaches `until`; `latest`
+    /// stops them.
     fn sample(&mut self, until: f64, latest: f64, is_first: bool) {
         let watch = &Deadline { clock: self.clock, until: latest, watch: self.studio.watch };
         let studio = Studio { watch, ..self.studio };
@@ -188,8 +192,8 @@ impl Spending<'_> {
         }
     }
 
-    /// What drawn pixels really look like: with every knob at its dearest, or else with rays that go on as far
-    /// as the scene has them.
+    /// Computes the reference of drawn pixels, with every knob at its most expensive, or else with the
+    /// scene's own limits on depth and weight.
     fn truth(&mut self, for_audit: f64) -> Option<Found> {
         let Self { studio, canvas, clock, options, .. } = self;
         let began = clock.wall();
@@ -205,7 +209,7 @@ impl Spending<'_> {
         let all = plan(studio.world, origins, &deepest);
         let PlanOptions { depth, adc_bailout, .. } = self.own;
         let own = plan(studio.world, origins, &PlanOptions { depth, adc_bailout, ..deepest });
-        // Where no ray goes on from what it meets, one look is as deep as another.
+        // If no ray continues from a surface, depth makes no difference.
         let most = (all.max_trace_level, all.adc_bailout);
         let looks: &[(Plan, &dyn Fn(usize) -> f64)] = match goes_on(&own) {
             true => &[(all, &all_the_way), (own, &enough)],
@@ -232,15 +236,14 @@ impl Spending<'_> {
     }
 }
 
-/// What pixels really look like, and how far rays were followed where that was not all the way: as
-/// [`Audit`] has them.
+/// Reference of drawn pixels, and the limits on its depth and weight, if any, as in [`Audit`].
 struct Found {
     truth: Truth,
     depth: Option<u32>,
     adc_bailout: Option<f64>,
 }
 
-/// Surfaces send rays on: what is seen depends on how deep one looks.
+/// Whether surfaces send rays on, so that the picture depends on the depth.
 fn goes_on(plan: &Plan) -> bool {
     plan.simulates(Effect::Reflection) || plan.simulates(Effect::Transparency)
 }

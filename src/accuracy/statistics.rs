@@ -1,50 +1,53 @@
-//! One number for how wrong a picture is, and how sure that number is.
+//! Measures the error of a picture as one number, with its uncertainty.
 //!
-//! **In:** deviations of single pixels from a reference. **Out:** [`Estimate`]s. **Invariant:** the
-//! same on every run: what is drawn at random is drawn from a fixed seed.
+//! **In:** deviations of single pixels from a reference. **Out:** [`Estimate`]s. **Invariant:** results are
+//! reproducible, as random draws use a fixed seed.
 
 use std::iter;
 
 use crate::math::elementary::{erf, pow};
 use crate::math::random::Random;
 
-/// A pixel is bad when a component is off by more than this: two steps of 255.
+/// Deviation of a component above which a pixel is bad: two steps of 255.
 pub const BAD: f64 = 2.0 / 255.0;
-/// Of the standard normal distribution: 95 % lie within ± this.
+/// Half width of the central 95 % of the standard normal distribution.
 const Z: f64 = 1.959_963_984_540_054;
-/// How many resamples an interval is read from.
+/// Number of resamples for an interval.
 const RESAMPLES: usize = 1000;
-/// Of fewer pixels than this, three more as bad as the worst may be unseen (the rule of three); of more, one.
+/// Number of pixels below which three more as bad as the worst may be unseen (the rule of three);
+/// otherwise, one may.
 ///
-/// **Source:** J. Hanley, A. Lippman-Hand, "If nothing goes wrong, is everything all right?", JAMA 249, 1983.
+/// **Source:** J. Hanley, A. Lippman-Hand, "If nothing goes wrong, is everything all right?", JAMA 249,
+/// 1983.
 const FEW: usize = 100;
-/// More draws make the ranks of a percentile no closer: a power of .99 is still a number for them.
+/// Maximum number of draws for the ranks of a percentile: more do not narrow them, and powers of 0.99 do
+/// not yet underflow.
 const MOST_DRAWS: f64 = 50_000.0;
-/// Of the resamples. All rows share them, so that their differences are those of pairs.
+/// Seed of the resamples. All rows share them, so that differences are paired.
 const SEED: u64 = 0x6c75_6361_726e_6521;
 
-/// What "wrong" means.
+/// Error metric.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Metric {
-    /// The root of the mean square over pixels and components.
+    /// Root mean square over pixels and components.
     #[default]
     Rmse,
-    /// Of a hundred pixels one has a component that is off by more.
+    /// 99th percentile: one pixel in a hundred has a component with a larger deviation.
     P99,
-    /// The share of pixels that are off by more than 2/255.
+    /// Fraction of pixels with a deviation of more than 2/255.
     Bad,
 }
 
-/// How far one pixel is from the reference, in linear components clamped to 0 … 1.
+/// Deviation of one pixel from the reference, in linear components clamped to 0 … 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Deviation {
-    /// From the reference: the mean of its two halves.
+    /// Deviation from the mean of the reference's two halves.
     pub off: [f64; 3],
-    /// Half the difference of the halves: as large as the reference's own standard error.
+    /// Half the difference of the halves, whose magnitude is that of the reference's standard error.
     pub noise: [f64; 3],
 }
 
-/// A number and the interval that holds the true one 95 times of 100.
+/// A value and its 95 % confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Estimate {
     pub value: f64,
@@ -63,12 +66,12 @@ impl Metric {
         }
     }
 
-    /// The part of one pixel in the number: its square error without what the reference's noise
-    /// adds to it, its largest component, or about 1 if it is bad.
+    /// Returns the contribution of one pixel: its square error without the contribution of the reference's
+    /// noise, its largest component, or about 1 if it is bad.
     ///
-    /// The first is (x − A)(x − B) for a reference of independent halves A and B, whose mean is
-    /// the true square error whatever their noise. The last is twice what both halves together say
-    /// less what each alone says: noise pushes more pixels over the limit than back, twice as many
+    /// The first is (x − A)(x − B) for a reference of independent halves A and B; its mean is the true
+    /// square error whatever their noise. The last is twice the result for both halves together minus the
+    /// mean of the results for each half: noise pushes more pixels over the limit than back, twice as many
     /// with half the samples.
     ///
     /// **Source:** M. Quenouille, "Notes on bias in estimation", Biometrika 43, 1956.
@@ -88,7 +91,7 @@ impl Metric {
         }
     }
 
-    /// From the parts of all pixels, which it may rearrange.
+    /// Computes the metric from the contributions of all pixels, which it may reorder.
     fn whole(self, parts: &mut [f64]) -> f64 {
         let mean = |parts: &[f64]| parts.iter().sum::<f64>() / parts.len().max(1) as f64;
         match self {
@@ -103,15 +106,15 @@ impl Metric {
         self.whole(&mut parts)
     }
 
-    /// The same measure of the reference's own error.
+    /// Returns the same metric for the reference's own error.
     pub fn floor(self, pixels: &[Deviation]) -> f64 {
         let own: Vec<Deviation> =
             pixels.iter().map(|p| Deviation { off: p.noise, noise: [0.0; 3] }).collect();
         self.of(&own)
     }
 
-    /// What [`Metric::of`] would have been with other pixels: one number a resample (with
-    /// replacement). The k-th resample takes the same pixels whatever they hold.
+    /// Returns the value of [`Metric::of`] for resamples of the pixels (with replacement), one number per
+    /// resample. The k-th resample takes the same pixels whatever their values.
     ///
     /// **Source:** B. Efron, R. Tibshirani, An Introduction to the Bootstrap (1993), ch. 13.
     pub fn resampled(self, pixels: &[Deviation]) -> Vec<f64> {
@@ -125,7 +128,7 @@ impl Metric {
         let mut drawn = vec![0.0; parts.len()];
         let draw = |resample| {
             let mut random = Random::of(SEED, resample as u64);
-            // The upper half of a product is as even as a remainder, and much sooner had.
+            // The upper half of a product is as uniform as a remainder, and much faster to compute.
             let mut place = || (((random.bits() >> 32) * parts.len() as u64) >> 32) as usize;
             drawn.iter_mut().for_each(|part| *part = parts[place()]);
             self.whole(&mut drawn)
@@ -133,23 +136,23 @@ impl Metric {
         (0..RESAMPLES).map(draw).collect()
     }
 
-    /// The number with its interval: by bootstrap for RMSE, by Wilson's for shares, and for the
-    /// 99th percentile by the ranks that it has 95 times of 100. The pixels are as `audit::by_place` has them:
-    /// neighbours close together, and drawn from `all` there are: what was looked at adds nothing to the error of
-    /// a share.
+    /// Returns the metric with its interval: by bootstrap for RMSE, by Wilson's method for fractions, and
+    /// for the 99th percentile by the ranks it has with 95 % probability. The pixels must be in the order
+    /// of `audit::by_place`, with neighbours close together. They are a sample of `all` pixels; pixels in
+    /// the sample add nothing to the error of a fraction.
     ///
     /// **Source:** R. Woodruff, "Confidence intervals for medians and other position measures", JASA 47,
     /// 1952, for the percentile; its ranks are those of the binomial distribution (H. David, H. Nagaraja,
-    /// Order Statistics, 3rd ed. 2003, 7.1); for the share, W. Cochran, Sampling Techniques, 3rd ed. 1977, 2.6
-    /// (the finite population correction).
+    /// Order Statistics, 3rd ed. 2003, 7.1); for the fraction, W. Cochran, Sampling Techniques, 3rd ed.
+    /// 1977, 2.6 (the finite population correction).
     pub fn estimate(self, pixels: &[Deviation], all: f64) -> Estimate {
         let mut parts: Vec<f64> = pixels.iter().map(|pixel| self.part(pixel)).collect();
         let value = self.whole(&mut parts);
         let (low, high) = match self {
             Self::Rmse => {
                 let (low, _) = self.corrected(&parts);
-                // The next pixel may be as bad as the worst so far; where few are known, so may the next
-                // three: of what n draws did not show there may be 3/n.
+                // The next pixel may be as bad as the worst so far; with few pixels, so may the next three:
+                // a fraction of up to 3/n may be unseen in n draws.
                 let worst = parts.iter().copied().max_by(f64::total_cmp);
                 let unseen = if parts.len() < FEW { 3 } else { 1 };
                 parts.extend(worst.into_iter().flat_map(|worst| iter::repeat_n(worst, unseen)));
@@ -163,7 +166,7 @@ impl Metric {
                 let unseen = (1.0 - count / all).max(1.0 / count);
                 let draws = worth(&hits) / unseen;
                 let off = wilson(share * draws, draws);
-                // Noise shows where pixels are nearly bad: it adds more to their spread than its own.
+                // Noise matters for nearly bad pixels: it adds more to the spread than the noise's own.
                 let added = (successive(&parts) - successive(&hits)).max(successive(&noise));
                 with_noise(value, share, off, added.sqrt() / count)
             }
@@ -178,11 +181,12 @@ impl Metric {
         Estimate { value, low: low.min(value), high: high.max(value) }
     }
 
-    /// As [`interval`] of the resamples, corrected for bias and for the skewness of the parts, of
-    /// whose mean the number is a rising function: errors are skewed, a few pixels have most of them.
+    /// Like [`interval`] of the resamples, corrected for bias and for the skewness of the contributions:
+    /// the metric is an increasing function of their mean, and errors are skewed, as a few pixels have most
+    /// of them.
     ///
-    /// **Source:** B. Efron, "Better bootstrap confidence intervals", JASA 82, 1987 (BCa); the
-    /// acceleration of a mean is a sixth of its standardised third moment.
+    /// **Source:** B. Efron, "Better bootstrap confidence intervals", JASA 82, 1987 (BCa); the acceleration
+    /// of a mean is a sixth of its standardised third moment.
     fn corrected(self, parts: &[f64]) -> (f64, f64) {
         let resamples = self.redrawn(parts);
         let value = self.whole(&mut parts.to_vec());
@@ -207,10 +211,10 @@ impl Metric {
     }
 }
 
-/// The number with its interval, and that of the reference's own error, by pixels drawn at random of which
-/// each counts as much as its weight: the less, the likelier it was to be drawn.
+/// Returns the metric with its interval, and that of the reference's own error, for randomly drawn pixels
+/// with weights that are inverse to their probabilities.
 ///
-/// **Source:** as [`Metric::estimate`]; shares and ranks as of so many equal draws as have the same
+/// **Source:** as [`Metric::estimate`]; fractions and ranks as for the number of equal draws with the same
 /// variance (E. Korn, B. Graubard, 1998).
 pub fn weighted(metric: Metric, pixels: &[Deviation], weights: &[f64]) -> (Estimate, f64) {
     let count = pixels.len().max(1) as f64;
@@ -260,10 +264,10 @@ pub fn weighted(metric: Metric, pixels: &[Deviation], weights: &[f64]) -> (Estim
     }
 }
 
-/// Where the 99th percentile lies, 95 times of 100, if the list tells as much as so many equal draws, or as
-/// many as it has: the few that lie beyond do not tell that it says more. No deviation is greater than 1; where
-/// there are few draws, it may be that much. Of each deviation there is the least that it may be: with the
-/// reference's noise taken for error the percentile is too high.
+/// Returns the 95 % interval of the 99th percentile, if the list is worth `draws` equal draws, or its
+/// length if that is less: the few pixels beyond the percentile are no evidence of more. The upper end is
+/// 1, the maximum deviation, if there are few draws. `least` has a lower bound of each deviation, because
+/// counting the reference's noise as error overestimates the percentile.
 fn spanned((least, list): (&[f64], &[f64]), weights: &[f64], draws: f64) -> (f64, f64) {
     let draws = draws.min(list.len() as f64).floor().clamp(1.0, MOST_DRAWS);
     let (few, many) = beyond_p99(draws);
@@ -271,16 +275,17 @@ fn spanned((least, list): (&[f64], &[f64]), weights: &[f64], draws: f64) -> (f64
     (low, few.map_or(1.0, |few| exceeded(list, weights, few / draws)))
 }
 
-/// What of a pixel's largest deviation is beyond the reference's own.
+/// Returns the part of a pixel's largest deviation that exceeds the reference's own error.
 fn certain(pixel: &Deviation) -> f64 {
     let parts = pixel.off.iter().zip(pixel.noise);
     parts.map(|(off, noise)| (off * off - noise * noise).max(0.0).sqrt()).fold(0.0, f64::max)
 }
 
-/// How many of so many draws may lie beyond the 99th percentile: more than the first number, as far as there
-/// is one, and no more than the second. Each end is left to a chance of 2½ of 100, of which the number at the
-/// end counts half: so the interval holds 95 times of 100 in the mean of all lengths of the list, where whole
-/// numbers of draws cannot do so for each; counted whole, it would hold too often.
+/// Returns how many of `draws` draws may lie beyond the 99th percentile: more than the first number, if
+/// any, and at most the second. Each end is exceeded with a probability of 2.5 %, where the number at the
+/// end counts half. Thus the interval holds with 95 % probability on average over all lengths of the list;
+/// whole numbers of draws cannot achieve that for each length, and counting the end in full would be
+/// conservative.
 ///
 /// **Source:** H. Lancaster, "Significance tests in discrete distributions", JASA 56, 1961 (mid-P).
 fn beyond_p99(draws: f64) -> (Option<f64>, f64) {
@@ -302,7 +307,7 @@ fn beyond_p99(draws: f64) -> (Option<f64>, f64) {
     (few, beyond - 1.0)
 }
 
-/// The least number of a list that no more than `share` of the whole exceeds.
+/// Returns the least number of a list that at most `share` of the total weight exceeds.
 fn exceeded(list: &[f64], weights: &[f64], share: f64) -> f64 {
     let mut both: Vec<(f64, f64)> = list.iter().copied().zip(weights.iter().copied()).collect();
     both.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -315,8 +320,8 @@ fn exceeded(list: &[f64], weights: &[f64], share: f64) -> f64 {
     found.map_or(0.0, |&(value, _)| value)
 }
 
-/// How many draws of equal weight would tell a share as surely as these, whose hits count as much as
-/// their weights say. Where hits are few they say little, and one more is supposed beside them.
+/// Returns the number of equally weighted draws that would estimate a fraction as precisely as these
+/// weighted ones. Few hits are weak evidence, so one more is assumed.
 fn equal_draws(hits: &[f64], weights: &[f64]) -> f64 {
     let count = hits.len().max(1) as f64;
     let share = (hits.iter().sum::<f64>() / count).clamp(0.0, 1.0);
@@ -325,15 +330,15 @@ fn equal_draws(hits: &[f64], weights: &[f64]) -> f64 {
     count * (count * share * (1.0 - share) + 1.0) / (here + most)
 }
 
-/// How many pixels drawn from anywhere would tell the share of hits as surely as these do, each of
-/// which was drawn from a square of its own: what squares side by side have in common adds nothing to
-/// the share's error. Two neighbours estimate the variance in a square; where hits are few they say
-/// little, and one that stands alone is supposed beside those that were seen.
+/// Returns the number of unstratified pixels that would estimate the fraction of hits as precisely as
+/// these, each of which was drawn from its own square: similarity of adjacent squares reduces the error of
+/// the fraction. The variance in a square is estimated from two neighbours. Few hits are weak evidence, so
+/// one more isolated hit is assumed.
 ///
 /// **Source:** the variance is that of successive differences (K. Wolter, Introduction to Variance
-/// Estimation, 2nd ed. 2007, ch. 8); an interval from as many draws as are worth the same is that of
-/// E. Korn, B. Graubard, "Confidence intervals for proportions with small expected number of positive
-/// counts estimated from survey data", Survey Methodology 24, 1998.
+/// Estimation, 2nd ed. 2007, ch. 8); an interval from the effective number of draws is that of E. Korn, B.
+/// Graubard, "Confidence intervals for proportions with small expected number of positive counts estimated
+/// from survey data", Survey Methodology 24, 1998.
 fn worth(hits: &[f64]) -> f64 {
     let count = hits.len() as f64;
     let share = hits.iter().sum::<f64>() / count.max(1.0);
@@ -341,18 +346,18 @@ fn worth(hits: &[f64]) -> f64 {
     count * (anywhere.max(0.0) + 1.0) / (successive(hits) + 1.0)
 }
 
-/// The sum of the parts' square distances from their mean, as neighbours tell it.
+/// Returns the sum of squared deviations from the mean, estimated from successive differences.
 fn successive(parts: &[f64]) -> f64 {
     parts.windows(2).map(|pair| (pair[0] - pair[1]) * (pair[0] - pair[1])).sum::<f64>() / 2.0
 }
 
-/// 1 where a component is off by more than [`BAD`], else 0.
+/// Returns 1 if a component is off by more than [`BAD`], otherwise 0.
 fn bad(off: [f64; 3]) -> f64 {
     f64::from(u8::from(off.iter().any(|c| c.abs() > BAD)))
 }
 
-/// The interval about `value`, a `share` whose own is known and what the reference's noise added to it,
-/// which is known to a standard error: the squares of the distances to both ends add up.
+/// Returns the interval around `value`, given the `share` with a known interval, and the contribution of
+/// the reference's noise with its standard error: the squared distances to the ends add up.
 ///
 /// **Source:** G. Zou, A. Donner, "Construction of confidence limits about effect measures", Statistics in
 /// Medicine 27, 2008.
@@ -361,18 +366,18 @@ fn with_noise(value: f64, share: f64, (low, high): (f64, f64), noise: f64) -> (f
     ((value - half(low)).max(0.0), (value + half(high)).min(1.0))
 }
 
-/// What lies between the 2½th and the 97½th hundredth.
+/// Returns the interval between the 2.5th and the 97.5th percentile.
 pub fn interval(resamples: &[f64]) -> (f64, f64) {
     let mut sorted = resamples.to_vec();
     (quantile(&mut sorted, 0.025), quantile(&mut sorted, 0.975))
 }
 
-/// The share of a standard normal distribution below `z`.
+/// Returns the cumulative distribution function of the standard normal distribution at `z`.
 fn normal_share(z: f64) -> f64 {
     0.5 * (1.0 + erf(z * std::f64::consts::FRAC_1_SQRT_2))
 }
 
-/// The inverse of [`normal_share`], by bisection.
+/// Returns the inverse of [`normal_share`], by bisection.
 fn normal_quantile(share: f64) -> f64 {
     let (mut low, mut high) = (-10.0, 10.0);
     for _ in 0..60 {
@@ -382,12 +387,13 @@ fn normal_quantile(share: f64) -> f64 {
     (low + high) / 2.0
 }
 
-/// How much more `a` is than `b`, resample by resample; the interval tells whether it is proven.
+/// Returns the interval of the differences of `a` and `b` by resample; the difference is proven if the
+/// interval excludes 0.
 pub fn difference(a: &[f64], b: &[f64]) -> (f64, f64) {
     interval(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
 }
 
-/// The least number that at least `share` of the list do not exceed; 0 of an empty one.
+/// Returns the least number that at least `share` of the list do not exceed; 0 for an empty list.
 fn quantile(list: &mut [f64], share: f64) -> f64 {
     let rank = (share * list.len() as f64).ceil() as usize;
     let place = rank.clamp(1, list.len().max(1)) - 1;
@@ -397,10 +403,10 @@ fn quantile(list: &mut [f64], share: f64) -> f64 {
     }
 }
 
-/// The 95 % interval of a share of which `hits` of `count` were seen; 0 of n is at most 3.84/n.
+/// Returns the 95 % interval of a fraction, given `hits` of `count`; for no hits in n, at most 3.84/n.
 ///
-/// **Source:** E. Wilson, "Probable inference, the law of succession, and statistical inference",
-/// JASA 22, 1927.
+/// **Source:** E. Wilson, "Probable inference, the law of succession, and statistical inference", JASA 22,
+/// 1927.
 pub fn wilson(hits: f64, count: f64) -> (f64, f64) {
     if count <= 0.0 {
         return (0.0, 1.0);

@@ -1,26 +1,26 @@
-//! The report as a table that a person reads in ten seconds.
+//! Formats the report as a table for people.
 
 use super::{Cut, Estimate, Line, Metric, Report, Setting, Span, Times, Tried, Verdict, answer};
 use crate::math::elementary::log10;
 use crate::plan::Frame;
 
-/// How much of it is shown.
+/// Amount of detail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Width {
-    /// No line is longer than 100 columns.
+    /// Lines of at most 100 columns.
     Narrow,
-    /// All that was counted, and verdicts in full.
+    /// All counts, and full verdicts.
     Wide,
 }
 
-/// As wide as a page of text.
+/// Maximum line width in columns.
 const COLUMNS: usize = 100;
-/// Of the settings' names, where none is longer.
+/// Minimum width of the column of names.
 const NAME: usize = 17;
-/// How far the rest of a broken line is set in.
+/// Indentation of continuation lines.
 const SET_IN: usize = 4;
 
-/// The whole report: first what to use, then what each setting costs and buys.
+/// Formats the full report: first the recommendation, then the cost and the accuracy of each setting.
 pub fn text(report: &Report, file: &str, threads: usize, width: Width) -> String {
     let mut lines = answer::of(report, &report.order());
     lines.push(String::new());
@@ -71,7 +71,7 @@ pub fn text(report: &Report, file: &str, threads: usize, width: Width) -> String
     lines.iter().map(broken).collect()
 }
 
-/// What was measured, and how the table is to be read.
+/// Describes what was measured, and how to read the table.
 fn heads(report: &Report, file: &str, threads: usize, width: Width) -> Vec<String> {
     let region = report.frame.region;
     let floor = report.floors[report.metric as usize];
@@ -120,7 +120,7 @@ fn heads(report: &Report, file: &str, threads: usize, width: Width) -> Vec<Strin
     lines
 }
 
-/// What had to be given up to keep the budget, settings aside.
+/// Describes what was reduced to keep the budget, apart from settings.
 pub(super) fn cut(report: &Report) -> Vec<String> {
     let Cut { pixels, samples, depth } = report.cut;
     let pixels = pixels.map(|all| format!("{} of {all} audited pixels", report.audited));
@@ -130,7 +130,7 @@ pub(super) fn cut(report: &Report) -> Vec<String> {
     [pixels, samples, depth].into_iter().flatten().collect()
 }
 
-/// The settings of a line.
+/// Formats the settings of a line.
 fn row(report: &Report, knob: &Tried, line: &Line, (width, name): (Width, usize)) -> String {
     let row = &report.rows[line.first.row];
     let star = if line.is_own { '*' } else { ' ' };
@@ -160,7 +160,7 @@ fn row(report: &Report, knob: &Tried, line: &Line, (width, name): (Width, usize)
     }
 }
 
-/// Half of what runs lie apart, of the middle one; nothing of a single run.
+/// Formats half of the spread of the runs, relative to the median; empty for a single run.
 fn apart(times: &Times) -> String {
     let middle = Span::of(&times.cpu).median;
     match times.ends() {
@@ -171,7 +171,7 @@ fn apart(times: &Times) -> String {
     }
 }
 
-/// A number with three or four digits.
+/// Formats a number with three or four digits.
 fn short(n: f64) -> String {
     match n {
         100.0.. => format!("{n:.0}"),
@@ -180,7 +180,7 @@ fn short(n: f64) -> String {
     }
 }
 
-/// On lines that are short enough, broken between words; what goes on is set in.
+/// Wraps a line between words, with indented continuation lines.
 fn wrapped(line: &str) -> String {
     // A line of the table is short enough, and its blanks stay.
     if line.chars().count() <= COLUMNS {
@@ -207,7 +207,8 @@ fn wrapped(line: &str) -> String {
     out + "\n"
 }
 
-/// On the front, or what is to be preferred: first among the settings of its own knob.
+/// Formats the verdict: on the front, or which setting is preferable, primarily among those of its own
+/// knob.
 fn verdict(report: &Report, knob: &Tried, setting: &Setting, width: Width) -> String {
     let name = |row: usize| {
         let mine = knob.settings.iter().find(|other| other.row == row);
@@ -253,13 +254,13 @@ fn verdict(report: &Report, knob: &Tried, setting: &Setting, width: Width) -> St
     }
 }
 
-/// A machine that leaves its threads less than this part of their time is busy.
+/// Fraction of the threads' time below which a machine counts as busy.
 const BUSY: f64 = 0.75;
 
-/// From here on a ratio is told as one, and below as a percentage.
+/// Ratio from which a difference is printed as a ratio instead of a percentage.
 const LARGE: f64 = 1.2;
 
-/// What the faster of two is.
+/// Describes the cost of the faster of two settings.
 fn less(ratio: f64) -> String {
     match ratio {
         LARGE.. => format!("is {} faster", times(ratio)),
@@ -267,10 +268,10 @@ fn less(ratio: f64) -> String {
     }
 }
 
-/// What is said of the dearer of two that is not proven to take longer.
+/// Description of the slower setting if it is not proven to take longer.
 pub(super) const NO_LONGER: &str = "no clearly longer time";
 
-/// How much faster the faster of two is.
+/// Describes how much faster the faster of two settings is.
 pub(super) fn faster(ratio: f64) -> String {
     match ratio {
         LARGE.. => format!("{} faster", times(ratio)),
@@ -282,7 +283,7 @@ pub(super) fn faster(ratio: f64) -> String {
     }
 }
 
-/// What the slower of two takes.
+/// Describes the cost of the slower of two settings.
 pub(super) fn more(ratio: f64) -> String {
     match ratio {
         LARGE.. => format!("{} the time", times(ratio)),
@@ -294,7 +295,7 @@ fn times(ratio: f64) -> String {
     if ratio < 10.0 { format!("{ratio:.1}×") } else { format!("{ratio:.0}×") }
 }
 
-/// A small part with one digit or two.
+/// Formats a small fraction as a percentage with one or two digits.
 fn percent(part: f64) -> String {
     let percent = 100.0 * part;
     let digits = (-log10(percent).floor()).clamp(0.0, 9.0) as usize;
@@ -309,7 +310,7 @@ fn heading(metric: Metric) -> &'static str {
     }
 }
 
-/// An error of a row, or that it is below what the reference can resolve.
+/// Formats the error of a row, or that it is below the resolution of the reference.
 pub fn error(report: &Report, row: usize) -> String {
     match report.is_resolved(report.metric, row) {
         true => amount(report.metric, report.error(row).value),
@@ -324,7 +325,7 @@ fn bounds(report: &Report, Estimate { low, high, .. }: Estimate) -> String {
     format!("[{}, {}]", amount(report.metric, low), amount(report.metric, high))
 }
 
-/// An error as people read it: shares in percent, others with two or three digits.
+/// Formats an error: fractions in percent, others with two or three digits.
 pub fn amount(metric: Metric, value: f64) -> String {
     match metric {
         Metric::Bad => format!("{:.2} %", 100.0 * value),
@@ -336,12 +337,12 @@ pub fn amount(metric: Metric, value: f64) -> String {
     }
 }
 
-/// The least of some runs and the middle one.
+/// Formats the minimum and the median of the runs.
 pub(super) fn span(Span { min, median }: Span) -> String {
     format!("{}..{}", seconds(min), seconds(median))
 }
 
-/// Seconds with three digits.
+/// Formats seconds with three digits.
 fn seconds(s: f64) -> String {
     match s {
         100.0.. => format!("{s:.0}"),
@@ -353,7 +354,7 @@ fn seconds(s: f64) -> String {
     }
 }
 
-/// `5 interleaved runs`, or `1 to 9 interleaved runs`.
+/// Formats `5 interleaved runs`, or `1 to 9 interleaved runs`.
 pub(super) fn runs(report: &Report) -> String {
     match report.runs() {
         (least, most) if least == most => count(most, "interleaved run"),

@@ -1,10 +1,10 @@
-//! A picture of each setting and the reference they are held against, within a time.
+//! Renders a picture with each setting, and a reference to compare them with, within a time limit.
 //!
-//! **In:** plans, pixels to audit, a time to be done by. **Out:** a [`Trial`]. **Invariant:** the time is
-//! kept: what does not fit is not in it, dear settings first, of whichever knob, then audited pixels,
-//! samples and depth of the reference. No picture is made twice before each that fits was made once.
-//! Runs are interleaved: the k-th of one picture stands between the k-th ones of the others that have
-//! as many, so that whatever else the machine does meets all of them alike.
+//! **In:** plans, pixels to audit, a deadline. **Out:** a [`Trial`]. **Invariant:** the deadline is kept.
+//! What does not fit is left out: first expensive settings, of whichever knob, then audited pixels, then
+//! samples and depth of the reference. No picture is rendered twice before each that fits was rendered
+//! once. Runs are interleaved: the k-th run of one picture is made between the k-th runs of the others, so
+//! that other load on the machine affects all of them alike.
 
 use super::afford::{self, Affordable, Deadline, Depths};
 use super::alike::{Alike, alike};
@@ -16,9 +16,9 @@ use super::{Options, Unmeasured};
 use crate::plan::{Arithmetic, Plan};
 use crate::trace::{Counters, Watch};
 
-/// Of the time that is left: what the scene's own picture may take, then the coarsest reference, then
-/// a forecast, then what tells settings that need not be tried, then one picture of each other setting, then
-/// a finer reference, then one picture of each setting that was not tried yet.
+/// Fractions of the remaining time, in order: for the scene's own picture, the coarsest reference, a
+/// forecast, finding settings that need not be tried, one picture of each other setting, a finer reference,
+/// and one picture of each setting not yet tried.
 const FOR_OWN: f64 = 0.7;
 const FOR_REFERENCE: f64 = 0.3;
 const FOR_FORECAST: f64 = 0.05;
@@ -26,76 +26,76 @@ const FOR_ALIKE: f64 = 0.1;
 const FOR_PICTURES: f64 = 0.4;
 const FOR_FINER: f64 = 0.6;
 const FOR_THE_REST: f64 = 0.4;
-/// Of all the time: what it may take to tell whether the scene's own picture fits; what finding the
-/// intervals of all settings may take; what is kept for the verdicts and the report.
+/// Fractions of the total time: for checking whether the scene's own picture fits, for the intervals of all
+/// settings, and for the verdicts and the report.
 const FOR_A_LOOK: f64 = 0.05;
 const FOR_STATISTICS: f64 = 0.1;
 const FOR_THE_REPORT: f64 = 0.02;
-/// What one picture may take: so many times as long as was forecast, or this part of the time for pictures
-/// that is left.
+/// Limits for one picture: this many times its forecast, or this fraction of the remaining time for
+/// pictures.
 const AS_FORECAST: f64 = 2.0;
 const FOR_ONE: f64 = 0.5;
-/// Runs that as many pictures as can be should have, cheap ones first: their middle and their shortest
-/// tell close ones apart. Then all should have more, as far as time goes.
+/// Number of runs that as many pictures as possible should have, cheap ones first, so that the median and
+/// the minimum distinguish similar settings; and the maximum for all, if time permits.
 const ENOUGH_RUNS: usize = 5;
 const MOST_RUNS: usize = 9;
 
-/// How many times too long the scene's own picture must be, by the first look, not to be tried.
+/// The scene's own picture is not tried if the first estimate exceeds the limit by this factor.
 const SURELY: f64 = 1.5;
-/// Of the time that the scene's own picture would just fit into: what leaves room for others.
+/// Multiple of the time needed for the scene's own picture that leaves room for others.
 const ROOM: f64 = 2.0;
 
-/// Of the time for more runs: what the prediction may be wrong by.
+/// Fraction of the time for more runs to plan with; the rest covers errors of the prediction.
 const PREDICTED: f64 = 0.8;
 
-/// A setting to be tried.
+/// A setting to try.
 pub struct Candidate {
     pub name: String,
     pub plan: Plan,
-    /// The least it can cost, in camera rays a pixel.
+    /// Minimum cost in camera rays per pixel.
     pub least: f64,
-    /// The unit cost of a ray in its arithmetic, in rays of the camera.
+    /// Unit cost of a ray in its precision, in camera rays.
     pub factor: f64,
 }
 
-/// A setting's picture.
+/// Picture rendered with one setting.
 pub struct Picture {
-    /// Which of the candidates.
+    /// Index of the candidate.
     pub candidate: usize,
     pub times: Times,
     pub counters: Counters,
-    /// Of the audited pixels, clamped.
+    /// Colors of the audited pixels, clamped.
     pub colors: Vec<[f64; 3]>,
 }
 
 pub struct Trial {
     pub reference: Reference,
-    /// How deep it looks.
+    /// Depth of the reference.
     pub depth: u32,
-    /// In the order of the candidates; the first is that of the first.
+    /// In the order of the candidates; the first picture is that of the first candidate.
     pub pictures: Vec<Picture>,
-    /// What had no need of one.
+    /// Candidates that needed no picture of their own.
     pub alike: Alike,
 }
 
-/// What a trial is made with.
+/// Resources for a trial.
 pub struct Bench<'a> {
     pub studio: Studio<'a>,
     pub depths: Depths<'a>,
     pub options: &'a Options<'a>,
     pub clock: &'a dyn Clock,
-    /// As the clock shows.
+    /// Deadline in clock time.
     pub until: f64,
 }
 
 impl Bench<'_> {
-    /// When a part of the time that is left is over.
+    /// Returns the time at which the fraction `part` of the time remaining before `until` is over.
     fn after(&self, part: f64, until: f64) -> f64 {
         let now = self.clock.wall();
         now + part * (until - now).max(0.0)
     }
 
-    /// One timed run of a candidate. `None` where it takes longer.
+    /// Makes one timed run of a candidate. `None` if it takes longer than allowed.
     fn picture(
         &self,
         (number, candidate): (usize, &Candidate),
@@ -114,8 +114,8 @@ impl Bench<'_> {
         })
     }
 
-    /// Tries the candidates, the first being the scene's own settings; `knobs` are those of each knob, from
-    /// coarse to fine.
+    /// Tries the candidates, the first of which has the scene's own settings. `knobs` lists the candidates
+    /// of each knob from coarse to fine.
     pub fn run(
         &self,
         candidates: &[Candidate],
@@ -137,7 +137,7 @@ impl Bench<'_> {
             return Err(stopped());
         }
 
-        // Intervals take their time, too: for fewer pixels less.
+        // Computing the intervals takes time, too; less for fewer pixels.
         let all_rows = candidates.len() as f64 * statistics_take(self.clock, metric);
         let whole = self.until - self.clock.wall();
         let most = (FOR_STATISTICS * whole / all_rows) as usize;
@@ -168,7 +168,7 @@ impl Bench<'_> {
         let first_until = self.after(FOR_PICTURES, until);
         self.others((candidates, &timed), &mut forecast, &deep, list, first_until, &mut pictures)?;
 
-        // As fine a reference as is needed, or as there is time for.
+        // Refines the reference as far as needed, or as time permits.
         let finer_until = self.after(FOR_FINER, until);
         let in_time = Deadline { clock: self.clock, until: finer_until, watch: self.studio.watch };
         let finer = Studio { watch: &in_time, ..self.studio };
@@ -188,7 +188,8 @@ impl Bench<'_> {
         Ok(Trial { reference, depth: deep.max_trace_level, pictures, alike })
     }
 
-    /// More runs of the pictures, while there is time. Those that are the same work share theirs.
+    /// Makes more runs of the pictures while time remains. Pictures that are the same work share their
+    /// runs.
     fn more_runs(
         &self,
         candidates: &[Candidate],
@@ -242,9 +243,9 @@ impl Bench<'_> {
         }
     }
 
-    /// One picture of each of `timed` not tried yet that there is time for: those that should take least
-    /// first, of whichever knob, until one does not fit. None looks deeper than the reference, or than the scene
-    /// itself.
+    /// Renders one picture for each candidate in `timed` that is not yet tried, those with the lowest
+    /// forecast first, of whichever knob, until one does not fit. Skips settings deeper than both the
+    /// reference and the scene's own.
     fn others(
         &self,
         (candidates, timed): (&[Candidate], &[usize]),
@@ -282,7 +283,7 @@ impl Bench<'_> {
     }
 }
 
-/// What is run again: one picture of all that are the same work.
+/// A picture to run again, on behalf of all that do the same work.
 struct Runner<'a> {
     work: (Counters, Arithmetic),
     plan: &'a Plan,
@@ -294,7 +295,7 @@ impl Runner<'_> {
         self.times.wall.len()
     }
 
-    /// False when it was stopped, and does not count.
+    /// Returns false if stopped; the run then does not count.
     fn run(&mut self, studio: &Studio, clock: &dyn Clock, watch: &dyn Watch) -> bool {
         let timer = Timer::new(clock, watch);
         let complete = studio.picture(self.plan, &timer).complete;
@@ -307,7 +308,8 @@ impl Runner<'_> {
     }
 }
 
-/// The most of them, cheap ones first, that there is time for to have `enough` runs of; in their order.
+/// Returns as many as possible, cheap ones first, that can have `enough` runs in `time`; in their original
+/// order.
 fn affordable(runners: &[Runner], enough: usize, time: f64) -> Vec<usize> {
     let takes = |number: usize| Span::of(&runners[number].times.wall).median;
     let mut order: Vec<usize> = (0..runners.len()).collect();
@@ -321,7 +323,7 @@ fn affordable(runners: &[Runner], enough: usize, time: f64) -> Vec<usize> {
     order
 }
 
-/// Seconds that the intervals of one row take, for each audited pixel.
+/// Returns the seconds per audited pixel that the intervals of one row take.
 fn statistics_take(clock: &dyn Clock, metric: Metric) -> f64 {
     let some: Vec<Deviation> = (0..SOME)
         .map(|i| Deviation { off: [f64::from(i * 37 % SOME); 3], noise: [0.0; 3] })

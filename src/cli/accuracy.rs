@@ -1,4 +1,5 @@
-//! `lucarne accuracy`: what each setting costs and buys, as a table, a diagram, JSON.
+//! `lucarne accuracy`: measures the cost and the accuracy of each setting; prints a table, a diagram or
+//! JSON.
 
 use std::fs;
 use std::num::NonZero;
@@ -51,7 +52,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     let name = name_of(&arguments.file);
     let (world, origins) = road.compile(&name, bytes);
     let mut messages = arguments.scene.messages();
-    // The report takes standard output.
+    // Standard output is reserved for the report.
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
@@ -78,7 +79,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         return Ok(Exit::Done);
     }
     if arguments.knobs.is_empty() {
-        // Nobody asked about them.
+        // The user did not ask about specific knobs.
         idle.clear();
     }
     let cores = available_parallelism().map_or(1, NonZero::get);
@@ -126,14 +127,14 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     Ok(Exit::Done)
 }
 
-/// A budget that not even the scene's own picture fits into, and what would do.
+/// Returns the failure for a budget that does not fit the scene's own picture, with a budget that would.
 fn too_short(budget: f64, (own, enough): (f64, f64), frame: Frame) -> Failure {
     let sentence = format!(
         "{budget} s are too few: the scene's own picture alone takes about {} or more; nothing was measured",
         duration(own)
     );
     let (part, side) = (frame.region, (budget / enough).sqrt());
-    // Where lines of the picture are left out, their pixels are fewer in both directions.
+    // The number of pixels scales with both sides.
     let smaller = |side_of: u32| (side * f64::from(side_of) / 8.0).floor() * 8.0;
     let (width, height) = (smaller(part.width), smaller(part.height));
     let is_whole = (part.width, part.height) == (frame.width, frame.height);
@@ -144,7 +145,7 @@ fn too_short(budget: f64, (own, enough): (f64, f64), frame: Frame) -> Failure {
     Failure::limit(sentence).help(format!("`--budget {}` is enough, or {instead}", round(enough)))
 }
 
-/// A time of so many seconds or a little more, as it is typed.
+/// Rounds a duration up to a value that is short to type.
 fn round(seconds: f64) -> String {
     match seconds {
         ..=1.0 => "1s".to_owned(),
@@ -159,7 +160,7 @@ fn short(file: &str) -> String {
     Path::new(file).file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The machine, as far as a reader of seconds wants to know it.
+/// Describes the machine the timings were taken on.
 fn host(cores: usize, threads: usize) -> Host {
     let about = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));

@@ -1,4 +1,4 @@
-//! The command line as it is typed: every flag, and the values it may have.
+//! Defines the command line: every command and flag, and the values they accept.
 
 use std::path::{Path, PathBuf};
 
@@ -18,9 +18,9 @@ use super::values::{
     weight,
 };
 
-/// A compiler for a POV-Ray-like scene language, and the ray tracer behind it.
+/// Compiler and ray tracer for a POV-Ray-like scene language
 ///
-/// `lucarne FILE` renders FILE, as `lucarne render FILE` does.
+/// `lucarne FILE` is short for `lucarne render FILE`.
 #[derive(Debug, Parser)]
 #[command(name = "lucarne", version, arg_required_else_help = true, after_help = HINTS)]
 #[command(override_usage = USAGE)]
@@ -34,72 +34,74 @@ lucarne [OPTIONS] <FILE>
        lucarne <COMMAND> [OPTIONS] …";
 
 const HINTS: &str = "\
-The options of `lucarne FILE` are those of `lucarne render --help`. FILE may be `-`: standard input.
+The options of `lucarne FILE` are those of `lucarne render --help`. If FILE is `-`, the scene is read
+from standard input.
 
-Exit codes: 0 done; 1 the scene has errors; 2 wrong usage; 3 a file cannot be read or written;
-4 a limit stopped it; 5 a promise about accuracy or time was missed; 70 a bug; 130 interrupted.";
+Exit codes: 0 success; 1 errors in the scene; 2 invalid command line; 3 a file cannot be read or written;
+4 a limit was exceeded; 5 `--max-error` or `--time-budget` not met; 70 internal error; 130 interrupted.";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Compile a scene and trace its picture
+    /// Render a scene to a picture file
     Render(RenderArguments),
-    /// Print the messages about scenes and render nothing
+    /// Check scenes for errors and warnings without rendering
     Check(CheckArguments),
-    /// Lay scenes out: indents, blanks and lines; no word of them changes
+    /// Format scenes: indentation, spacing and line breaks only
     Fmt(FmtArguments),
-    /// Print what a scene becomes on its way to the picture
+    /// Print one intermediate representation of a scene
     Show(ShowArguments),
-    /// Print what the tracer will simulate, what called for it, and what it leaves out
+    /// Print the effects that will be simulated, what requires each of them, and what is left out
     Plan(PlanArguments),
-    /// Measure what each setting costs and what accuracy it buys, on this scene
+    /// Measure the cost and the accuracy of each render setting on this scene
     Accuracy(AccuracyArguments),
-    /// Explain a message by its code; without a code, list them all
+    /// Explain a diagnostic code, or list all codes
     Explain(ExplainArguments),
 }
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// The scene: `.scene`, or POV-Ray's `.pov`; `-` reads standard input
+    /// Scene to render: `.scene`, or `.pov` for POV-Ray; `-` reads standard input
     pub file: PathBuf,
-    /// Where to write; the extension chooses the format: png jpg ppm qoi hdr exr; `-` writes a PNG
-    /// to standard output [default: the scene's name with .png, in the current folder]
+    /// Output file; the extension selects the format: png, jpg, ppm, qoi, hdr or exr; `-` writes a PNG to
+    /// standard output [default: the name of the scene with .png, in the current directory]
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     #[command(flatten)]
     pub picture: PictureArguments,
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Bits a channel: 8 or 16 (png and ppm)
+    /// Bits per channel, 8 or 16; png and ppm only
     #[arg(long, value_parser = clap::value_parser!(u8))]
     pub bits: Option<u8>,
-    /// Choose the settings so that the error is at most E (0.01, 1% or 2/255), prove it on pixels that
-    /// had no part in the choice, and exit with 5 if it cannot be
+    /// Choose settings that keep the error at or below E (for example 0.01, 1% or 2/255) and verify the
+    /// error on pixels not used for that choice; exits with 5 if the bound cannot be verified
     #[arg(long, value_name = "E", value_parser = error, allow_negative_numbers = true)]
     #[arg(group = "promise")]
     #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "julia_iterations", "time_budget"])]
     pub max_error: Option<f64>,
-    /// Make the best picture there is time for (500ms, 60s, 5m; a number alone is seconds), and say how
-    /// far off it is; exit with 4 if not even one ray a pixel fits, and with 5 if there is no time to
-    /// find out how far off it is
+    /// Render the best picture possible within time T (500ms, 60s, 5m; a plain number is in seconds) and
+    /// report its error; exits with 4 if one ray per pixel does not fit, and with 5 if no time is left to
+    /// estimate the error
     #[arg(long, value_name = "T", value_parser = seconds, allow_hyphen_values = true)]
     #[arg(group = "promise")]
     #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "julia_iterations"])]
     pub time_budget: Option<f64>,
-    /// What `--max-error` and `--time-budget` call an error
+    /// Error metric for `--max-error` and `--time-budget`
     #[arg(long, value_enum, default_value_t, value_name = "METRIC", requires = "promise")]
     pub metric: MetricArgument,
-    /// Of the pixels that `--max-error` and `--time-budget` choose and audit by
+    /// Random seed for the pixels on which `--max-error` and `--time-budget` choose settings and audit the
+    /// error
     #[arg(long, value_name = "N", default_value_t = 1, requires = "promise")]
     #[arg(value_parser = seed, allow_negative_numbers = true)]
     pub seed: u64,
-    /// Threads to trace with [default: one a core]
+    /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub threads: Option<u16>,
-    /// Print times, memory, rays and what they took, as a table or as JSON
+    /// Print times, memory use and ray counts, as a table or as JSON
     #[arg(long, value_name = "json", num_args = 0..=1, require_equals = true)]
     pub stats: Option<Option<StatsFormat>>,
-    /// Overwrite OUT even where it is not a picture, or is write-protected. (Any other picture is always
-    /// overwritten; a file the scene was read from never is.)
+    /// Overwrite OUT even if it is not a picture or is write-protected. Without this flag, only other
+    /// pictures are overwritten. A file that the scene was read from is never overwritten
     #[arg(long)]
     pub force: bool,
 }
@@ -111,32 +113,32 @@ pub enum StatsFormat {
 
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// The scenes
+    /// Scenes to check
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Only parse: read no includes, evaluate nothing
+    /// Only parse the files; do not read includes or evaluate anything
     #[arg(long)]
     pub syntax_only: bool,
-    /// Tell old forms of the language too, in the whole of these files
+    /// Also report outdated forms of the language, in the given files
     #[arg(long)]
     pub legacy: bool,
-    /// Apply the fixes that messages offer to these files, then check again
+    /// Apply the suggested fixes to the given files, then check again
     #[arg(long)]
     pub fix: bool,
-    /// Say of each file that the scene reads which one answered: its path, or `built in`
+    /// Print the path of each file that the scene reads, or `built in` for embedded ones
     #[arg(long = "where")]
     pub places: bool,
-    /// Say nothing of a file that there is nothing to say of
+    /// Print nothing for a file without errors or warnings
     #[arg(short, long)]
     pub quiet: bool,
-    /// The picture's width and height in pixels, for what depends on them
+    /// Width and height of the picture in pixels, for checks that depend on them
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     size: Option<(u32, u32)>,
     #[command(flatten)]
     pub scene: SceneArguments,
 }
 
-/// Warnings that say something of a scene, and nothing of a part of one.
+/// Warnings about a scene as a unit; not reported for an include file that is checked alone.
 const OF_WHOLE_SCENES: &[Code] = &[
     Code::NoCamera,
     Code::NoLight,
@@ -150,28 +152,28 @@ const OF_WHOLE_SCENES: &[Code] = &[
 
 #[derive(Debug, Args)]
 pub struct FmtArguments {
-    /// The scenes and their includes; `-` lays out standard input
+    /// Scenes and include files to format; `-` formats standard input
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Write nothing; list the files that would change, and exit with 1 if there are any
+    /// Do not write; list the files that would change, and exit with 1 if there are any
     #[arg(long)]
     pub check: bool,
-    /// Write nothing; print what would change
+    /// Do not write; print a diff of the changes
     #[arg(long)]
     pub diff: bool,
-    /// The language of the files [default: by the end of the name, `.pov` or `.scene`, else by the text]
+    /// Language of the files [default: chosen by the extension, `.pov` or `.scene`, otherwise by the text]
     #[arg(long, value_enum, value_name = "pov|scene")]
     pub language: Option<Language>,
-    /// How messages about files that cannot be read are shown
+    /// Output format for messages about files that cannot be read
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub message_format: messages::Format,
 }
 
 #[derive(Debug, Args)]
 pub struct ShowArguments {
-    /// The scene
+    /// Scene to show
     pub file: PathBuf,
-    /// How far along it
+    /// Stage of compilation to print
     #[arg(long, value_enum, default_value = "scene")]
     pub stage: Stage,
     #[command(flatten)]
@@ -182,21 +184,21 @@ pub struct ShowArguments {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Stage {
-    /// What was typed
+    /// Syntax tree, as parsed
     Ast,
-    /// What the author meant: no macro, loop, include or name is left
+    /// Evaluated scene: macros, loops, includes and names are resolved
     Scene,
-    /// What is there, in canonical form
+    /// Canonical description of the objects, lights and camera
     World,
-    /// What will be done about it
+    /// Plan of what the tracer will simulate
     Plan,
 }
 
 #[derive(Debug, Args)]
 pub struct PlanArguments {
-    /// The scene
+    /// Scene to plan
     pub file: PathBuf,
-    /// Print one JSON object, with every place (docs/effects.md)
+    /// Print one JSON object that includes all source locations (see docs/effects.md)
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
@@ -207,32 +209,32 @@ pub struct PlanArguments {
 
 #[derive(Debug, Args)]
 pub struct AccuracyArguments {
-    /// The scene
+    /// Scene to measure
     pub file: PathBuf,
-    /// The knobs to turn, separated by commas [default: all that the scene calls for]
+    /// Settings to vary, separated by commas [default: all that the scene can use]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = knob)]
     pub knobs: Vec<&'static str>,
-    /// How long it may take, such as 60s or 5m (a number alone is seconds): more time, more runs and
-    /// dearer settings
+    /// Time to spend, such as 60s or 5m (a plain number is in seconds); more time allows more runs and more
+    /// expensive settings
     #[arg(long, value_name = "T", value_parser = seconds, default_value = "60s")]
     pub budget: f64,
-    /// What is called an error
+    /// Error metric
     #[arg(long, value_enum, default_value_t, value_name = "METRIC")]
     pub metric: MetricArgument,
     /// Print one JSON object instead of the table
     #[arg(long)]
     pub json: bool,
-    /// Print all columns of the table: every time, boxes and roots, and verdicts in full
+    /// Print every column of the table: all times, box visits and root solves, and full verdicts
     #[arg(long, conflicts_with = "json")]
     pub wide: bool,
-    /// Also draw the work-precision diagram
+    /// Also write the work-precision diagram to this SVG file
     #[arg(long, value_name = "OUT.svg")]
     pub svg: Option<PathBuf>,
-    /// Of the audited pixels and the reference's samples
+    /// Random seed for the audited pixels and the reference samples
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = seed, allow_negative_numbers = true)]
     pub seed: u64,
-    /// Threads to trace with [default: one a core]
+    /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub threads: Option<u16>,
     #[command(flatten)]
@@ -243,65 +245,66 @@ pub struct AccuracyArguments {
 
 #[derive(Debug, Args)]
 pub struct ExplainArguments {
-    /// The word in front of a message, such as `unknown-word`
+    /// Diagnostic code as printed in a message, such as `unknown-word`
     pub code: Option<String>,
 }
 
-/// How large.
+/// Size of the picture and the part of it to trace.
 #[derive(Debug, Args)]
 pub struct FrameArguments {
-    /// The picture's width and height in pixels
+    /// Width and height of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     #[arg(default_value = "640x480")]
     size: (u32, u32),
-    /// Trace only this part: left, top, width, height in pixels
+    /// Render only this rectangle: left, top, width and height in pixels
     #[arg(long, value_name = "X,Y,W,H", value_parser = region, allow_hyphen_values = true)]
     region: Option<Region>,
 }
 
-/// How large and how fine.
+/// Size and quality of the picture.
 #[derive(Debug, Args)]
 pub struct PictureArguments {
     #[command(flatten)]
     frame: FrameArguments,
-    /// `off`: one ray a pixel; N: N×N rays a pixel; `adaptive`: 4×4 where neighbours differ by more
-    /// than 0.05, or N×N by more than T with `adaptive:T:N`
+    /// Antialiasing: `off` traces one ray per pixel; N traces N×N; `adaptive` traces 4×4 where neighbouring
+    /// pixels differ by more than 0.05; `adaptive:T:N` traces N×N where they differ by more than T
     #[arg(long, value_name = "off|N|adaptive", value_parser = antialias, default_value = "adaptive")]
     antialias: Antialias,
-    /// How many surfaces deep a ray is followed, instead of the scene's max_trace_level
+    /// Maximum recursion depth of rays; overrides max_trace_level in the scene
     #[arg(long, value_name = "N", value_parser = depth, allow_negative_numbers = true)]
     depth: Option<u32>,
-    /// Follow no ray that counts less than this (0.01, 1/255), mirrored or let through, instead of the scene's adc_bailout
+    /// Do not trace reflected or transmitted rays with a weight below W (such as 0.01 or 1/255); overrides
+    /// adc_bailout in the scene
     #[arg(long, value_name = "W", value_parser = weight, allow_negative_numbers = true)]
     adc_bailout: Option<f64>,
-    /// The arithmetic that rays and shapes meet in
+    /// Floating-point precision of ray-shape intersections
     #[arg(long, value_enum, default_value_t, value_name = "single|double")]
     precision: PrecisionArgument,
-    /// How near a crossing must be found where steps come nearer and nearer to it, as of a torus, of the
-    /// solid's size; 0 asks for all digits
+    /// Tolerance of iterative root finding (used for the torus, for example), relative to the size of the
+    /// solid; 0 means full precision
     #[arg(long, value_name = "T", value_parser = tolerance, default_value = "0")]
     #[arg(allow_negative_numbers = true)]
     root_tolerance: f64,
-    /// How many iterations of a julia_fractal are looked at, where it has more
+    /// Maximum number of iterations of a julia_fractal; a lower number in the scene is kept
     #[arg(long, value_name = "N", value_parser = depth, allow_negative_numbers = true)]
     julia_iterations: Option<u32>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum PrecisionArgument {
-    /// 32 bits
+    /// 32-bit floating point
     Single,
-    /// 64 bits
+    /// 64-bit floating point
     #[default]
     Double,
 }
 
 impl CheckArguments {
-    /// What the road takes, for a main file of this name and language.
+    /// Returns the compile options for a main file with this name and language.
     pub fn options(&self, file: &Path, dialect: Dialect) -> Options {
         let frame = self.size.map(|(width, height)| Frame::whole(width, height));
         let mut options = self.scene.options(dialect, frame);
-        // Alone, an include is a part of a scene that is not known.
+        // An include file is part of an unknown scene, so warnings about complete scenes do not apply.
         if is_include(file) {
             OF_WHOLE_SCENES.iter().for_each(|code| options.levels.set_unnamed(*code, Level::Allow));
         }
@@ -314,7 +317,7 @@ impl CheckArguments {
 }
 
 impl Command {
-    /// What the scene is compiled with, where the command takes one.
+    /// Returns the arguments that compile a scene, or `None` for a command that compiles none.
     pub fn scene(&self) -> Option<&SceneArguments> {
         match self {
             Self::Render(arguments) => Some(&arguments.scene),
@@ -328,12 +331,13 @@ impl Command {
 }
 
 impl PictureArguments {
-    /// The picture and the part of it to trace; fails when the part is not inside.
+    /// Returns the picture size and the region to trace. Fails if the region exceeds the picture, or the
+    /// picture the pixel limit.
     pub fn frame(&self, scene: &SceneArguments) -> Result<Frame, Failure> {
         self.frame.frame(scene)
     }
 
-    /// What is asked of the plan.
+    /// Returns the plan options that these arguments select.
     pub fn options(&self, frame: Frame) -> PlanOptions {
         let Self { antialias, depth, adc_bailout, root_tolerance, julia_iterations, .. } = *self;
         let precision = match self.precision {
@@ -353,7 +357,8 @@ impl PictureArguments {
 }
 
 impl FrameArguments {
-    /// The picture and the part of it to trace; fails when the part is not inside.
+    /// Returns the picture size and the region to trace. Fails if the region exceeds the picture, or the
+    /// picture the pixel limit.
     pub fn frame(&self, scene: &SceneArguments) -> Result<Frame, Failure> {
         let (width, height) = self.size;
         let mut frame = Frame::whole(width, height);

@@ -1,4 +1,5 @@
-//! `render --time-budget`: when a picture must be traced to be written in time, and what is said of it.
+//! `render --time-budget`: schedules tracing so that the picture is written in time, and reports the
+//! result.
 
 use std::cell::Cell;
 use std::thread::available_parallelism;
@@ -15,26 +16,26 @@ use super::progress::Progress;
 use super::promise::{Made, error, glare};
 use super::stats::Stopwatch;
 
-/// Of the time there is, what tracing and writing may take by forecast: half of the promised 5 % is for
-/// what forecasts are wrong by.
+/// Fraction of the budget that tracing and writing may use by forecast. The rest is half of the promised 5
+/// %, kept for errors of the forecast.
 const PLANNED: f64 = 0.975;
-/// Of a picture's rows one of so many is written on trial, in so many bands; and how much longer the whole
-/// may take, which is finer, and whose memory is new.
+/// One row in `ON_TRIAL` is encoded on trial, in `BANDS` bands. Encoding the full picture may take `SLOWER`
+/// times as long per row, because it has more detail and uses fresh memory.
 const ON_TRIAL: u32 = 16;
 const BANDS: u32 = 8;
 const SLOWER: f64 = 1.3;
-/// A trial of writing takes at least so many seconds, or is made so many times: a shorter one does not tell how
-/// much of a processor it gets.
+/// Encoding trials stop after `TRIAL` seconds or `TRIALS` runs. A shorter measurement does not show what
+/// share of a processor the program gets.
 const TRIAL: f64 = 0.01;
 const TRIALS: u32 = 8;
-/// Of the time there is, what is left for finding out the error whatever writing takes.
+/// Fraction of the budget reserved for the error audit, however long writing takes.
 const FOR_ERROR: f64 = 0.02;
-/// Seconds to stop and to end in, where each thread has a processor.
+/// Seconds needed to stop and exit if each thread has a processor of its own.
 const TO_END: f64 = 0.01;
-/// Where reading took all the time there was: what a first pass may take beyond, of what reading took.
+/// If reading used up the budget: extra time allowed for a first pass, as a fraction of the reading time.
 const LATE: f64 = 0.1;
 
-/// Renders for `seconds` since the program began, and says what came of it.
+/// Renders for `seconds`, counted from the start of the program, and reports the result.
 pub(super) fn spend(
     (world, origins): (&World, &Origins),
     options: &Options,
@@ -45,7 +46,8 @@ pub(super) fn spend(
 ) -> Made {
     let desk = Desk::new(world, options, written, clock);
     let threads = options.trace.threads.or_else(|| Some(available_parallelism().ok()?.get()));
-    // When the scene was read and the tree of boxes stood, and how long the picture takes to write.
+    // Time at which the scene was read and the bounding volume hierarchy built; time needed to write the
+    // picture.
     let (read, to_end) = (Cell::new(0.0), Cell::new(0.0));
     let end = |Writing { seconds: write, busy }: Writing, busy_by_now: f64| {
         let busy = busy.max(busy_by_now);
@@ -60,13 +62,13 @@ pub(super) fn spend(
             if is_late(wall, seconds) {
                 return end.max(wall * (1.0 + LATE));
             }
-            // However long writing may take, half of the time is for a picture.
+            // Reserves half of the time for tracing, however long writing takes.
             end.max(wall + 0.5 * (PLANNED * seconds - wall))
         }
         Some(First { film, processors }) => {
             let busy = threads.map_or(1.0, |threads| threads as f64 / processors);
             let end = end(desk.writing(film), busy);
-            // A picture whose error is not known is worth less than one that is a little late.
+            // Prefers being slightly late to a picture with an unknown error.
             end.max(clock.wall() + FOR_ERROR * seconds)
         }
     };
@@ -80,16 +82,16 @@ pub(super) fn spend(
     Made { traced: spent.traced, said, exit }
 }
 
-/// Reading alone took the time there was.
+/// Whether reading the scene used up the budget.
 fn is_late(read: f64, seconds: f64) -> bool {
     read >= PLANNED * seconds
 }
 
-/// What the clock said, in seconds since the program began.
+/// Clock readings, in seconds since the program started.
 struct About {
-    /// What was promised.
+    /// The promised time.
     seconds: f64,
-    /// When tracing began.
+    /// When tracing started.
     read: f64,
     now: f64,
     to_end: f64,
@@ -178,7 +180,7 @@ impl About {
     }
 }
 
-/// Seconds to two digits, rounded up: less than was asked for would not do.
+/// Rounds seconds up to two digits, so that the result is at least what is needed.
 fn no_less(seconds: f64) -> String {
     let (digits, scale) = match seconds {
         ..0.1 => (3, 1000.0),
@@ -189,17 +191,17 @@ fn no_less(seconds: f64) -> String {
     format!("{:.digits$}", (seconds * scale).ceil() / scale)
 }
 
-/// How long a picture takes to write.
+/// Forecast of the time needed to write the picture.
 struct Writing {
     seconds: f64,
-    /// How many times as long as it would on an idle machine.
+    /// Slowdown relative to an idle machine, at least 1.
     busy: f64,
 }
 
-/// Where pictures are written on trial.
+/// Encodes pictures on trial to forecast the writing time.
 struct Desk<'a> {
     developer: Developer,
-    /// Seconds that it took to make.
+    /// Seconds spent creating `developer`.
     made: f64,
     format: Format,
     clock: &'a Stopwatch,
@@ -219,7 +221,7 @@ impl<'a> Desk<'a> {
         Self { developer, made: clock.wall() - began, format, clock }
     }
 
-    /// About how long it takes to write a picture: measured on some of its rows, from top to bottom.
+    /// Estimates the time needed to write a picture by encoding a sample of its rows, from top to bottom.
     fn writing(&self, film: &Film) -> Writing {
         let Self { developer, made, format, clock } = self;
         let Region { width, height, .. } = film.frame.region;
@@ -242,7 +244,7 @@ impl<'a> Desk<'a> {
         let began = (clock.cpu(), clock.wall());
         let (mut trials, mut took) = (0, (0.0, 0.0));
         while trials < TRIALS && took.1 < TRIAL {
-            // What cannot be written is told when it is.
+            // Encoding errors are reported when the picture is written.
             drop(encode(&developer.develop(&some), *format));
             trials += 1;
             took = (clock.cpu() - began.0, clock.wall() - began.1);
@@ -252,19 +254,19 @@ impl<'a> Desk<'a> {
     }
 }
 
-/// A film of which nothing is known yet.
+/// Returns a film without data.
 fn unknown(options: &Options, world: &World) -> Film {
     let (frame, assumed_gamma) = (options.frame, world.settings.assumed_gamma);
     Film { frame, assumed_gamma, radiance: Vec::new(), samples: Vec::new() }
 }
 
-/// A picture that is about as hard to write as pictures are: a slow gradient and a little noise.
+/// Returns pixel `i` of a picture of typical compressibility: a slow gradient with a little noise.
 fn speckled(i: usize) -> Rgb {
     let noise = (i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 56) as f64 / 255.0;
     Rgb::gray((i % 1024) as f64 / 1024.0 + 0.02 * noise)
 }
 
-/// What was done: `4 to 64 samples a pixel, 23 on average`.
+/// Describes the samples taken: `4 to 64 samples a pixel, 23 on average`.
 fn made(spent: &Spent) -> String {
     let samples = &spent.traced.film.samples;
     let least = samples.iter().copied().min().unwrap_or(0);

@@ -1,4 +1,4 @@
-//! `lucarne check`: messages, and no picture.
+//! `lucarne check`: reports messages without rendering.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -28,7 +28,7 @@ pub fn run(arguments: &CheckArguments) -> Outcome {
             true => fix(file, arguments).and_then(|()| check(file, arguments, &mut messages)),
             false => check(file, arguments, &mut messages),
         };
-        // A file that cannot be read is no reason not to check the others.
+        // An unreadable file does not prevent checking the others.
         if let Err(failure) = checked {
             messages.fail(file, &failure)?;
             exit = exit.max(failure.exit);
@@ -54,7 +54,7 @@ fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Re
     })
 }
 
-/// A scene has something in it; a part of one may be empty.
+/// Reads a file. A scene must not be empty; an include file may be.
 fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     match is_include(file) {
         true => read_main(file),
@@ -62,7 +62,7 @@ fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     }
 }
 
-/// Takes the file as far as the messages come from, and hands it to `then`.
+/// Compiles the file as far as messages are reported, and passes the result to `then`.
 fn compiled<T>(
     file: &Path,
     dialect: Dialect,
@@ -81,7 +81,7 @@ fn compiled<T>(
     then(&road, &files)
 }
 
-/// A line for each file that the main file reads, in the order of reading.
+/// Lists the files that the main file reads, one per line, in reading order.
 fn places(sources: &Sources) -> String {
     let mut lines: Vec<String> = Vec::new();
     for (_, source) in sources.iter().skip(1) {
@@ -100,7 +100,7 @@ fn places(sources: &Sources) -> String {
     lines.concat()
 }
 
-/// Applies the fixes that messages offer for this file, where that makes it better.
+/// Applies the fixes suggested for this file, if they improve it.
 fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
     if is_stdin(file) {
         return Err(Failure::usage("standard input cannot be fixed: only a file can"));
@@ -147,7 +147,7 @@ fn fix(file: &Path, arguments: &CheckArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The included files that messages offer fixes for, but the standard ones, and how many.
+/// Returns the included files with suggested fixes, except standard ones, and the number of fixes.
 fn fixes_elsewhere(
     file: &Path,
     dialect: Dialect,

@@ -1,23 +1,23 @@
-//! What the program tells the system when it ends.
+//! Exit codes and failures of the program.
 
 use std::fmt::Display;
 use std::process::ExitCode;
 
-/// Why the program ends; its number is the exit code.
+/// Reason for exiting; its value is the exit code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Exit {
     Done = 0,
     /// The scene has errors.
     Scene = 1,
-    /// The command line makes no sense.
+    /// The command line is invalid.
     Usage = 2,
     /// A file cannot be read or written.
     File = 3,
-    /// A limit stopped it.
+    /// A limit was exceeded.
     Limit = 4,
-    /// A promise about accuracy or time was missed.
+    /// A promise about accuracy or time was not kept.
     Promise = 5,
-    /// A bug of ours.
+    /// Internal error.
     Panic = 70,
     Interrupted = 130,
 }
@@ -28,7 +28,7 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Something that ends the program, and the sentence that says why.
+/// Failure that ends the program, with the sentence that explains it.
 #[derive(Debug)]
 pub struct Failure {
     pub exit: Exit,
@@ -55,10 +55,10 @@ impl Failure {
     }
 }
 
-/// What a subcommand ends with.
+/// Result of a command.
 pub type Outcome = Result<Exit, Failure>;
 
-/// The system's reason as a clause: `permission denied`, without its number.
+/// Returns the operating system's reason as a clause, without the error number: `permission denied`.
 pub fn reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     let text = text.split(" (os error").next().unwrap_or(&text);

@@ -1,4 +1,4 @@
-//! `lucarne explain`: the page of a code.
+//! `lucarne explain`: prints the page of a diagnostic code.
 
 use lucarne::diagnostic::Code;
 use lucarne::diagnostic::suggest::closest;
@@ -37,7 +37,7 @@ pub fn run(arguments: &ExplainArguments) -> Outcome {
     Ok(Exit::Done)
 }
 
-/// A page as it reads in a terminal: its examples indented, not fenced.
+/// Formats a page for a terminal: examples are indented instead of fenced.
 fn plain(page: &str) -> String {
     let mut fenced = false;
     let mut text = String::new();

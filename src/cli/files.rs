@@ -1,8 +1,8 @@
-//! Files on disk, as a scene names them.
+//! Resolves the files that a scene names on disk.
 //!
-//! **Invariant:** the same file always has the same name. With `--sandbox`, nothing outside of the scene's
-//! folder, the `-I` folders and POV-Ray's well-known include folders is read, whatever a name says and
-//! wherever a link leads. What the scene writes is read as it will be.
+//! **Invariant:** a file always has the same name. With `--sandbox`, only files in the scene's folder, the
+//! `-I` folders and POV-Ray's well-known include folders are read, whatever path is given and wherever a
+//! link points. A file that the scene writes is read with its new contents.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -19,7 +19,7 @@ use super::scene::SceneArguments;
 use super::text::{LARGEST, UTF_16, is_utf_16};
 use super::written::Written;
 
-/// Where POV-Ray's standard includes are installed; searched last.
+/// Folders where POV-Ray's standard includes are installed; searched last.
 const WELL_KNOWN: &[&str] = &[
     "/usr/share/povray-3.7/include",
     "/usr/local/share/povray-3.7/include",
@@ -27,24 +27,24 @@ const WELL_KNOWN: &[&str] = &[
     "/opt/local/share/povray-3.7/include",
 ];
 
-/// Where Debian keeps POV-Ray's fonts: its include folder only has links that lead there.
+/// Debian's folder for POV-Ray's fonts; the include folder only links to it.
 const FONTS: &str = "/usr/share/fonts/truetype/povray";
 
-/// The files that one scene reads.
+/// File access for one scene.
 pub struct DiskFiles {
-    /// In the order they are searched, after the including file's own: as named, and in truth.
+    /// Folders in search order, after that of the including file: the given and the canonical path.
     folders: Vec<(PathBuf, PathBuf)>,
-    /// Nothing outside of these folders is read.
+    /// Whether files outside `folders` are refused.
     sandbox: bool,
-    /// The name each file got when it was first found, by its true path.
+    /// Name under which each file was first found, by canonical path.
     names: Mutex<BTreeMap<PathBuf, String>>,
-    /// What the scene writes, where it may.
+    /// Files written by the scene, if it is allowed to write.
     written: Option<Written>,
 }
 
 impl DiskFiles {
-    /// The folders of a main file: its own, then `include` in order, then the well-known ones.
-    /// Folders that do not exist are left out.
+    /// Searches the folder of the main file, then `include` in order, then the well-known folders. Skips
+    /// folders that do not exist.
     fn new(main: &Path, include: &[PathBuf]) -> Self {
         let own = match main.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
@@ -62,18 +62,18 @@ impl DiskFiles {
         Self { folders, sandbox: false, names, written: None }
     }
 
-    /// The folders of a main file, as the command line has them, and the leave to write.
+    /// Searches folders as given on the command line, and allows writing if requested there.
     pub fn of(main: &Path, arguments: &SceneArguments) -> Self {
         let written = arguments.allow_write.then(Written::here);
         Self { written, sandbox: arguments.sandbox, ..Self::new(main, &arguments.include) }
     }
 
-    /// Writes what the scene has written, if it is `whole`.
+    /// Writes the scene's files to disk if the scene is `whole`, that is, free of errors.
     pub fn settle(&self, whole: bool) -> Result<(), Failure> {
         self.written.as_ref().map_or(Ok(()), |written| written.settle(whole))
     }
 
-    /// Says what the scene would write, if it is `whole`.
+    /// Reports the files that the scene would write if it is `whole`, that is, free of errors.
     pub fn announce(&self, whole: bool) -> Result<(), Failure> {
         self.written.as_ref().map_or(Ok(()), |written| written.announce(whole))
     }
@@ -84,7 +84,7 @@ impl DiskFiles {
             || self.written.as_ref().is_some_and(|written| written.covers(truth))
     }
 
-    /// Whether it may be known if there is a file at `path`: outside of a sandbox that is nobody's business.
+    /// Whether the existence of `path` may be disclosed. In a sandbox, it may not be for files outside it.
     fn may_be_seen(&self, path: &Path) -> bool {
         let mut folders = path.ancestors().skip(1);
         !self.sandbox
@@ -93,7 +93,7 @@ impl DiskFiles {
                 .is_some_and(|folder| self.allowed(&folder))
     }
 
-    /// The name of a file: the one it was first found by.
+    /// Returns the name of a file: the name under which it was first found.
     fn name(&self, truth: PathBuf, found_as: &Path) -> String {
         let plain = || plain(found_as).display().to_string();
         match self.names.lock() {
@@ -102,7 +102,7 @@ impl DiskFiles {
         }
     }
 
-    /// The file as the scene writes it, if it does.
+    /// Returns the contents the scene writes to this file, if it does.
     fn own(&self, path: &Path) -> Option<Found> {
         let written = self.written.as_ref()?;
         let folder = fs::canonicalize(or_here(path.parent()?)).ok()?;
@@ -111,8 +111,8 @@ impl DiskFiles {
         Some(Found { name: self.name(truth, path), bytes })
     }
 
-    /// Names that may be meant instead of a missing one: its last part alone, where that is found in one of
-    /// the `folders`; and names near it, where it was looked for.
+    /// Returns suggestions for a missing file: its file name alone, if one of the `folders` has it, and
+    /// similar names in the places that were searched.
     fn similar(&self, name: &str, folders: &[PathBuf], tried: &[PathBuf]) -> Vec<String> {
         let mut similar = Vec::new();
         let last = file_name(name);
@@ -217,12 +217,12 @@ impl Files for DiskFiles {
     }
 }
 
-/// The empty path is the current folder.
+/// Returns the folder, with the empty path replaced by the current folder.
 pub fn or_here(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
-/// A path without `.` and, where none of its folders is a link, without `..`.
+/// Removes `.` components and, if no folder on the path is a link, `..` components.
 fn plain(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for part in path.components() {
@@ -240,7 +240,7 @@ fn plain(path: &Path) -> PathBuf {
     plain
 }
 
-/// All of a regular file, or why not.
+/// Reads a regular file, or returns why it cannot be read.
 fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     let about = fs::metadata(path).map_err(|error| reason(&error))?;
     if about.is_dir() {
@@ -259,7 +259,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Fails when one of the folders that were named is none.
+/// Fails if one of the given folders is not a folder.
 pub fn exist(folders: &[PathBuf]) -> Result<(), Failure> {
     match folders.iter().find(|folder| !folder.is_dir()) {
         None => Ok(()),

@@ -1,4 +1,4 @@
-//! `lucarne fmt`: scenes in canonical layout.
+//! `lucarne fmt`: formats scenes in the canonical layout.
 
 use std::path::Path;
 
@@ -22,7 +22,7 @@ pub fn run(arguments: &FmtArguments) -> Outcome {
     for file in &arguments.files {
         match one(file, arguments, &mut messages) {
             Ok(of_file) => exit = exit.max(of_file),
-            // A file that cannot be read is no reason to leave the others.
+            // An unreadable file does not prevent formatting the others.
             Err(failure) => {
                 messages::fail(&failure);
                 exit = exit.max(failure.exit);
@@ -40,7 +40,7 @@ fn one(file: &Path, arguments: &FmtArguments, messages: &mut Messages) -> Outcom
     let (text, latin) = decode(bytes.clone());
     let mut sources = Sources::default();
     let id = sources.add(Source::new(&*name, text));
-    // A layout has no frame that could be mirrored: nobody needs to know where the text decided.
+    // Formatting does not depend on handedness, so the note on the detected language is dropped.
     let (dialect, _) = language::of(arguments.language, file, &bytes);
     let options = ParseOptions { dialect, ..ParseOptions::default() };
     let mut diagnostics = Diagnostics::new(false);
@@ -70,7 +70,7 @@ fn one(file: &Path, arguments: &FmtArguments, messages: &mut Messages) -> Outcom
         return Ok(if arguments.check && !same { Exit::Scene } else { Exit::Done });
     }
     let encoded = match latin {
-        // Each character was one byte, and is again.
+        // Writes each character as the byte it was read from.
         true => to_latin(&formatted),
         false => [mark, formatted.as_bytes()].concat(),
     };

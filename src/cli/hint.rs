@@ -1,7 +1,7 @@
-//! What is meant by words that cannot be read: an option that another command has, or POV-Ray, or that stands
-//! behind `--`; a size in another form.
+//! Suggests what was meant by an invalid command line: an option of another command or of POV-Ray, an
+//! option after `--`, or a size in another form.
 //!
-//! **In:** the words, and what clap says of them. **Out:** a [`Failure`] that says more, or nothing.
+//! **In:** the words, and clap's error. **Out:** a more helpful [`Failure`], or nothing.
 
 mod size;
 
@@ -13,7 +13,7 @@ use lucarne::accuracy::KNOBS;
 use super::arguments::Arguments;
 use super::exit::Failure;
 
-/// POV-Ray's switches, without their sign and value, and what does the same here.
+/// POV-Ray's switches, without sign and value, and their equivalents here.
 const POVRAY: &[(&str, &str)] = &[
     ("w", "`--size 640x480` is what `+W640 +H480` says there: width and height at once"),
     ("h", "`--size 640x480` is what `+W640 +H480` says there: width and height at once"),
@@ -34,7 +34,7 @@ const POVRAY: &[(&str, &str)] = &[
     ("p", "no window is opened: the picture is a file"),
 ];
 
-/// A better answer than `error`, if there is one.
+/// Returns a more helpful answer than `error`, if there is one.
 pub fn meant(words: &[String], error: &clap::Error) -> Option<Failure> {
     let program = Arguments::command();
     let command = words.get(1)?;
@@ -56,7 +56,7 @@ pub fn meant(words: &[String], error: &clap::Error) -> Option<Failure> {
     }
 }
 
-/// What stands behind `--` is a file name, also where it looks like an option.
+/// Explains that a word after `--` is a file name even if it looks like an option.
 fn behind_dashes(words: &[String], word: &str) -> Option<Failure> {
     let at = words.iter().position(|word| word == "--")?;
     let (before, behind) = (&words[1..at], &words[at + 1..]);
@@ -76,7 +76,7 @@ fn behind_dashes(words: &[String], word: &str) -> Option<Failure> {
     Some(failure.help(format!("options go before it: `lucarne {}`", line.join(" "))))
 }
 
-/// A size that is meant by other words than `--size 320x240`.
+/// Suggests `--size 320x240` for a size given in another form.
 fn of_size(program: &Command, words: &[String], word: &str) -> Option<Failure> {
     let command = program.find_subcommand(words.get(1)?)?;
     let takes_one = command.get_arguments().any(|argument| argument.get_long() == Some("size"));
@@ -94,7 +94,7 @@ fn of_size(program: &Command, words: &[String], word: &str) -> Option<Failure> {
     Some(Failure::usage(sentence).help(format!("did you mean `--size {width}x{height}`?")))
 }
 
-/// A better answer than that `command` does not know `word`.
+/// Returns a more helpful answer than that `command` does not know `word`.
 fn of(program: &Command, command: &str, word: &str) -> Option<Failure> {
     let elsewhere = having(program, word);
     if elsewhere.is_empty() {
@@ -123,7 +123,7 @@ fn of(program: &Command, command: &str, word: &str) -> Option<Failure> {
     })
 }
 
-/// The commands that have an option of this name.
+/// Returns the commands that have an option with this name.
 fn having(program: &Command, word: &str) -> Vec<String> {
     let is_it = |argument: &clap::Arg| match word.strip_prefix("--") {
         Some(long) => argument.get_long() == Some(long),

@@ -1,9 +1,11 @@
-//! The language of a main file: `--language` decides, else its name, else its text.
+//! Detects the language of a main file: `--language` takes precedence over its extension, and the extension
+//! over its text.
 //!
-//! **Rule:** `.pov` and `.inc` are POV-Ray's language, `.scene` is ours. A file of another name, or standard
-//! input, is POV-Ray's if its text has one of these outside of comments: `#version`, `assumed_gamma`, an
-//! `#include` of a file that comes with POV-Ray, `color red` (or `green`, `blue`), `right -`, or a `location`
-//! with a negative z, where POV-Ray's camera stands; or if it names the Persistence of Vision. Else it is ours.
+//! **Rule:** `.pov` and `.inc` are POV-Ray's language, `.scene` is lucarne's own. Other files, and standard
+//! input, are POV-Ray's if their text contains one of these outside comments: `#version`, `assumed_gamma`,
+//! an `#include` of a file that ships with POV-Ray, `color red` (or `green`, `blue`), `right -`, or a
+//! `location` with a negative z, as is usual for POV-Ray cameras; or if it names the Persistence of Vision.
+//! Otherwise they are lucarne's own.
 
 use std::path::Path;
 
@@ -16,9 +18,9 @@ use super::text::name_of;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Language {
-    /// POV-Ray's, with its left-handed frame and its defaults
+    /// POV-Ray's language, with its left-handed coordinates and its defaults
     Pov,
-    /// lucarne's own, with a right-handed frame and lints
+    /// lucarne's own language, with right-handed coordinates and lints
     Scene,
 }
 
@@ -31,7 +33,7 @@ impl From<Language> for Dialect {
     }
 }
 
-/// Returns the language of a main file, and a note for the author where only the text decided it.
+/// Returns the language of a main file, and a note for the user if only the text decided it.
 pub fn of(asked: Option<Language>, file: &Path, text: &[u8]) -> (Dialect, Option<String>) {
     if let Some(asked) = asked {
         return (asked.into(), None);
@@ -60,10 +62,10 @@ pub fn of(asked: Option<Language>, file: &Path, text: &[u8]) -> (Dialect, Option
     }
 }
 
-/// What scenes for POV-Ray call the program, in small letters.
+/// Lowercase name of the program as POV-Ray scenes spell it.
 const PROGRAM: &str = "persistence of vision";
 
-/// The first thing in a text that only scenes for POV-Ray have.
+/// Returns the first feature of the text that only POV-Ray scenes have.
 fn sign_of_povray(text: &[u8]) -> Option<String> {
     let named = text.to_ascii_lowercase();
     if named.windows(PROGRAM.len()).any(|part| part == PROGRAM.as_bytes()) {
@@ -106,17 +108,17 @@ fn sign_of_povray(text: &[u8]) -> Option<String> {
     None
 }
 
-/// A part of a text that is no comment and no blank.
+/// Token of a text, outside comments and whitespace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Piece<'a> {
     /// Letters, digits and `_`.
     Word(&'a [u8]),
-    /// What stands between two `"`.
+    /// Text between two `"`.
     Quoted(&'a [u8]),
     Sign(u8),
 }
 
-/// The first piece, and the text behind it.
+/// Returns the first token and the text after it.
 fn next(mut text: &[u8]) -> Option<(Piece<'_>, &[u8])> {
     loop {
         text = match text {
@@ -146,7 +148,7 @@ fn next(mut text: &[u8]) -> Option<(Piece<'_>, &[u8])> {
     }
 }
 
-/// The text behind a comment that has begun. Comments nest.
+/// Returns the text after an open comment. Comments nest.
 fn behind_comment(mut text: &[u8]) -> &[u8] {
     let mut depth = 1;
     while depth > 0 {

@@ -1,15 +1,16 @@
-//! A line now and then where no bar can be seen: what is being done, how far it has come, for how long.
+//! Prints a progress line at intervals if no progress bar can be shown: the current step, its progress and
+//! the time taken.
 //!
-//! **Invariant:** written by a thread of its own, so that it comes however long one piece of work takes.
+//! **Invariant:** a separate thread prints the lines, so they appear however long one step takes.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// From one line to the next.
+/// Interval between lines.
 pub const NOW_AND_THEN: Duration = Duration::from_secs(10);
 
-/// Work that tells of itself until it is dropped.
+/// Reports progress until it is dropped.
 pub struct Life {
     shared: Arc<Shared>,
     teller: Option<JoinHandle<()>>,
@@ -20,17 +21,17 @@ struct Shared {
     ended: Condvar,
 }
 
-/// What is being done.
+/// The current step.
 struct Now {
     name: &'static str,
     began: Instant,
-    /// How much of how much is done.
+    /// Completed and total amount of work.
     done: Option<(usize, usize)>,
     ended: bool,
 }
 
 impl Life {
-    /// Of work of this name, told by `say` after each `pause`.
+    /// Reports on work with this name by calling `say` after each `pause`.
     pub fn begin(name: &'static str, pause: Duration, say: impl Fn(&str) + Send + 'static) -> Self {
         let now = Now { name, began: Instant::now(), done: None, ended: false };
         let shared = Arc::new(Shared { now: Mutex::new(now), ended: Condvar::new() });
@@ -45,12 +46,12 @@ impl Life {
                 }
             }
         };
-        // Without a thread there are no lines, and the work is done all the same.
+        // If the thread cannot be started, no lines are printed, but the work goes on.
         let teller = thread::Builder::new().spawn(tell).ok();
         Self { shared, teller }
     }
 
-    /// Other work has begun.
+    /// Starts the next step.
     pub fn next(&self, name: &'static str) {
         let mut now = self.shared.now();
         (now.name, now.began, now.done) = (name, Instant::now(), None);
@@ -87,7 +88,7 @@ impl Now {
     }
 }
 
-/// `8 s`, `3 min`: as well as a forecast knows it.
+/// Formats a duration at forecast precision: `8 s`, `3 min`.
 pub fn duration(seconds: f64) -> String {
     match seconds {
         5400.0.. => format!("{:.1} h", seconds / 3600.0),

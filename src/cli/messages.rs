@@ -1,7 +1,7 @@
-//! Messages on their way to the terminal.
+//! Prints diagnostics.
 //!
-//! **Invariant:** people's messages go to standard error, a program's (`json`) to standard output;
-//! a reader that has gone away is no error.
+//! **Invariant:** messages for people go to standard error, messages for programs (`json`) to standard
+//! output. A closed pipe is not an error.
 
 use std::collections::BTreeMap;
 use std::io::{ErrorKind, IsTerminal, Write};
@@ -14,36 +14,36 @@ use lucarne::source::{Source, Sources, Span};
 use super::exit::{Exit, Failure, reason};
 use super::text::name_of;
 
-/// In human form, more errors than this, and more warnings, are counted, not shown.
+/// Maximum number of errors, and of warnings, printed in the human format; the rest are only counted.
 const MOST_SHOWN: usize = 100;
-/// So are more messages of one code: who has read these has seen what is wrong.
+/// Maximum number of messages with the same code printed in the human format.
 const MOST_OF_A_CODE: usize = 20;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Format {
-    /// With the lines they are about, on standard error
+    /// With source excerpts, on standard error
     #[default]
     Human,
     /// `file:line:column: severity[code]: message`, on standard error
     Short,
-    /// Plain sentences without drawing, for a screen reader, on standard error
+    /// Plain sentences for a screen reader, on standard error
     Narrated,
-    /// One JSON object a line, on standard output
+    /// One JSON object per line, on standard output
     Json,
 }
 
-/// What an author says in pieces is a line of its own all the same.
+/// Ends the text with a newline, so that output the scene author prints in pieces occupies its own line.
 fn end_line(text: &mut String) {
     if !text.is_empty() && !text.ends_with('\n') {
         text.push('\n');
     }
 }
 
-/// Prints messages and remembers what they mean for the exit code.
+/// Prints messages and determines the exit code from them.
 pub struct Messages {
     format: Format,
     deny_warnings: bool,
-    /// Standard output is taken by a picture.
+    /// Whether standard output is reserved for a picture.
     pub picture_on_stdout: bool,
     style: render::Style,
     errors: usize,
@@ -58,7 +58,7 @@ impl Messages {
         Self { format, deny_warnings, picture_on_stdout: false, style, errors, warnings, limits }
     }
 
-    /// Prints them all.
+    /// Prints all of the messages.
     pub fn print<'a>(
         &mut self,
         list: impl Iterator<Item = &'a Diagnostic>,
@@ -75,7 +75,7 @@ impl Messages {
             }
             match self.format {
                 Format::Human | Format::Narrated => {
-                    // Neither the author's own words nor warnings take the room of errors.
+                    // Output of the scene and warnings do not count toward the limit of errors.
                     let shown = match diagnostic.severity {
                         Severity::Error => &mut errors,
                         Severity::Warning => &mut warnings,
@@ -115,7 +115,7 @@ impl Messages {
         }
     }
 
-    /// Says why a file could not be had, in the form of the other messages: at its first place.
+    /// Reports why a file could not be read, in the selected format.
     pub fn fail(&mut self, file: &Path, failure: &Failure) -> Result<(), Failure> {
         if self.format != Format::Json {
             fail(failure);
@@ -128,7 +128,7 @@ impl Messages {
         self.print(std::iter::once(&told.at(start, "")), &sources)
     }
 
-    /// `2 errors, 1 warning`, where people read it.
+    /// Prints the totals (`2 errors, 1 warning`) in the formats for people.
     pub fn summarize(&self) {
         let summary = render::summary(self.errors + self.limits, self.warnings);
         if let (Format::Human | Format::Narrated, Some(summary)) = (self.format, summary) {
@@ -140,15 +140,14 @@ impl Messages {
         }
     }
 
-    /// Says, where people read it, that there is nothing to say of a file.
+    /// Reports that a file has no messages, in the formats for people.
     pub fn nothing(&self, file: &str) {
         if let Format::Human | Format::Narrated = self.format {
             eprint(&format!("{file}: no messages\n"));
         }
     }
 
-    /// What the messages so far mean: a limit, whatever else there was before it stopped; errors; or
-    /// nothing.
+    /// Returns the exit code for the messages so far: a limit takes precedence over errors.
     pub fn exit(&self) -> Exit {
         match self {
             Self { limits: 1.., .. } => Exit::Limit,
@@ -172,8 +171,8 @@ fn is_limit(code: Code) -> bool {
     )
 }
 
-/// The width of the terminal on standard error, or of `COLUMNS`, and colour when it is one and `NO_COLOR` is
-/// unset.
+/// Returns the style for standard error: the width of the terminal or of `COLUMNS`, in color if it is a
+/// terminal and `NO_COLOR` is unset.
 fn style() -> render::Style {
     let stderr = std::io::stderr();
     let asked = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
@@ -187,12 +186,12 @@ fn style() -> render::Style {
     render::Style { width, color: !plain }
 }
 
-/// To standard output. A closed pipe is no error: nobody reads any more.
+/// Prints text to standard output. A closed pipe is not an error.
 pub fn print(text: &str) -> Result<(), Failure> {
     print_bytes(text.as_bytes())
 }
 
-/// As [`print`], for a picture.
+/// Prints bytes to standard output, like [`print`].
 pub fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(bytes).and_then(|()| out.flush()) {
@@ -203,12 +202,12 @@ pub fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     }
 }
 
-/// To standard error.
+/// Prints text to standard error.
 pub fn eprint(text: &str) {
     let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }
 
-/// Says why the program ends.
+/// Reports why the program ends.
 pub fn fail(failure: &Failure) {
     let help = failure.help.as_ref().map_or(String::new(), |help| format!("  help: {help}\n"));
     eprint(&format!("error: {}\n{help}", failure.sentence));

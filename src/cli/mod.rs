@@ -1,6 +1,6 @@
-//! The command line: one file a subcommand.
+//! The command-line program; each command has its own file.
 //!
-//! **Architecture invariant:** the only room that prints, reads and writes disks, and exits.
+//! **Architecture invariant:** this is the only module that prints, accesses disks and exits.
 
 mod accuracy;
 mod arguments;
@@ -37,7 +37,7 @@ use lucarne::diagnostic::suggest::closest;
 use arguments::{Arguments, Command};
 use exit::{Exit, Failure, Outcome};
 
-/// Reads the command line, does what it says, and tells how it went.
+/// Parses the command line, runs the command and returns its exit code.
 pub fn main() -> ExitCode {
     guarded(|| {
         parsed(complete(std::env::args_os().collect())).and_then(run).unwrap_or_else(|failure| {
@@ -48,7 +48,7 @@ pub fn main() -> ExitCode {
     .into()
 }
 
-/// What the words say. Where they cannot be read, clap's answer, or a better one, ends the program.
+/// Parses the words. If they are invalid, fails with clap's answer or a more helpful one.
 fn parsed(words: Vec<OsString>) -> Result<Arguments, Failure> {
     Arguments::try_parse_from(&words).map_err(|error| {
         let words: Vec<String> =
@@ -81,7 +81,7 @@ fn run(arguments: Arguments) -> Outcome {
     }
 }
 
-/// Runs `work`; a panic in it is a bug, and becomes a sentence on how to report it.
+/// Runs `work`, and turns a panic into a message on how to report the bug.
 fn guarded(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Exit {
     panic::set_hook(Box::new(|info| {
         messages::eprint(&format!(
@@ -98,7 +98,7 @@ fn guarded(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Exit {
     })
 }
 
-/// `lucarne FILE` means `lucarne render FILE`, and `--stats json` is `--stats=json`.
+/// Expands `lucarne FILE` to `lucarne render FILE`, and `--stats json` to `--stats=json`.
 fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let command = Arguments::command();
     let is_command = |word: &str| {
@@ -107,7 +107,7 @@ fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let first = arguments.get(1).map(|first| first.to_string_lossy().into_owned());
     let render = first.is_some_and(|first| {
         let names = command.get_subcommands().map(|command| command.get_name());
-        // A misspelt subcommand, unless there is such a file.
+        // Probably a misspelt subcommand, unless such a file exists.
         let misspelt = !first.contains('.')
             && closest(&first, names).is_some()
             && !Path::new(&first).exists()
@@ -118,7 +118,7 @@ fn complete(mut arguments: Vec<OsString>) -> Vec<OsString> {
     if render {
         arguments.insert(1, "render".into());
     }
-    // What is no file is a format, if perhaps one that does not exist.
+    // A word that is not a file is a format, possibly an invalid one.
     let is_format = |word: &OsString| {
         let text = word.to_string_lossy();
         !text.is_empty() && text.chars().all(char::is_alphanumeric) && !Path::new(word).exists()

@@ -1,9 +1,9 @@
-//! Where a picture goes.
+//! Writes pictures to files or to standard output.
 //!
-//! **Invariant:** what can be known before the render is: the format, and whether the place can be
-//! written. A file is written beside and renamed, so that it is whole or not there, and keeps its
-//! permissions; a file the scene was read from is never overwritten. A picture that cannot be written to
-//! its place is kept in another.
+//! **Invariant:** everything that can be checked before rendering is checked then: the format, and whether
+//! the destination is writable. A file is written under a temporary name and renamed, so that it is
+//! complete or absent, and keeps its permissions. A file the scene was read from is never overwritten. If a
+//! picture cannot be written to its destination, it is saved elsewhere.
 
 use std::fs;
 use std::io::{ErrorKind, Read, Write};
@@ -18,7 +18,7 @@ use super::exit::{Failure, reason};
 use super::messages;
 use super::text::is_stdin;
 
-/// A place for one picture.
+/// Destination of one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Output {
     Stdout,
@@ -26,7 +26,8 @@ pub enum Output {
 }
 
 impl Output {
-    /// `OUT` as typed, or the scene's name with `.png` in the current folder.
+    /// Returns the destination for `OUT` as typed; by default, the scene's name with `.png` in the current
+    /// folder.
     pub fn from_arguments(scene: &Path, out: Option<&Path>) -> Result<Self, Failure> {
         let Some(out) = out else {
             let stem = scene.file_stem().filter(|_| !is_stdin(scene));
@@ -62,7 +63,7 @@ impl Output {
         }
     }
 
-    /// How the line that says what was done calls it.
+    /// Returns the name of the destination for messages.
     pub fn name(&self) -> String {
         match self {
             Self::Stdout => "standard output".to_owned(),
@@ -70,7 +71,7 @@ impl Output {
         }
     }
 
-    /// Where an interrupted picture goes: `OUT.partial.EXT`.
+    /// Returns the destination of an interrupted picture: `OUT.partial.EXT`.
     pub fn partial(&self) -> Option<Self> {
         match self {
             Self::Stdout => None,
@@ -82,8 +83,8 @@ impl Output {
         }
     }
 
-    /// Fails when it is clear before the render that the picture could not be written, or should
-    /// not: `force` allows what is not a picture, or is write-protected, to be overwritten.
+    /// Fails if it is known before rendering that the picture cannot or should not be written. With
+    /// `force`, files that are not pictures or are write-protected may be overwritten.
     pub fn check(&self, part: Region, depth: Depth, force: bool) -> Result<(), Failure> {
         let (width, height) = (part.width, part.height);
         if let Some(sentence) = self.format().too_large(width, height) {
@@ -91,7 +92,7 @@ impl Output {
             return Err(Failure::usage(sentence).help(help));
         }
         let Self::File { path, format } = self else { return Ok(()) };
-        // To open a pipe is to wait for its other end.
+        // Opening a pipe would block until its other end is opened.
         can_be_made(path).map_err(|failure| match path.exists() {
             true => failure.help("`-o -` writes a PNG to standard output"),
             false => failure,
@@ -117,7 +118,7 @@ impl Output {
         }
     }
 
-    /// Fails when the picture would take the place of a text that the scene was read from.
+    /// Fails if the picture would overwrite a file that the scene was read from.
     pub fn keeps(&self, sources: &Sources) -> Result<(), Failure> {
         let Self::File { path, .. } = self else { return Ok(()) };
         let Ok(truth) = fs::canonicalize(path) else { return Ok(()) };
@@ -131,7 +132,7 @@ impl Output {
         }
     }
 
-    /// Writes the picture whole.
+    /// Writes the picture.
     pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
         match self {
             Self::Stdout => messages::print_bytes(bytes),
@@ -139,8 +140,8 @@ impl Output {
         }
     }
 
-    /// Keeps a picture that could not be written to `place`: as a partial one is named, else in the temporary
-    /// folder. Returns the `failure` of the first attempt and where the picture is.
+    /// Saves a picture that could not be written to `place`: under the name of a partial picture or,
+    /// failing that, in the temporary folder. Returns `failure`, extended by the path of the saved picture.
     pub fn rescue(&self, place: &Self, bytes: &[u8], failure: Failure) -> Failure {
         let beside = self.partial().filter(|partial| partial != place);
         let kept = match beside.filter(|beside| beside.write(bytes).is_ok()) {
@@ -153,7 +154,7 @@ impl Output {
         }
     }
 
-    /// Writes the picture to a new file in a folder that others may use, too; returns its name.
+    /// Writes the picture to a new file in a folder that may be shared with other users; returns its name.
     fn keep_in(&self, folder: &Path, bytes: &[u8]) -> Result<String, Failure> {
         let (stem, extension) = match self {
             Self::Stdout => ("picture".as_ref(), "png".as_ref()),
@@ -175,7 +176,7 @@ impl Output {
     }
 }
 
-/// Whether the file has no permission to be written, for anybody or for who runs the program.
+/// Whether the file is write-protected, for everyone or for the current user.
 fn is_protected(path: &Path) -> bool {
     let denied = || {
         let opened = fs::OpenOptions::new().append(true).open(path);
@@ -184,16 +185,16 @@ fn is_protected(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|about| about.permissions().readonly()) || denied()
 }
 
-/// Fails when it is clear that no file can be made at this place, or what is there is none.
+/// Fails if no file can be created at this path, or if something other than a file exists there.
 pub fn can_be_made(path: &Path) -> Result<(), Failure> {
     if fs::metadata(path).is_ok_and(|about| !about.is_file()) {
         return Err(cannot(path, "it is not a file"));
     }
-    // The one sure way to know is to make one.
+    // Creating a file is the only reliable test.
     temporary(path).map(drop)
 }
 
-/// Writes a text over the one that it was made from, unless that is write-protected.
+/// Overwrites a source file with its new text, unless it is write-protected.
 pub fn write_over(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     match is_protected(file) {
         true => {
@@ -203,10 +204,10 @@ pub fn write_over(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     }
 }
 
-/// Writes a file that is whole or not there, with the permissions that it had.
+/// Writes a file atomically and keeps its permissions.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: std::io::Error| cannot(file, &reason(&error));
-    // A link stays a link: what it leads to is replaced.
+    // Keeps a link and replaces its target.
     let path = &fs::canonicalize(file).unwrap_or(file.to_owned());
     let mut beside = temporary(path)?;
     beside.write_all(bytes).map_err(failed)?;
@@ -225,14 +226,14 @@ fn cannot(path: &Path, why: &str) -> Failure {
     Failure::file(format!("cannot write `{}`: {why}", path.display()))
 }
 
-/// A file beside `path`, removed again unless it is renamed.
+/// Creates a temporary file in the folder of `path`; it is deleted unless renamed.
 fn temporary(path: &Path) -> Result<tempfile::NamedTempFile, Failure> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".lucarne-");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // What any other new file would get; the system takes the umask off.
+        // Default permissions of new files; the system applies the umask.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder(path)).map_err(|error| {

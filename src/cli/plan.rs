@@ -1,4 +1,4 @@
-//! `lucarne plan`: what will be simulated, what called for it, what it costs, and what is left out.
+//! `lucarne plan`: prints what will be simulated, what requires it, what it costs, and what is left out.
 
 use lucarne::pilot::pilot;
 use lucarne::plan::{Antialias, Effect, Kernel, Measured, Plan, Precision, plan, print};
@@ -32,7 +32,7 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
         false => print::dump(&plan, &road.sources),
     };
     let mut messages = arguments.scene.messages();
-    // The plan takes standard output.
+    // Standard output is reserved for the plan.
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
@@ -41,7 +41,7 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     Ok::<Exit, Failure>(messages.exit())
 }
 
-/// The plan as `--json` prints it; `docs/effects.md` says what each name means.
+/// Plan as printed by `--json`; `docs/effects.md` explains each name.
 #[derive(Serialize)]
 struct Report<'a> {
     width: u32,
@@ -74,13 +74,13 @@ enum Smoothing {
 struct Row<'a> {
     effect: &'a str,
     on: bool,
-    /// Why it is off.
+    /// Why the effect is off.
     #[serde(skip_serializing_if = "Option::is_none")]
     why: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cost: Option<&'a str>,
     called_for_by: Vec<Place<'a>>,
-    /// Where it is said that it is off.
+    /// Where the scene turns the effect off.
     #[serde(skip_serializing_if = "Option::is_none")]
     place: Option<Place<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -92,7 +92,7 @@ struct Part<'a> {
     what: &'a str,
     why: &'a str,
     place: Place<'a>,
-    /// Of what stands in a macro.
+    /// Macro calls that lead to this location.
     calls: Vec<Place<'a>>,
 }
 
@@ -123,14 +123,14 @@ struct Numbers<'a> {
     largest_half_width: Option<Number<'a>>,
     farthest_in_half_widths: Option<Number<'a>>,
     endless: Vec<Endless<'a>>,
-    /// Sizes that differ by more than 24 bits tell apart.
+    /// Whether the sizes in the scene differ by more than single precision (24 bits) resolves.
     exceeds_single: bool,
     thin: Vec<Thin<'a>>,
     near_singular: Vec<Number<'a>>,
     coinciding: Vec<Pair<'a>>,
 }
 
-/// Two parts of one solid that have a face in common.
+/// Two parts of one solid that share a face.
 #[derive(Serialize)]
 struct Pair<'a> {
     shapes: [&'a str; 2],
@@ -150,12 +150,12 @@ struct Rays {
     camera: f64,
     all: f64,
     pilot: [u32; 2],
-    /// As many as its limit of rays allowed.
+    /// Pixels the pilot traced before it reached its limit of rays.
     pilot_pixels: usize,
-    /// How deep it looked, where that is less than the plan says.
+    /// Recursion depth of the pilot, if less than that of the plan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pilot_depth: Option<u32>,
-    /// The share of the pilot's pixels that adaptive antialiasing samples anew.
+    /// Fraction of the pilot's pixels that adaptive antialiasing supersamples.
     #[serde(skip_serializing_if = "Option::is_none")]
     edges: Option<f64>,
 }
@@ -165,7 +165,7 @@ struct Place<'a> {
     file: &'a str,
     line: usize,
     column: usize,
-    /// Bytes of the file's text, the end exclusive.
+    /// Byte offsets in the file's text; the end is exclusive.
     start: u32,
     end: u32,
     text: &'a str,

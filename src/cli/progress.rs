@@ -1,7 +1,7 @@
-//! A bar while the tracer works, and Ctrl-C.
+//! Shows a progress bar while tracing, and handles Ctrl-C.
 //!
-//! **Invariant:** the bar stands on standard error, and only on a terminal, elsewhere a line comes now and
-//! then; it never stands still.
+//! **Invariant:** the bar is drawn on standard error, and only if that is a terminal; otherwise a line is
+//! printed at intervals. The display never stalls.
 
 use std::io::IsTerminal;
 use std::process;
@@ -19,20 +19,21 @@ use super::life::{Life, NOW_AND_THEN};
 use super::messages;
 use super::stats::cpu_seconds;
 
-/// From one sign of life to the next.
+/// Interval between updates of the display.
 const TICK: Duration = Duration::from_millis(200);
-/// A trace is under way, or was.
+/// Whether tracing has started.
 static TRACING: AtomicBool = AtomicBool::new(false);
-/// Ctrl-C was heard.
+/// Whether Ctrl-C was pressed.
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// So long a loop of the scene may take to notice Ctrl-C, and the message that names it to be printed.
+/// Time granted to a loop of the scene to notice Ctrl-C and to print the message that names it.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// From here on the first Ctrl-C stops the trace, and the second ends the program; where nothing is
-/// traced yet, the first ends the scene's loop that turns, or else the program with this sentence.
+/// Installs the Ctrl-C handler. While tracing, the first Ctrl-C stops the trace and the second ends the
+/// program. Before tracing, the first one stops a running loop of the scene, or else ends the program with
+/// the message `before_tracing`.
 pub fn hear_interrupts(before_tracing: &'static str) {
-    // Without a handler Ctrl-C ends the program at once, which is no error.
+    // If this fails, Ctrl-C ends the program at once, which is acceptable.
     let _ = ctrlc::set_handler(move || {
         let again = STOP.swap(true, Ordering::SeqCst);
         if !again && !TRACING.load(Ordering::SeqCst) {
@@ -45,18 +46,18 @@ pub fn hear_interrupts(before_tracing: &'static str) {
     });
 }
 
-/// Set by Ctrl-C.
+/// Returns the flag that Ctrl-C sets.
 pub fn interrupt() -> Interrupt {
     Interrupt(Some(&STOP))
 }
 
-/// Tells of work that has no bar, where standard error is no terminal.
+/// Reports progress of work that has no bar, if standard error is not a terminal.
 pub fn life(name: &'static str) -> Option<Life> {
     let say = |line: &str| messages::eprint(line);
     (!std::io::stderr().is_terminal()).then(|| Life::begin(name, NOW_AND_THEN, say))
 }
 
-/// Watches one trace.
+/// Progress display of one trace.
 pub struct Progress {
     bar: ProgressBar,
     life: Option<Life>,
@@ -65,7 +66,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// From here on Ctrl-C stops the trace; `name` is what is being done.
+    /// Starts the display with `name` as the current step. From now on, Ctrl-C stops the trace.
     pub fn start(name: &'static str) -> Self {
         let bar = match std::io::stderr().is_terminal() {
             true => ProgressBar::new(1),
@@ -77,28 +78,28 @@ impl Progress {
                 .unwrap_or_else(|_| ProgressStyle::default_bar())
                 .progress_chars("━━ "),
         );
-        // A piece may take long: the time goes on, and is seen to.
+        // Updates the elapsed time even while one step takes long.
         bar.enable_steady_tick(TICK);
         TRACING.store(true, Ordering::SeqCst);
         Self { bar, life: life(name), started: cpu_seconds(), built: OnceLock::new() }
     }
 
-    /// CPU seconds from the start until the tree of boxes stood.
+    /// Returns the CPU seconds from the start until the bounding volume hierarchy was built.
     pub fn build_cpu_seconds(&self) -> f64 {
         self.built.get().map_or(0.0, |built| built - self.started)
     }
 
-    /// Ctrl-C was heard.
+    /// Whether Ctrl-C was pressed.
     pub fn is_stopped(&self) -> bool {
         STOP.load(Ordering::Relaxed)
     }
 
-    /// Something else is being done from here on.
+    /// Starts the next step.
     pub fn next(&self, name: &'static str) {
         self.life.iter().for_each(|life| life.next(name));
     }
 
-    /// Says something while the bar stands.
+    /// Prints a line while the bar is shown.
     pub fn say(&self, text: &str) {
         self.bar.suspend(|| messages::eprint(text));
     }

@@ -1,4 +1,5 @@
-//! `render --max-error` and `render --time-budget`: a picture and what was promised of it.
+//! `render --max-error` and `render --time-budget`: renders a picture and reports whether the promise was
+//! kept.
 
 use lucarne::accuracy::{self, Audit, KNOBS, Knob, Metric, Options, Step, TooSmall, share, table};
 use lucarne::film::Depth;
@@ -14,16 +15,16 @@ use super::life::duration;
 use super::progress::Progress;
 use super::stats::Stopwatch;
 
-/// A picture, and what is to be said of it.
+/// A picture and the report on it.
 pub struct Made {
     pub traced: Traced,
-    /// A line for people; empty where nothing was promised.
+    /// Report for people; empty if nothing was promised.
     pub said: String,
-    /// What the program ends with once the picture is written.
+    /// Exit code of the program once the picture is written.
     pub exit: Exit,
 }
 
-/// Makes the picture as the command line wants it.
+/// Renders the picture as requested on the command line.
 pub fn make(
     arguments: &RenderArguments,
     (world, origins): (&World, &Origins),
@@ -44,7 +45,7 @@ pub fn make(
         return keep(world, origins, &options, promise, clock, progress);
     }
     if let Some(seconds) = arguments.time_budget {
-        // Time is saved at what is seen of the solids, and never at the solids.
+        // Excludes knobs that change the solids themselves.
         let knobs: Vec<Knob> =
             KNOBS.iter().filter(|knob| !knob.changes_solids()).copied().collect();
         let options = Options { knobs: &knobs, ..options };
@@ -111,7 +112,7 @@ fn keep(
     };
     let own = world.settings.max_trace_level;
     if audit.depth.is_some_and(|depth| depth < own) {
-        // An error told against less would be too small.
+        // An error measured against a shallower reference would be too small.
         let surfaces = if own == 1 { "surface" } else { "surfaces" };
         let said = format!(
             "warning: how far off it is is not known: it takes too long to look {own} {surfaces} deep, as the scene does\nthe same picture: {flags}\n"
@@ -127,7 +128,7 @@ fn keep(
     Ok(Made { traced: kept.traced, said, exit: if proven { Exit::Done } else { Exit::Promise } })
 }
 
-/// What no error that samples tell can hold; empty where there is none of it.
+/// Returns a note if lights are so bright that sampling cannot bound the error; otherwise an empty string.
 pub(super) fn glare(world: &World) -> String {
     accuracy::glare(world).map_or_else(String::new, |whites| {
         let whites: f64 = format!("{whites:.1e}").parse().unwrap_or(whites);
@@ -138,7 +139,7 @@ pub(super) fn glare(world: &World) -> String {
     })
 }
 
-/// What is being done.
+/// Name of a step, for the progress display.
 fn name(step: &Step) -> &'static str {
     match step {
         Step::Choosing | Step::Unreachable { .. } | Step::Refining(_) => "choosing settings",
@@ -148,7 +149,7 @@ fn name(step: &Step) -> &'static str {
     }
 }
 
-/// What is said of it; nothing of what takes no time.
+/// Note to print on a step, if it takes long enough.
 fn note(step: &Step, metric: Metric, promise: f64) -> Option<String> {
     let amount = |error| table::amount(metric, error);
     match step {
@@ -208,19 +209,19 @@ fn note(step: &Step, metric: Metric, promise: f64) -> Option<String> {
     }
 }
 
-/// An error that nobody asks about.
+/// Errors below this are not reported.
 const NOTHING: f64 = 1e-9;
-/// Seconds that one wants to be told of beforehand.
+/// Steps that take at least this many seconds are announced.
 const WORTH_TELLING: f64 = 5.0;
 
-/// `error 0.0088 [0.0081, 0.0096]`, and what the reference did not look at.
+/// Formats the error (`error 0.0088 [0.0081, 0.0096]`) and the limits of the reference.
 pub(super) fn error(audit: &Audit) -> String {
     let amount = |error: f64| table::amount(audit.metric, error);
-    // Below what the reference resolves nothing is known but that it lies there.
+    // Below the resolution of the reference, only an upper bound is known.
     let error = match audit.error.value < audit.resolution {
         true => {
             let most = audit.resolution.max(audit.error.high);
-            // Sums are rounded by as much.
+            // Errors this small are rounding errors of sums.
             let why = match most {
                 ..=NOTHING => "",
                 _ => " (it could not be told better than that)",

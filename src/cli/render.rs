@@ -1,4 +1,4 @@
-//! `lucarne render`: from a scene file to a picture file.
+//! `lucarne render`: renders a scene file to a picture file.
 
 use std::num::NonZero;
 use std::thread::available_parallelism;
@@ -80,7 +80,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let written = match traced.complete {
         true => Some(output.clone()),
         false if done == 0 && exit == Exit::Interrupted => None,
-        // What was interrupted is not wanted; what ran out of time is.
+        // Standard output gets a picture that ran out of time, but not an interrupted one.
         false => output.partial().or_else(|| (exit == Exit::Limit).then(|| output.clone())),
     };
     if let Some(place) = &written {
@@ -121,8 +121,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     Ok(exit)
 }
 
-/// Fails when there is clearly not the memory for the film, which an allocation could only tell by
-/// ending the program.
+/// Fails if there is clearly too little memory for the film; a failed allocation would abort the program.
 fn fits(part: Region) -> Result<(), Failure> {
     let pixels = u64::from(part.width) * u64::from(part.height);
     let bytes = pixels.saturating_mul(Film::BYTES_PER_PIXEL);
@@ -140,7 +139,7 @@ fn fits(part: Region) -> Result<(), Failure> {
     }
 }
 
-/// More threads than this only cost their start: the picture does not depend on their number.
+/// Largest useful number of threads; more only add startup cost, as the picture does not depend on it.
 fn most_threads() -> usize {
     4 * available_parallelism().map_or(1, NonZero::get)
 }

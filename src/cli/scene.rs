@@ -1,4 +1,5 @@
-//! What every command takes that compiles a scene: folders, declarations, limits, levels of warnings.
+//! Defines the arguments shared by all commands that compile a scene: include folders, declarations, limits
+//! and warning levels.
 
 use std::path::{Path, PathBuf};
 
@@ -13,52 +14,52 @@ use super::messages::{self, Messages};
 use super::progress;
 use super::values::{Limit, Warnings, declare, limit, now, warning};
 
-/// The most pixels a picture has unless `--limit pixels=N` says otherwise.
+/// Default limit on the number of pixels, raised or lowered by `--limit pixels=N`.
 ///
-/// They take about 8 GiB of memory.
+/// A picture of this size takes about 8 GiB of memory.
 const MOST_PIXELS: u64 = 1 << 27;
 
-/// What a scene is compiled with, and how its messages are shown.
+/// Arguments that control how a scene is compiled and how its messages are printed.
 #[derive(Debug, Args)]
 pub struct SceneArguments {
-    /// The language of the scene [default: by the end of its name, `.pov` or `.scene`, else by its text]
+    /// Language of the scene [default: chosen by the extension, `.pov` or `.scene`, otherwise by the text]
     #[arg(long, value_enum, value_name = "pov|scene")]
     pub language: Option<Language>,
-    /// Search this folder for includes too; may be given several times
+    /// Add a folder to search for include files; may be repeated
     #[arg(short = 'I', long = "include", value_name = "DIR")]
     pub include: Vec<PathBuf>,
-    /// Declare a number before the scene starts; may be given several times
+    /// Declare a numeric identifier before the scene is evaluated; may be repeated
     #[arg(short = 'D', long = "declare", value_name = "NAME=VALUE", value_parser = declare)]
     declares: Vec<(String, f64)>,
-    /// Raise or lower a limit: loop-turns, macro-depth, include-depth, nesting, objects, memory
-    /// and string (in MiB), pixels
+    /// Set a limit: loop-turns, macro-depth, include-depth, nesting, objects, memory (in MiB), string (in
+    /// MiB) or pixels; may be repeated
     #[arg(long = "limit", value_name = "NAME=N", value_parser = limit)]
     limits: Vec<(Limit, u64)>,
-    /// Let the scene read only files in its own folder, in the `-I` folders and where POV-Ray's includes
-    /// are installed
+    /// Only let the scene read files in its own folder, the `-I` folders and the folders where the POV-Ray
+    /// includes are installed
     #[arg(long)]
     pub sandbox: bool,
-    /// Let the scene write files, below the current folder, once it has been read without errors.
-    /// (`render` writes them; other commands say what it would write)
+    /// Allow the scene to write files below the current directory, if it has no errors. Only `render`
+    /// writes them; other commands list what would be written
     #[arg(long)]
     pub allow_write: bool,
-    /// Warn about all that is probably a mistake, in `.pov` files too
+    /// Enable all lints, also for `.pov` files
     #[arg(long)]
     lint: bool,
     /// Treat warnings as errors
     #[arg(long)]
     deny_warnings: bool,
-    /// Drop a warning: its code, or `all`, or several with commas; may be given several times, as
-    /// may the next two
+    /// Disable a warning, given by its code; `all` disables all warnings; accepts several codes separated
+    /// by commas, and may be repeated (as may `--warn` and `--deny`)
     #[arg(long, value_name = "CODE", value_parser = warning, value_delimiter = ',')]
     allow: Vec<Warnings>,
-    /// Tell a warning, whatever the dialect
+    /// Enable a warning in every dialect
     #[arg(long, value_name = "CODE", value_parser = warning, value_delimiter = ',')]
     warn: Vec<Warnings>,
-    /// Make an error of a warning
+    /// Report a warning as an error
     #[arg(long, value_name = "CODE", value_parser = warning, value_delimiter = ',')]
     deny: Vec<Warnings>,
-    /// How messages are shown
+    /// Output format for diagnostics
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub message_format: messages::Format,
 }
@@ -68,7 +69,8 @@ impl SceneArguments {
         Messages::new(self.message_format, self.deny_warnings)
     }
 
-    /// What becomes of each warning: a code goes before `all`, and of one named twice the strictest holds.
+    /// Returns the level of each warning. A code takes precedence over `all`; if one code is given several
+    /// levels, the strictest applies.
     fn levels(&self, dialect: Dialect) -> Levels {
         let mut levels = Levels::new(dialect == Dialect::Scene);
         if self.lint {
@@ -87,21 +89,21 @@ impl SceneArguments {
         levels
     }
 
-    /// Returns the language of a main file, and says so where only its text decided it.
+    /// Returns the language of a main file, and prints a note if it was detected from the text.
     pub fn dialect(&self, file: &Path, text: &[u8]) -> Dialect {
         let (dialect, note) = language::of(self.language, file, text);
         messages::eprint(&note.unwrap_or_default());
         dialect
     }
 
-    /// What the road takes, for a main file of this language.
+    /// Returns the compile options for a main file in this language.
     pub fn options(&self, dialect: Dialect, frame: Option<Frame>) -> Options {
         let mut options = Options::new(dialect);
         options.levels = self.levels(dialect);
         options.evaluate.now = now();
         options.evaluate.interrupt = progress::interrupt();
         options.evaluate.declares = self.declares.clone();
-        // `clock` is a word of the language, not a name.
+        // `clock` is a keyword, not an identifier.
         if let Some((_, clock)) = self.declares.iter().rfind(|(name, _)| name == "clock") {
             options.evaluate.clock = *clock;
         }
@@ -125,7 +127,7 @@ impl SceneArguments {
         options
     }
 
-    /// The most pixels a picture may have.
+    /// Returns the maximum number of pixels to trace.
     pub fn most_pixels(&self) -> u64 {
         let pixels = self.limits.iter().rev().find(|(limit, _)| *limit == Limit::Pixels);
         pixels.map_or(MOST_PIXELS, |&(_, n)| n)

@@ -1,4 +1,4 @@
-//! `lucarne show`: what a scene is at each stage of the road.
+//! `lucarne show`: prints a scene at one stage of compilation.
 
 use lucarne::plan;
 use lucarne::road::Road;
@@ -15,7 +15,7 @@ pub fn run(arguments: &ShowArguments) -> Outcome {
     show(&arguments.file, arguments.stage, &arguments.picture, &arguments.scene)
 }
 
-/// Prints one stage; a broken scene shows what there is of it.
+/// Prints one stage. For a scene with errors, prints what was compiled of it.
 pub fn show(
     path: &std::path::Path,
     stage: Stage,
@@ -49,7 +49,7 @@ pub fn show(
         }
     };
     let mut messages = arguments.messages();
-    // The stage takes standard output.
+    // Standard output is reserved for the stage.
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();

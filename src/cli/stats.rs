@@ -1,5 +1,5 @@
-//! What a render took: CPU seconds of each stage, memory, rays, what finding what they meet took, and how
-//! often each effect was evaluated.
+//! Statistics of a render: CPU seconds of each stage, memory, rays, intersection work and evaluations of
+//! each effect.
 
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -12,19 +12,19 @@ use super::arguments::StatsFormat;
 use super::exit::Failure;
 use super::messages;
 
-/// CPU seconds are of the whole process, all threads together.
+/// Statistics of a render. CPU seconds are the total over all threads of the process.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Stats {
     pub parse_cpu_s: f64,
     pub evaluate_cpu_s: f64,
     pub lower_cpu_s: f64,
-    /// The tree of boxes.
+    /// Building the bounding volume hierarchy.
     pub build_cpu_s: f64,
-    /// With a promise all that was traced to keep it, beside the picture.
+    /// Tracing; with a promise, includes everything traced to keep it in addition to the picture.
     pub trace_cpu_s: f64,
     pub encode_cpu_s: f64,
     pub wall_s: f64,
-    /// Zero where the system does not tell.
+    /// Zero if the system does not report it.
     pub peak_rss_bytes: u64,
     pub objects: usize,
     pub lights: usize,
@@ -33,26 +33,26 @@ pub struct Stats {
     pub evaluations: Evaluations,
 }
 
-/// Rays by what sent them.
+/// Number of rays by origin.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Rays {
     pub camera: u64,
     pub shadow: u64,
     pub reflection: u64,
     pub transmission: u64,
-    /// Where a clear surface mirrors all, for nothing can go through.
+    /// Rays from transparent surfaces under total internal reflection.
     pub total_reflection: u64,
 }
 
-/// What it took to find what they meet: visits to nodes of the tree of boxes (four boxes each), and
-/// equations of shapes solved.
+/// Intersection work: visits to nodes of the bounding volume hierarchy (four boxes each), and equations of
+/// shapes solved.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Work {
     pub box_visits: u64,
     pub root_solves: u64,
 }
 
-/// How often each effect was evaluated that sends no rays of its own: as [`trace::Evaluations`].
+/// Evaluations of each effect that sends no rays of its own; see [`trace::Evaluations`].
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Evaluations {
     pub diffuse: u64,
@@ -110,7 +110,8 @@ impl Stats {
         self.evaluations = evaluations.into();
     }
 
-    /// As one line of JSON, or as a table (`CPU s`: of all threads together); on standard error where a picture takes the other.
+    /// Prints one line of JSON or a table (`CPU s`: total over all threads), on standard error if a picture
+    /// uses standard output.
     pub fn print(&self, format: Option<StatsFormat>, to_stderr: bool) -> Result<(), Failure> {
         let text = match format {
             // Numbers only: nothing here can fail to serialise.
@@ -160,7 +161,7 @@ impl Stats {
     }
 }
 
-/// Measures one stage after another.
+/// Measures consecutive stages.
 pub struct Stopwatch {
     start: Instant,
     last: f64,
@@ -171,7 +172,7 @@ impl Stopwatch {
         Self { start: Instant::now(), last: cpu_seconds() }
     }
 
-    /// CPU seconds since the last call, or since the start.
+    /// Returns the CPU seconds since the last call, or since the start.
     pub fn lap(&mut self) -> f64 {
         let now = cpu_seconds();
         now - std::mem::replace(&mut self.last, now)
@@ -182,7 +183,7 @@ impl Stopwatch {
     }
 }
 
-/// CPU seconds of this process; where they cannot be had, wall-clock seconds since the first call.
+/// Returns the CPU seconds of this process or, where unavailable, wall-clock seconds since the first call.
 pub fn cpu_seconds() -> f64 {
     process_cpu_seconds().unwrap_or_else(|| {
         static FIRST: OnceLock<Instant> = OnceLock::new();
@@ -203,7 +204,7 @@ fn process_cpu_seconds() -> Option<f64> {
     None
 }
 
-/// The most memory this process has had, in bytes.
+/// Returns the peak memory use of this process in bytes.
 #[cfg(unix)]
 pub fn peak_rss_bytes() -> u64 {
     use nix::sys::resource::{UsageWho, getrusage};

@@ -1,4 +1,4 @@
-//! The main file: what the command line names, be it a file or standard input, if it can be a scene.
+//! Reads the main file named on the command line, or standard input, and checks that it can be a scene.
 
 use std::borrow::Cow;
 use std::fs;
@@ -10,25 +10,25 @@ use lucarne::diagnostic::suggest::closest;
 use super::exit::{Exit, Failure, reason};
 use super::files::or_here;
 
-/// The largest file that is read: positions in a text have 32 bits.
+/// Largest file size that is read, in bytes: text positions have 32 bits.
 pub const LARGEST: u64 = 1 << 30;
 
-/// `-`: the scene comes from standard input.
+/// Whether the path is `-`, for standard input.
 pub fn is_stdin(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// How messages call the main file.
+/// Returns the name of the main file for messages.
 pub fn name_of(path: &Path) -> Cow<'_, str> {
     if is_stdin(path) { "standard input".into() } else { path.to_string_lossy() }
 }
 
-/// Whether this is a part of a scene, by its name.
+/// Whether the file extension is that of an include file.
 pub fn is_include(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inc"))
 }
 
-/// As [`read_main`], but fails for a file that has nothing in it, which no scene is.
+/// Like [`read_main`], but fails for an empty file, which is not a scene.
 pub fn read_scene(path: &Path) -> Result<Vec<u8>, Failure> {
     let bytes = read_main(path)?;
     let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
@@ -45,7 +45,7 @@ pub fn read_scene(path: &Path) -> Result<Vec<u8>, Failure> {
     })
 }
 
-/// The main file, or the sentence that says why it cannot be had. It may be a pipe.
+/// Reads the main file, which may be a pipe; fails with the reason if it cannot.
 pub fn read_main(path: &Path) -> Result<Vec<u8>, Failure> {
     let wrong = |why: &str| Failure::file(format!("cannot read `{}`: {why}", name_of(path)));
     if is_stdin(path) {
@@ -66,7 +66,7 @@ pub fn read_main(path: &Path) -> Result<Vec<u8>, Failure> {
     whole(file, wrong)
 }
 
-/// All of a scene, if it can be one.
+/// Reads a text that can be a scene.
 fn whole(from: impl Read, wrong: impl Fn(&str) -> Failure) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     from.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|error| wrong(&reason(&error)))?;
@@ -82,7 +82,8 @@ fn whole(from: impl Read, wrong: impl Fn(&str) -> Failure) -> Result<Vec<u8>, Fa
     Ok(bytes)
 }
 
-/// Whether this is a picture, a program or the like: no text has several zero bytes near its start.
+/// Whether this is a picture, a program or other binary data: text does not have several zero bytes near
+/// its start.
 fn is_binary(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(4096)];
     start.iter().filter(|byte| **byte == 0).count() > 2
@@ -90,8 +91,8 @@ fn is_binary(bytes: &[u8]) -> bool {
 
 pub const UTF_16: &str = "it is UTF-16";
 
-/// A byte order mark says so; without one, every other byte of such a text is zero, nearly. A picture begins
-/// with letters for its kind, whatever its samples are.
+/// Whether the text is UTF-16: it has a byte order mark, or almost every other byte is zero. A picture
+/// starts with letters that identify its format, whatever its samples are.
 pub fn is_utf_16(bytes: &[u8]) -> bool {
     let pairs = bytes[..bytes.len().min(4096)].as_chunks::<2>().0;
     let zeros = |at: usize| pairs.iter().filter(|pair| pair[at] == 0).count();
@@ -101,7 +102,7 @@ pub fn is_utf_16(bytes: &[u8]) -> bool {
         || pairs.len() > 8 && [0, 1].into_iter().any(|at| pairs[0][at] == 0 && is_half_empty(at))
 }
 
-/// A name like this one in the same folder, or this one with the extension of a scene.
+/// Returns a similar name in the same folder, or this name with the extension of a scene.
 fn near(path: &Path) -> Option<String> {
     if let Some(scene) = as_scene(path) {
         return Some(scene.display().to_string());
@@ -116,7 +117,7 @@ fn near(path: &Path) -> Option<String> {
     Some(folder.join(near).display().to_string())
 }
 
-/// The scene of this name without its extension, if there is one.
+/// Returns the scene with this name plus an extension, if it exists.
 pub fn as_scene(path: &Path) -> Option<PathBuf> {
     let with = |extension: &str| PathBuf::from(format!("{}.{extension}", path.display()));
     ["scene", "pov"].map(with).into_iter().find(|path| path.is_file())

@@ -1,4 +1,6 @@
-//! The values that flags may have: text in, a value or a sentence on what was expected out.
+//! Parses the values of flags.
+//!
+//! **In:** the text of one value. **Out:** the value, or a sentence that says what was expected.
 
 use std::time::SystemTime;
 
@@ -21,7 +23,7 @@ pub enum Limit {
     Pixels,
 }
 
-/// Which warnings a flag is about.
+/// Selection of warnings for `--allow`, `--warn` and `--deny`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Warnings {
     All,
@@ -69,7 +71,7 @@ pub fn region(text: &str) -> Result<Region, String> {
 }
 
 pub fn antialias(text: &str) -> Result<Antialias, String> {
-    // As tables write it: `3×3`.
+    // Also accepts the notation of tables: `3×3`.
     let side = text.split_once(['x', '×']).filter(|(a, b)| a == b).map_or(text, |(side, _)| side);
     match (text, side.parse::<u32>()) {
         ("off", _) | (_, Ok(1)) => Ok(Antialias::Off),
@@ -81,7 +83,7 @@ pub fn antialias(text: &str) -> Result<Antialias, String> {
     }
 }
 
-/// `adaptive:THRESHOLD:N`.
+/// Parses `adaptive:THRESHOLD:N`.
 fn adaptive(text: &str) -> Option<Antialias> {
     let (threshold, grid) = text.strip_prefix("adaptive:")?.split_once(':')?;
     let threshold = threshold.parse().ok().filter(|t: &f64| (0.0..=1.0).contains(t))?;
@@ -89,7 +91,7 @@ fn adaptive(text: &str) -> Option<Antialias> {
     Some(Antialias::Adaptive { threshold, grid })
 }
 
-/// A number, or two with a slash between them: `1/255`.
+/// Parses a number, or a fraction such as `1/255`.
 fn fraction(text: &str) -> Option<f64> {
     let number = |text: &str| text.trim().parse::<f64>().ok();
     match text.split_once('/') {
@@ -98,13 +100,13 @@ fn fraction(text: &str) -> Option<f64> {
     }
 }
 
-/// `0.004` or `1/255`.
+/// Parses a ray weight from 0 to 1, such as `0.004` or `1/255`.
 pub fn weight(text: &str) -> Result<f64, String> {
     let weight = fraction(text).filter(|weight| (0.0..=1.0).contains(weight));
     weight.ok_or_else(|| "expected a number from 0 to 1, such as 0.01 or 1/255".to_owned())
 }
 
-/// How many surfaces deep.
+/// Parses a recursion depth or an iteration count, at least 1.
 pub fn depth(text: &str) -> Result<u32, String> {
     let depth = text.parse().ok().filter(|&depth| depth > 0);
     depth.ok_or_else(|| format!("expected a whole number from 1 to {}", u32::MAX))
@@ -125,7 +127,7 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
     tolerance.ok_or_else(|| "expected a number from 0 to 0.1, such as 1e-6".to_owned())
 }
 
-/// `0.01`, `1%` or `2/255`.
+/// Parses an error bound above 0 and at most 1: `0.01`, `1%` or `2/255`.
 pub fn error(text: &str) -> Result<f64, String> {
     let error = match text.trim().strip_suffix('%') {
         Some(percent) => percent.trim().parse().ok().map(|percent: f64| percent / 100.0),
@@ -137,7 +139,7 @@ pub fn error(text: &str) -> Result<f64, String> {
     })
 }
 
-/// `90`, `90s`, `1.5m`, `2h` or `500ms`.
+/// Parses a duration and returns it in seconds: `90`, `90s`, `1.5m`, `2h` or `500ms`.
 pub fn seconds(text: &str) -> Result<f64, String> {
     let units = [("ms", 0.001), ("s", 1.0), ("m", 60.0), ("h", 3600.0)];
     let (number, unit) = units
@@ -152,7 +154,7 @@ pub fn seconds(text: &str) -> Result<f64, String> {
 }
 
 pub fn knob(text: &str) -> Result<&'static str, String> {
-    // The scene's own `adc_bailout` is `adc-bailout` here.
+    // `adc_bailout`, as spelled in scenes, is `adc-bailout` here.
     let asked = text.trim().replace('_', "-");
     let mut names = KNOBS.iter().map(|knob| knob.name);
     names.find(|&name| name == asked).ok_or_else(|| {
@@ -169,7 +171,7 @@ pub fn declare(text: &str) -> Result<(String, f64), String> {
     if !name.starts_with(letter) || !name.chars().all(|c| letter(c) || c.is_ascii_digit()) {
         return Err(format!("`{name}` is not a name: letters, digits and `_`, no digit first"));
     }
-    // `#declare` takes these no more; only `clock` is set from outside.
+    // `#declare` rejects these, too; only `clock` can be set from outside.
     if name != "clock" && Word::from_name(name).is_some() {
         return Err(format!("`{name}` is a word of the language, and cannot be declared"));
     }
@@ -193,15 +195,15 @@ pub fn limit(text: &str) -> Result<(Limit, u64), String> {
     Ok((limit, number))
 }
 
-/// What is called an error.
+/// Error metric, as named on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum MetricArgument {
-    /// Root of the mean square, over pixels and components
+    /// Root mean square over pixels and color channels
     #[default]
     Rmse,
-    /// What one pixel of a hundred exceeds
+    /// 99th percentile: exceeded by one pixel in a hundred
     P99,
-    /// The share of pixels off by more than 2/255
+    /// Fraction of pixels with an error above 2/255
     Bad,
 }
 
@@ -215,7 +217,7 @@ impl From<MetricArgument> for Metric {
     }
 }
 
-/// Days since the beginning of the year 2000.
+/// Returns the current time in days since the start of the year 2000.
 pub fn now() -> f64 {
     const SECONDS_TO_2000: f64 = 946_684_800.0;
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();

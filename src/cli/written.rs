@@ -1,8 +1,8 @@
-//! What a scene writes, held until the scene is known to be whole.
+//! Holds the files that a scene writes until the scene is known to be free of errors.
 //!
-//! **Invariant:** nothing outside of the current folder is written, whatever a name says and wherever a
-//! link leads, and no hidden file. A scene with errors writes nothing; of one without, each file is
-//! written whole.
+//! **Invariant:** no file outside the current folder is written, whatever path is given and wherever a link
+//! points, and no hidden file. A scene with errors writes nothing; otherwise, each file is written
+//! completely.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,16 +16,16 @@ use super::exit::{Failure, reason};
 use super::messages;
 use super::output::write_whole;
 
-/// The files that one scene has begun to write.
+/// Files that one scene has started to write.
 pub struct Written {
-    /// The current folder, in truth.
+    /// Canonical path of the current folder.
     root: PathBuf,
-    /// By their true paths.
+    /// Contents by canonical path.
     files: Mutex<BTreeMap<PathBuf, Vec<u8>>>,
 }
 
 impl Written {
-    /// Below the current folder. (Where that is gone, writing fails.)
+    /// Allows writing below the current folder. If that folder does not exist any more, writing fails.
     pub fn here() -> Self {
         Self::below(fs::canonicalize(".").unwrap_or(PathBuf::from(".")))
     }
@@ -39,12 +39,12 @@ impl Written {
         truth.starts_with(&self.root)
     }
 
-    /// What the file holds now, if the scene writes it.
+    /// Returns the current contents of the file, if the scene writes it.
     pub fn bytes(&self, truth: &Path) -> Option<Vec<u8>> {
         self.files.lock().ok()?.get(truth).cloned()
     }
 
-    /// Starts a file and gives its true path.
+    /// Starts a file and returns its canonical path.
     pub fn start(&self, name: &str, append: bool) -> Result<PathBuf, WriteError> {
         let truth = self.place(name)?;
         let impossible = |error| WriteError::Impossible(reason(&error));
@@ -70,7 +70,7 @@ impl Written {
         }
     }
 
-    /// Where a file of this name is written.
+    /// Returns the canonical path at which a file with this name is written.
     fn place(&self, name: &str) -> Result<PathBuf, WriteError> {
         let impossible = |why: &str| Err(WriteError::Impossible(why.to_owned()));
         let mut place = self.root.clone();
@@ -112,12 +112,12 @@ impl Written {
         }
     }
 
-    /// Writes all of them, if the scene has no errors, and says so.
+    /// Writes and reports all files if `whole`, that is, if the scene has no errors.
     pub fn settle(&self, whole: bool) -> Result<(), Failure> {
         self.each(whole, "by the scene", write_whole)
     }
 
-    /// Says what would be written if the scene were rendered.
+    /// Reports what would be written if the scene were rendered.
     pub fn announce(&self, whole: bool) -> Result<(), Failure> {
         self.each(whole, "not written: only rendering writes", |_, _| Ok(()))
     }

@@ -1,11 +1,12 @@
-//! The comment that silences a lint: `// lucarne: allow(unused-declaration)`.
+//! Parses the comment that silences a lint: `// lucarne: allow(unused-declaration)`.
 //!
-//! Behind code it speaks for its line; on a line of its own for the item that follows, to the end of the
-//! line on which its brackets are closed. A message about the whole scene is silenced wherever the main
-//! file allows it by name. `allow(all)` allows every lint of its place, and none of the whole scene.
+//! After code, the comment applies to its line. On a line of its own, it applies to the next item, up to
+//! the end of the line that closes the item's brackets. A message about the scene as a unit is silenced by
+//! a comment anywhere in the main file that allows it by name. `allow(all)` allows every lint in its range,
+//! but no message about the scene as a unit.
 //!
-//! **Invariant:** an error is never silenced; a name that is no lint is told, and so is a comment that
-//! means to say something and is not written so.
+//! **Invariant:** errors are never silenced. Names that are not lints are reported, and so are malformed
+//! comments that are apparently meant to silence a lint.
 
 use std::ops::Range;
 
@@ -13,7 +14,7 @@ use super::suggest::closest;
 use super::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span};
 
-/// A stretch of text in which a lint is not told.
+/// A range of text in which a lint is not reported.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Allowance {
     file: FileId,
@@ -27,10 +28,10 @@ enum Lints {
     All,
 }
 
-/// Whom a comment that silences speaks to.
+/// Prefix of a comment that silences lints.
 const ADDRESS: &str = "lucarne";
 
-/// The name of all lints.
+/// Name that stands for all lints.
 const ALL: &str = "all";
 
 impl Lints {
@@ -53,7 +54,7 @@ impl Allowance {
         }
     }
 
-    /// Whether this lint is not told of this place.
+    /// Whether this allowance silences `lint` at `place`.
     pub fn reaches(&self, lint: Code, place: Span) -> bool {
         let is_meant = match self.lints {
             Lints::One(one) => one == lint,
@@ -63,7 +64,7 @@ impl Allowance {
     }
 }
 
-/// What the comments of a text allow, and messages about names that are no lints.
+/// Returns the allowances in a text, and messages about names that are not lints.
 pub fn allowances(source: &Source, file: FileId) -> (Vec<Allowance>, Vec<Diagnostic>) {
     let (mut allowed, mut told) = (Vec::new(), Vec::new());
     let text = &source.text;
@@ -105,7 +106,7 @@ pub fn allowances(source: &Source, file: FileId) -> (Vec<Allowance>, Vec<Diagnos
     (allowed, told)
 }
 
-/// `// Lucarne: allow(no-light)`, `// lucarne allow(no-light)`: a comment that is not addressed as it has to be.
+/// Reports comments with a malformed prefix: `// Lucarne: allow(no-light)`, `// lucarne allow(no-light)`.
 fn unaddressed(text: &str, file: FileId) -> impl Iterator<Item = Diagnostic> {
     text.match_indices("allow").filter_map(move |(at, _)| {
         let line = text[..at].rfind('\n').map_or(0, |end| end + 1);
@@ -134,8 +135,8 @@ fn unaddressed(text: &str, file: FileId) -> impl Iterator<Item = Diagnostic> {
     })
 }
 
-/// `deny(no-light)`, `allow no-light`: what stands behind `lucarne:`, unless it is a sentence of the
-/// author's own.
+/// Reports malformed text after `lucarne:`, such as `deny(no-light)` or `allow no-light`, unless it is
+/// prose.
 fn unclear(text: &str, file: FileId, at: usize) -> Option<Diagnostic> {
     let is_name = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     let verb = &text[..text.find(|c| !is_name(c)).unwrap_or(text.len())];
@@ -172,13 +173,13 @@ fn unclear(text: &str, file: FileId, at: usize) -> Option<Diagnostic> {
     )
 }
 
-/// Whether a word is the code of a message, or was meant as one.
+/// Whether a word is the code of a message, or was meant to be one.
 fn is_like_a_code(name: &str) -> bool {
     let codes = || Code::ALL.iter().map(|code| code.name());
     codes().any(|code| code == name) || (name.contains('-') && closest(name, codes()).is_some())
 }
 
-/// Whether `all` is the one name of a list, and no word of a sentence.
+/// Whether `all` is the only name in a list, rather than a word of a sentence.
 fn is_all(name: &str, list: &str) -> bool {
     name == ALL && list.trim_end().trim_end_matches("*/").trim_end().trim_end_matches(')') == ALL
 }
@@ -209,7 +210,7 @@ fn unknown(name: &str, span: Span) -> Diagnostic {
     }
 }
 
-/// Where the item after `from` ends: on the line that closes all of its brackets.
+/// Returns the end of the item after `from`: the end of the line that closes all of its brackets.
 fn end_of_item(text: &str, from: usize) -> usize {
     let (mut depth, mut last) = (0_i64, None);
     let mut rest = text[from..].char_indices().peekable();

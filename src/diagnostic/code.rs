@@ -1,17 +1,17 @@
-//! The closed list of diagnostic codes; each has a page in `docs/diagnostics/`.
+//! Defines the closed list of diagnostic codes; each has a page in `docs/diagnostics/`.
 
 use super::Severity;
 
 macro_rules! codes {
     ($($variant:ident $name:literal $severity:ident $sentence:literal;)*) => {
-        /// What kind of message it is. `lucarne explain CODE` shows its page.
+        /// Diagnostic code. `lucarne explain CODE` prints its page.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Code { $(#[doc = $sentence] $variant,)* }
 
         impl Code {
             pub const ALL: &[Code] = &[$(Code::$variant),*];
 
-            /// The word an author sees: `unknown-word`.
+            /// Returns the name shown to the user: `unknown-word`.
             pub fn name(self) -> &'static str {
                 match self { $(Code::$variant => $name),* }
             }
@@ -20,44 +20,44 @@ macro_rules! codes {
                 match self { $(Code::$variant => codes!(@severity $severity)),* }
             }
 
-            /// True for a message about something a right scene might contain.
+            /// Whether this is a lint: a message about something that a correct scene might contain.
             pub fn is_lint(self) -> bool {
                 match self { $(Code::$variant => codes!(@lint $severity)),* }
             }
 
-            /// True for a lint that is told of a `.pov`, too: of what no finished scene has.
+            /// Whether this lint is also reported for `.pov` files, because no finished scene triggers it.
             pub fn is_sure(self) -> bool {
                 match self { $(Code::$variant => codes!(@sure $severity)),* }
             }
 
-            /// True for a lint that is told only where it is asked for by name, or with all others: here
-            /// nothing is wrong.
+            /// Whether this lint is reported only if requested by name or with all others, because it does
+            /// not indicate a problem.
             pub fn is_quiet(self) -> bool {
                 match self { $(Code::$variant => codes!(@quiet $severity)),* }
             }
 
-            /// True for a message that is no error, unless the caller makes it one.
+            /// Whether this message is a warning by default.
             pub fn warns(self) -> bool {
                 self.severity() == Severity::Warning
             }
 
-            /// True for an error that is a warning in a `.pov`, where POV-Ray 3.7 renders the scene all the
-            /// same.
+            /// Whether this error is only a warning in `.pov` files, because POV-Ray 3.7 renders the scene
+            /// anyway.
             pub fn is_opinion(self) -> bool {
                 match self { $(Code::$variant => codes!(@opinion $severity)),* }
             }
 
-            /// True for a message that is, or may be, a warning: it has a level and can be silenced.
+            /// Whether this message is or may be a warning, and therefore has a level and can be silenced.
             pub fn may_warn(self) -> bool {
                 self.warns() || self.is_opinion()
             }
 
-            /// One sentence: what it means.
+            /// Returns a one-sentence summary.
             pub fn sentence(self) -> &'static str {
                 match self { $(Code::$variant => $sentence),* }
             }
 
-            /// Its page, in Markdown: what it means, an example, and how to mend it.
+            /// Returns the page in Markdown: what the message means, an example, and how to fix it.
             pub fn page(self) -> &'static str {
                 match self {
                     $(Code::$variant => {
@@ -204,7 +204,7 @@ codes! {
 }
 
 impl Code {
-    /// After such a fault of form, what follows stands in other blocks than its author meant.
+    /// Whether this syntax error makes the parser assign the text after it to the wrong blocks.
     pub fn shifts_what_follows(self) -> bool {
         matches!(
             self,
@@ -217,7 +217,7 @@ impl Code {
         )
     }
 
-    /// It says that a calculation with these values has no result.
+    /// Whether the message says that a calculation with the given values has no result.
     pub fn is_about_calculation(self) -> bool {
         matches!(
             self,
@@ -225,7 +225,7 @@ impl Code {
         )
     }
 
-    /// It says that something stands where it should not, or does not where it should.
+    /// Whether the message says that something is misplaced or missing.
     pub fn is_about_place(self) -> bool {
         matches!(
             self,

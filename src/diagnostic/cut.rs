@@ -1,7 +1,8 @@
-//! What of a line is shown where it does not fit: the parts of it around its labels, or its end.
+//! Truncates lines that are too long to show: to the parts around their labels, or to their end.
 //!
-//! **In:** a line, the places in it, the columns there are for it. **Out:** its parts. **Invariant:** with an `…`
-//! for each piece left out they take no more columns, as a terminal counts them, and no more work.
+//! **In:** a line, the labelled ranges in it, the available columns. **Out:** the parts to show.
+//! **Invariant:** with an `…` for each omitted part, the result does not exceed the available columns, as
+//! counted by terminals; the work is bounded likewise.
 
 use std::ops::Range;
 
@@ -9,19 +10,19 @@ use unicode_width::UnicodeWidthChar;
 
 use super::excerpt::push_visible;
 
-/// The columns from one stop of a tab to the next.
+/// Columns between tab stops.
 pub const TAB: usize = 4;
-/// Columns kept beside a label in a line that is cut, before and after; several share as many.
+/// Columns kept before and after a label in a truncated line; several labels share this many.
 const AROUND: usize = 8;
-/// Characters looked at for each column: most of what combines with others takes none.
+/// Characters examined per column: most combining characters take no column.
 const DENSEST: usize = 4;
 
-/// The columns that a text takes.
+/// Returns the width of a text in columns.
 pub fn columns(text: &str) -> usize {
     text.chars().map(width).sum()
 }
 
-/// The columns of a character as it is drawn; of a tab, the most.
+/// Returns the width of a character as drawn; for a tab, the maximum.
 fn width(c: char) -> usize {
     match c {
         '\t' => TAB,
@@ -34,7 +35,7 @@ fn width(c: char) -> usize {
     }
 }
 
-/// The byte up to which a text fits into so many columns, from byte `at` on.
+/// Returns the byte up to which the text from byte `at` fits into `room` columns.
 pub fn forward(text: &str, at: usize, room: usize) -> usize {
     let (mut used, mut count) = (0, 0);
     let beyond = text[at..].char_indices().find(|(_, c)| {
@@ -45,7 +46,8 @@ pub fn forward(text: &str, at: usize, room: usize) -> usize {
     beyond.map_or(text.len(), |(i, _)| at + i)
 }
 
-/// The byte from which on a text fits into so many columns, up to byte `at`: no mark loses its letter.
+/// Returns the byte from which the text up to byte `at` fits into `room` columns, without separating a
+/// combining mark from its letter.
 fn back(text: &str, at: usize, room: usize) -> usize {
     let (mut used, mut count) = (0, 0);
     let fits = text[..at].char_indices().rev().take_while(|(_, c)| {
@@ -56,7 +58,7 @@ fn back(text: &str, at: usize, room: usize) -> usize {
     fits.filter(|(_, c)| width(*c) > 0).last().map_or(at, |(i, _)| i)
 }
 
-/// A file's name in so many columns: what is most its own is its end.
+/// Truncates a file name to `room` columns, keeping its end, which identifies it best.
 pub fn ending(name: String, room: usize) -> String {
     match forward(&name, 0, room) == name.len() {
         true => name,
@@ -64,8 +66,8 @@ pub fn ending(name: String, room: usize) -> String {
     }
 }
 
-/// The parts of a line to show: all of it where there is room, else what surrounds the places, which stand in rising
-/// order.
+/// Returns the parts of a line to show: all of it if it fits, otherwise what surrounds `places`, which must
+/// be in ascending order.
 pub fn parts(line: &str, places: &[Range<usize>], room: usize) -> Vec<Range<usize>> {
     if forward(line, 0, room) == line.len() {
         return std::iter::once(0..line.len()).collect();
@@ -80,25 +82,25 @@ pub fn parts(line: &str, places: &[Range<usize>], room: usize) -> Vec<Range<usiz
     let taken = |places: &[Range<usize>]| -> usize {
         places.iter().map(|place| columns(&line[place.clone()]) + 2).sum()
     };
-    // Long labels are cut at their end; where several are, each has its share.
+    // Truncates long labels at their end; several labels share the room.
     let mut places = clipped(room.saturating_sub(2 * AROUND + 2));
     if taken(&places) + AROUND > room {
         places = clipped((room / count).saturating_sub(AROUND / count + 2));
     }
-    // What room the labels leave is shared by what stands beside them.
+    // The remaining room is shared by the text next to the labels.
     let around = room.saturating_sub(taken(&places)) / (2 * count);
     let mut parts: Vec<Range<usize>> = Vec::new();
     for place in places {
         let part = back(line, place.start, around)..forward(line, place.end, around);
         match parts.last_mut() {
-            // An `…` for one column would gain none.
+            // Replacing a single column by `…` would gain nothing.
             Some(last) if forward(line, last.end, 1) >= part.start => {
                 last.end = last.end.max(part.end)
             }
             _ => parts.push(part),
         }
     }
-    // Of more labels than there is room for the first are shown.
+    // If there is not enough room for all labels, shows the first ones.
     let mut left = room.saturating_sub(1);
     parts.retain_mut(|part| {
         let any = left > 1;
@@ -113,8 +115,8 @@ pub fn parts(line: &str, places: &[Range<usize>], room: usize) -> Vec<Range<usiz
     let shown = |parts: &[Range<usize>]| -> usize {
         parts.iter().map(|part| columns(&line[part.clone()]) + 1).sum::<usize>() + 1
     };
-    // What is left, at a line's ends or where labels stand close to each other, goes to the last, to the first, and
-    // into the gaps.
+    // Unused room, at line ends or between close labels, goes to the last part, then the first, then the
+    // gaps.
     let spare = |parts: &[Range<usize>]| room.saturating_sub(shown(parts));
     let left = spare(&parts);
     if let Some(last) = parts.last_mut() {

@@ -1,45 +1,47 @@
-//! The few lines a message shows, made safe to print.
+//! Extracts the source lines that a message shows, and makes them safe to print.
 //!
-//! **In:** places in any number of files. **Out:** the lines around them, one text a run of
-//! neighbouring lines, all runs in one space of offsets, the first place's run first. **Invariant:** only those lines are
-//! copied; no line is wider than its window; no control or direction-changing character is left.
+//! **In:** spans in any number of files. **Out:** the lines around them, as one text per run of adjacent
+//! lines. All runs share one space of offsets, and the run of the first span comes first. **Invariant:**
+//! only those lines are copied; no line is wider than its window; no control or bidirectional formatting
+//! character remains.
 
 use super::cut::{TAB, columns, parts};
 use crate::source::{FileId, Position, Sources, Span};
 
-/// A label over more lines than this is cut to its first line.
+/// Labels that span more lines than this are cut to their first line.
 const LONGEST_LABEL: usize = 8;
-/// Columns beside the number of a line, and the one behind its end that a caret may need.
+/// Columns next to the line number, plus the one after the line that a caret may need.
 const BESIDE: usize = 5;
-/// Columns beside the bars of labels over several lines.
+/// Columns next to the bars of multi-line labels.
 const BESIDE_BARS: usize = 3;
 
-/// Some neighbouring lines of one file.
+/// Adjacent lines of one file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     pub file: FileId,
-    /// Counted from 1.
+    /// Number of the first line, from 1.
     pub first_line: usize,
-    /// Where this run starts in the space of offsets.
+    /// Offset of this run in the shared space of offsets.
     pub base: usize,
-    /// Each line ends in a line feed.
+    /// Text of the lines, each terminated by a line feed.
     pub text: String,
-    /// For each character shown: its byte in the source, its byte in `text`.
+    /// For each character shown: its byte offset in the source and in `text`.
     places: Vec<(usize, usize)>,
 }
 
-/// The runs that hold all the places, and those places in their offsets.
+/// The runs that contain all spans, and the offsets of the spans.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Excerpt {
     pub runs: Vec<Run>,
-    /// For each span given: start and end offset, and the true position of its start.
+    /// For each given span: its start and end offset, and the source position of its start.
     pub marks: Vec<(usize, usize, Position)>,
-    /// The columns of the longest number of a line.
+    /// Number of digits of the largest line number.
     pub digits: usize,
 }
 
 impl Excerpt {
-    /// Lines around `spans`, each with one line before and after, for a window of `width` columns.
+    /// Extracts the lines around `spans`, with one line of context before and after each, for a window of
+    /// `width` columns.
     pub fn around(spans: &[Span], sources: &Sources, width: usize) -> Self {
         let spans: Vec<Span> = spans.iter().map(|&span| shortened(span, sources)).collect();
         let lines = |span: &Span| {
@@ -107,7 +109,8 @@ impl Excerpt {
         }
     }
 
-    /// The first run is read first: it becomes the one that holds `span`. Lays the runs out.
+    /// Moves the run that contains `span` to the front, because the first run is read first, and lays out
+    /// the runs.
     fn put_first(&mut self, span: Option<&Span>) {
         let first = span.and_then(|span| self.run(span.file, span.start as usize));
         if let Some(first) = first {
@@ -120,7 +123,7 @@ impl Excerpt {
         }
     }
 
-    /// The number of the last run of `file` that begins at or before its byte `at`.
+    /// Returns the index of the last run of `file` that starts at or before byte `at`.
     fn run(&self, file: FileId, at: usize) -> Option<usize> {
         let begin = |i: &usize| {
             let run = &self.runs[*i];
@@ -129,7 +132,7 @@ impl Excerpt {
         (0..self.runs.len()).filter(|i| begin(i).is_some()).max_by_key(begin)
     }
 
-    /// Where byte `at` of `file` is shown: exactly, or at the cut before it.
+    /// Returns the offset at which byte `at` of `file` is shown, or that of the cut before it.
     fn offset(&self, file: FileId, at: usize) -> usize {
         let Some(run) = self.run(file, at).map(|i| &self.runs[i]) else { return 0 };
         let after = run.places.partition_point(|place| place.0 <= at);
@@ -179,7 +182,7 @@ impl Run {
     }
 }
 
-/// A span over many lines, cut to its first line.
+/// Cuts a span over many lines to its first line.
 fn shortened(span: Span, sources: &Sources) -> Span {
     let source = sources.get(span.file);
     let first = source.position(span.start as usize).line;
@@ -190,8 +193,8 @@ fn shortened(span: Span, sources: &Sources) -> Span {
     Span::new(span.file, span.start as usize, end.max(span.start as usize))
 }
 
-/// Writes `c` so that it is seen and moves nothing: control characters as their pictures,
-/// invisible and direction-changing ones by number.
+/// Appends `c` in a visible form that does not move the cursor: control characters as control pictures,
+/// invisible and bidirectional formatting characters by number.
 pub fn push_visible(text: &mut String, c: char) {
     match c {
         '\t' => text.push('\t'),
@@ -212,12 +215,12 @@ pub fn push_visible(text: &mut String, c: char) {
     }
 }
 
-/// A sentence made safe to print: like [`push_visible`], but line breaks stay.
+/// Makes a sentence safe to print: like [`push_visible`], but keeps line breaks.
 pub fn visible(text: &str) -> String {
     visible_untrimmed(text.trim_end())
 }
 
-/// Like [`visible`], with the white space at the end.
+/// Like [`visible`], but keeps trailing white space.
 pub fn visible_untrimmed(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,8 +1,8 @@
-//! A message as one line of JSON.
+//! Formats a message as one line of JSON.
 //!
-//! **Invariant:** lines and columns count from 1, columns in characters, ends are exclusive; the
-//! line holds no line break whatever the message holds. What is about the scene as a whole is at the
-//! first place of its main file.
+//! **Invariant:** lines and columns count from 1, columns are in characters, ends are exclusive. The output
+//! is a single line whatever the message contains. A message about the scene as a unit is located at the
+//! start of the main file.
 
 use serde::Serialize;
 
@@ -61,7 +61,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// The word for a severity, in JSON and in short messages.
+/// Returns the name of a severity in JSON and in short messages.
 pub fn severity_name(severity: Severity) -> &'static str {
     match severity {
         Severity::Note => "note",
@@ -70,7 +70,7 @@ pub fn severity_name(severity: Severity) -> &'static str {
     }
 }
 
-/// One JSON object, without a line break at its end.
+/// Returns one JSON object without a trailing line break.
 pub fn line(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let label = |span, text, primary| Label { place: Place::of(span, sources), text, primary };
     let mut labels: Vec<Label> = diagnostic

@@ -1,4 +1,4 @@
-//! What becomes of each warning: dropped, told, or as bad as an error.
+//! Sets the level of each warning: dropped, reported, or treated as an error.
 //!
 //! **Invariant:** only codes that may warn have a level; an error cannot be allowed.
 
@@ -8,38 +8,38 @@ use super::{Code, Severity};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// Dropped.
+    /// Not reported.
     Allow,
-    /// Told; the picture is made all the same.
+    /// Reported as a warning; the picture is still rendered.
     Warn,
-    /// Told as an error; no picture is made.
+    /// Reported as an error; no picture is rendered.
     Deny,
 }
 
-/// The level of every code that warns.
+/// The level of every code that may warn.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Levels {
-    /// All lints are told but the quiet ones; otherwise only the sure ones are.
+    /// Whether all lints except the quiet ones are reported; otherwise, only the sure ones are.
     lints: bool,
-    /// The scene is whole: that it shows nothing is told in any case.
+    /// Whether the main file is a complete scene, for which an empty picture is always reported.
     whole: bool,
-    /// Of all that were not named; where it is not said, other warnings are told.
+    /// Level of all codes that are not named; by default, warnings other than lints are reported.
     all: Option<Level>,
     named: BTreeMap<Code, Level>,
 }
 
 impl Levels {
-    /// All lints told but the quiet ones; or only the sure ones.
+    /// With `lints`, reports all lints except the quiet ones; otherwise, only the sure ones.
     pub fn new(lints: bool) -> Self {
         Self { lints, ..Self::default() }
     }
 
-    /// The main file is a whole scene, and no part of one.
+    /// Marks the main file as a complete scene rather than an include file.
     pub fn of_whole_scene(&mut self) {
         self.whole = true;
     }
 
-    /// Sets every code that is not named.
+    /// Sets the level of every code that is not named.
     pub fn set_all(&mut self, level: Level) {
         self.all = Some(level);
     }
@@ -48,12 +48,12 @@ impl Levels {
         self.named.insert(code, level);
     }
 
-    /// Sets a code that is not named.
+    /// Sets the level of a code unless it is already named.
     pub fn set_unnamed(&mut self, code: Code, level: Level) {
         self.named.entry(code).or_insert(level);
     }
 
-    /// Of a code that may warn; of an error and of a note, none.
+    /// Returns the level of a code that may warn; `None` for errors and notes.
     pub fn of(&self, code: Code) -> Option<Level> {
         let of_whole = matches!(code, Code::NoLight | Code::EmptyScene);
         let is_told = !code.is_lint()
@@ -66,7 +66,7 @@ impl Levels {
 }
 
 impl Level {
-    /// As what a lint of this level is told.
+    /// Returns the severity at which a lint of this level is reported, if any.
     pub fn severity(self) -> Option<Severity> {
         match self {
             Self::Allow => None,

@@ -1,22 +1,22 @@
-//! Applies the fixes that messages offer, as far as they make a text better.
+//! Applies the fixes suggested by messages, if they improve the text.
 //!
-//! **In:** a text, and what says its messages. **Out:** the text mended, and how many messages it took.
-//! **Invariant:** no fix is kept that leaves as many errors as there were: one mistake is not turned
-//! into another. What a closer or a misspelt word hid may come out, behind it. Doing it again changes
-//! nothing, unless a limit of rounds was met.
+//! **In:** a text, and a function that returns its messages. **Out:** the fixed text, and how many messages
+//! that resolved. **Invariant:** a fix is kept only if it reduces the number of errors, so that one mistake
+//! is not replaced by another; errors that a closing bracket or a misspelt word had hidden may appear after
+//! it. Applying the function again changes nothing, unless the limit of rounds was reached.
 
 use std::collections::BTreeMap;
 
 use super::{Code, Diagnostic, Fix, Severity};
 use crate::source::FileId;
 
-/// One fix may bring out another; more rounds than this are not made.
+/// Maximum number of rounds; one fix may reveal another.
 const MOST_ROUNDS: usize = 8;
 
-/// How many single fixes are tried in a round whose fixes do not all fit together.
+/// Maximum number of single fixes tried in a round whose fixes do not all work together.
 const MOST_TRIALS: usize = 200;
 
-/// Mends `text`, the main file, by the messages that `messages` gives for it.
+/// Fixes `text`, the main file, as suggested by the messages that `messages` returns for it.
 pub fn mend(
     text: &str,
     mut messages: impl FnMut(&str) -> Vec<Diagnostic>,
@@ -30,7 +30,7 @@ pub fn mend(
             break;
         }
         let after = messages(&all.0);
-        // All of them together, if each took its own message away.
+        // Applies all fixes together if each resolves its own message.
         let (count, of_errors) = (all.1.len(), errors(all.1.iter().copied()));
         let enough = match of_errors {
             0 => weight(&after) + count <= weight(&found),
@@ -61,13 +61,14 @@ pub fn mend(
     (mended > 0).then_some((text, mended))
 }
 
-/// Whether a fix was worth it: fewer errors, or as many and fewer messages.
+/// Whether a fix helped: fewer errors, as many errors and fewer messages, or errors revealed that the fixed
+/// mistake had hidden.
 fn is_better(before: &[Diagnostic], after: &[Diagnostic], fixed: &Diagnostic) -> bool {
     let (old, new) = (errors(before), errors(after));
-    // What a missing closer hid comes to light: that is no new mistake.
+    // Errors that a missing closing bracket had hidden are not new mistakes.
     let uncovers = fixed.code.shifts_what_follows()
         && !after.iter().any(|other| other.code == fixed.code && other.message == fixed.message);
-    // So does a misspelt word what its block hid, if all that is new stands behind it.
+    // Neither are those that a misspelt word had hidden, if all new messages are after it.
     let end = fixed.fixes.iter().map(|fix| fix.span.end).max();
     let behind = |other: &Diagnostic| {
         before.iter().any(|old| old.message == other.message)
@@ -84,13 +85,13 @@ fn errors<'a>(list: impl IntoIterator<Item = &'a Diagnostic>) -> usize {
     list.into_iter().filter(|one| one.severity == Severity::Error).count()
 }
 
-/// Errors and warnings.
+/// Returns the number of errors and warnings.
 fn weight(list: &[Diagnostic]) -> usize {
     list.iter().filter(|one| one.severity != Severity::Note).count()
 }
 
-/// The text with all fixes that do not overlap an earlier one, and the messages that they are of. The
-/// fixes of one message are applied together or not at all.
+/// Applies all fixes that do not overlap an earlier one; returns the text and the messages they belong to.
+/// The fixes of one message are applied together or not at all.
 pub fn apply<'a>(
     text: &str,
     diagnostics: impl Iterator<Item = &'a Diagnostic>,

@@ -1,7 +1,8 @@
-//! What we tell the author: a code, a sentence, the places it concerns, and what to do.
+//! Messages for the author of a scene: a code, a sentence, the source locations concerned, and a
+//! suggestion.
 //!
-//! **Invariant:** plain data; nothing here prints. Style: lower case, no full stop, the author's
-//! words in backticks, says what is wrong *and* what was expected.
+//! **Invariant:** plain data; nothing here prints. Style: lower case, no full stop, the author's words in
+//! backticks; each message says what is wrong *and* what was expected.
 
 mod allowance;
 mod code;
@@ -26,15 +27,15 @@ use crate::source::{Expansion, ExpansionKind, Expansions, Site, Span};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// The author's own `#debug`.
+    /// Output of the author's own `#debug`.
     Note,
-    /// Probably a mistake; the picture is made all the same.
+    /// Probably a mistake; the picture is rendered anyway.
     Warning,
-    /// Certainly a mistake; no picture is made.
+    /// Certainly a mistake; no picture is rendered.
     Error,
 }
 
-/// A place and what it has to do with the matter.
+/// A source location and its role in the message.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
     pub span: Span,
@@ -42,14 +43,14 @@ pub struct Label {
     pub primary: bool,
 }
 
-/// A replacement that can be applied by machine. An empty span inserts.
+/// A replacement that can be applied automatically. An empty span inserts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fix {
     pub span: Span,
     pub text: String,
 }
 
-/// One step of how evaluation came to the primary label.
+/// One step of the evaluation that led to the primary label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TraceStep {
     pub span: Span,
@@ -61,9 +62,9 @@ pub struct Diagnostic {
     pub code: Code,
     pub severity: Severity,
     pub message: String,
-    /// The first is primary where there is one; a whole-scene message has none.
+    /// The first one is primary, if any is; messages about the scene as a unit have none.
     pub labels: Vec<Label>,
-    /// Innermost first.
+    /// Innermost step first.
     pub trace: Vec<TraceStep>,
     pub help: Vec<String>,
     pub fixes: Vec<Fix>,
@@ -82,13 +83,13 @@ impl Diagnostic {
         }
     }
 
-    /// The place that is wrong, and why it is wrong here.
+    /// Adds the primary label: the location of the problem, and what is wrong there.
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.insert(0, Label { span, text: text.into(), primary: true });
         self
     }
 
-    /// Another place that has to do with it: a declaration, an opening brace.
+    /// Adds a secondary label: a related location, such as a declaration or an opening brace.
     pub fn also(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push(Label { span, text: text.into(), primary: false });
         self
@@ -104,7 +105,7 @@ impl Diagnostic {
         self
     }
 
-    /// Adds the calls and includes that led to `site`; a call that was made again and again stands once.
+    /// Adds the calls and includes that led to `site`; a repeated call is listed once.
     pub fn traced(mut self, site: Site, expansions: &Expansions) -> Self {
         let mut times: HashMap<Span, usize> = HashMap::new();
         self.trace.clear();
@@ -123,13 +124,14 @@ impl Diagnostic {
         self
     }
 
-    /// The same as a warning: an opinion on what POV-Ray 3.7 renders all the same.
+    /// Turns the error into a warning, for scenes that POV-Ray 3.7 renders anyway.
     pub fn as_warning(mut self) -> Self {
         self.severity = Severity::Warning;
         self
     }
 
-    /// Whether something is certainly wrong; a denied warning is an error only to who denied it.
+    /// Whether this is an error by itself. A warning that was denied counts as an error only for the caller
+    /// that denied it.
     pub fn is_error(&self) -> bool {
         self.code.severity() == Severity::Error && self.severity == Severity::Error
     }
@@ -138,7 +140,7 @@ impl Diagnostic {
         self.labels.iter().find(|label| label.primary)
     }
 
-    /// What two messages share that may be one.
+    /// Returns what two messages must have in common to be duplicates.
     fn place(&self) -> (Code, Option<Span>) {
         (self.code, self.primary().map(|label| label.span))
     }
@@ -154,35 +156,35 @@ impl TraceStep {
     }
 }
 
-/// How many messages of one code are kept at one place: what loops say there differs in its numbers only.
+/// Maximum number of messages of one code at one location: in loops, they differ only in their numbers.
 const MOST_AT_A_PLACE: usize = 16;
-/// How many of what the author's own `#warning` has said at its place a new one is compared with.
+/// Maximum number of `#warning` messages at its location that a new one is compared with.
 const MOST_COMPARED: usize = 256;
 
-/// The sink every verb reports to. The same message at the same place is kept once.
+/// Collects the messages of all compilation stages. The same message at the same location is kept once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
-    /// Where in the list the messages of a code at a place are, in rising order; notes are not there.
+    /// Ascending indices into `list` by code and location; without notes.
     kept: HashMap<(Code, Option<Span>), Vec<usize>>,
-    /// How often a message at a place was one that is kept but for its numbers.
+    /// Number of messages per code and location that differ from a kept one only in their numbers.
     turned: HashMap<(Code, Option<Span>), usize>,
     levels: Levels,
     allowances: Vec<Allowance>,
 }
 
 impl Diagnostics {
-    /// A sink that keeps all lints, or drops them.
+    /// Keeps or drops all lints.
     pub fn new(lints: bool) -> Self {
         Self::with_levels(Levels::new(lints))
     }
 
-    /// A sink that drops lints, keeps them or makes errors of them, each as it is said.
+    /// Drops lints, keeps them or turns them into errors, according to `levels`.
     pub fn with_levels(levels: Levels) -> Self {
         Self { levels, ..Self::default() }
     }
 
-    /// The main file is a whole scene: that it shows nothing is told in any case.
+    /// Marks the main file as a complete scene, for which an empty picture is always reported.
     pub fn of_whole_scene(&mut self) {
         self.levels.of_whole_scene();
     }
@@ -198,7 +200,8 @@ impl Diagnostics {
         }
     }
 
-    /// Adds a place to the first message that `is_meant` says yes to; `false` where there is none.
+    /// Adds a secondary label to the first message that matches `is_meant`. Returns `false` if there is
+    /// none.
     pub fn join(
         &mut self,
         is_meant: impl Fn(&Diagnostic) -> bool,
@@ -210,7 +213,7 @@ impl Diagnostics {
         true
     }
 
-    /// The level of a message that is a warning.
+    /// Returns the level of a message that is a warning.
     fn level(&self, diagnostic: &Diagnostic) -> Option<Level> {
         match diagnostic.is_error() {
             true => None,
@@ -218,13 +221,13 @@ impl Diagnostics {
         }
     }
 
-    /// Whether a lint is told at all.
+    /// Whether a lint is reported at all.
     pub fn tells(&self, lint: Code) -> bool {
         self.levels.of(lint) != Some(Level::Allow)
     }
 
-    /// Whether a message would be kept. Loop turns and repeated calls say the same thing again, and once is
-    /// enough: what is said again need not be worked out.
+    /// Whether a message would be kept. Loop iterations and repeated calls produce the same message again,
+    /// and it need not be computed in full for that.
     pub fn takes(&self, diagnostic: &Diagnostic) -> bool {
         if self.level(diagnostic) == Some(Level::Allow) {
             return false;
@@ -240,8 +243,8 @@ impl Diagnostics {
         !latest.any(|&at| self.list[at].message == message)
     }
 
-    /// Whether a message is one that is kept but for its numbers: another turn of a loop, or another call from
-    /// the same place, says nothing new. Of its author's own each counts.
+    /// Whether a message differs from a kept one only in its numbers, as in another iteration of a loop or
+    /// another call from the same location. The author's own messages each count.
     pub fn turns_of(&mut self, diagnostic: &Diagnostic) -> bool {
         let place = diagnostic.place();
         let words = |one: &Diagnostic| -> String {
@@ -270,7 +273,7 @@ impl Diagnostics {
         self.list.push(diagnostic);
     }
 
-    /// Takes the messages after the first `len` out.
+    /// Removes and returns the messages after the first `len`.
     fn cut(&mut self, len: usize) -> Vec<Diagnostic> {
         let later = self.list.split_off(len.min(self.list.len()));
         for one in &later {
@@ -284,30 +287,30 @@ impl Diagnostics {
         later
     }
 
-    /// Takes back what was said after the first `len` messages: it was about code that does not count.
+    /// Discards the messages after the first `len`, because they concern code that is not used.
     pub fn forget_after(&mut self, len: usize) {
         self.cut(len);
     }
 
-    /// Keeps, of the messages after the first `len`, those that `keep` says yes to.
+    /// Keeps only those messages after the first `len` for which `keep` returns true.
     pub fn retain_after(&mut self, len: usize, keep: impl Fn(&Diagnostic) -> bool) {
         for one in self.cut(len).into_iter().filter(keep) {
             self.keep(one);
         }
     }
 
-    /// Lints that a comment allows: those that are told already stay.
+    /// Registers allowances from comments. Lints already reported are kept.
     pub fn allow(&mut self, allowances: Vec<Allowance>) {
         self.allowances.extend(allowances);
     }
 
-    /// Whether a comment allows a lint at this place: where one message stands for several places, each
-    /// has to ask for itself.
+    /// Whether a comment allows a lint at this location. If one message stands for several locations, check
+    /// each of them.
     pub fn allows(&self, lint: Code, place: Span) -> bool {
         self.allowances.iter().any(|one| one.reaches(lint, place))
     }
 
-    /// Drops, of the messages after the first `len`, those that a comment allows.
+    /// Drops those messages after the first `len` that a comment allows.
     pub fn drop_allowed_after(&mut self, len: usize) {
         for one in self.cut(len) {
             if !self.allowances.iter().any(|allowed| allowed.silences(&one)) {
@@ -316,12 +319,13 @@ impl Diagnostics {
         }
     }
 
-    /// Whether anything is certainly wrong; a denied warning is an error only to who denied it.
+    /// Whether there are errors. A warning that was denied counts as an error only for the caller that
+    /// denied it.
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(Diagnostic::is_error)
     }
 
-    /// Adds a help to the first error, where there is one.
+    /// Adds a help text to the first error, if there is one.
     pub fn help_first_error(&mut self, text: impl Into<String>) {
         if let Some(first) = self.list.iter_mut().find(|one| one.is_error()) {
             first.help.push(text.into());
@@ -332,7 +336,8 @@ impl Diagnostics {
         self.list.iter()
     }
 
-    /// As an author reads them: notes first, as they were said; then file by file, from top to bottom.
+    /// Returns the messages in reading order: notes first, as they were issued; then by file, from top to
+    /// bottom.
     pub fn in_text_order(&self) -> Vec<&Diagnostic> {
         let mut list: Vec<&Diagnostic> = self.list.iter().collect();
         list.sort_by_key(|diagnostic| {

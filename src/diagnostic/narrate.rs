@@ -1,17 +1,17 @@
-//! A message in plain sentences, for a screen reader: no drawing, no colour, places in words.
+//! Formats a message as plain sentences for a screen reader: no drawings, no color, locations in words.
 //!
-//! **In:** a [`Diagnostic`] and the texts it points into. **Out:** text, a sentence a line.
-//! **Invariant:** says all that the drawn form says.
+//! **In:** a [`Diagnostic`] and the texts it refers to. **Out:** text, one sentence per line.
+//! **Invariant:** contains everything that the drawn form shows.
 
 use super::excerpt::visible;
 use super::render::{advice, calls};
 use super::{Diagnostic, Severity};
 use crate::source::{Sources, Span};
 
-/// The most characters of a line, or of a marked piece of it, that are read out.
+/// Maximum number of characters quoted from a line or from a marked part of it.
 const READ: usize = 120;
 
-/// The message in sentences; ends in a line break.
+/// Returns the message in sentences, ending in a line break.
 pub fn narrated(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let severity = match diagnostic.severity {
         Severity::Note => "Note",
@@ -49,7 +49,7 @@ pub fn narrated(diagnostic: &Diagnostic, sources: &Sources) -> String {
     said + &format!("The code of this message is {}.\n", diagnostic.code.name())
 }
 
-/// `a.scene, line 5, columns 2 to 7`.
+/// Formats a location: `a.scene, line 5, columns 2 to 7`.
 fn place(span: Span, sources: &Sources) -> String {
     let source = sources.get(span.file);
     let (start, end) = (source.position(span.start as usize), source.position(span.end as usize));
@@ -66,7 +66,7 @@ fn place(span: Span, sources: &Sources) -> String {
     }
 }
 
-/// What is marked: `at "pigmnt"`, and where that says nothing, `before "}"` or `at the end of the line`.
+/// Describes the marked text: `at "pigmnt"` or, if that is empty, `before "}"` or `at the end of the line`.
 fn marked(span: Span, sources: &Sources) -> String {
     let first_line = |text: &str| cut(text.lines().next().unwrap_or("").trim());
     let piece = first_line(sources.text(span));
@@ -84,7 +84,7 @@ fn read_line(span: Span, sources: &Sources) -> String {
     let source = sources.get(span.file);
     let position = source.position(span.start as usize);
     let line = source.line(position.line);
-    // Of a line too long to listen to, the part that it is about.
+    // Quotes only the relevant part of a line that is too long to listen to.
     let around = position.column.saturating_sub(READ / 2);
     match line.chars().count() > READ && around > 0 {
         true => cut(&format!("…{}", line.chars().skip(around).collect::<String>())),
@@ -100,7 +100,7 @@ fn cut(text: &str) -> String {
     }
 }
 
-/// With its full stop.
+/// Appends a full stop.
 fn sentence(text: &str) -> String {
     match text.ends_with(['.', '?', '!', ':']) {
         true => text.to_owned(),

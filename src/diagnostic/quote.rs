@@ -1,19 +1,19 @@
-//! What a message quotes of the author's text, cut to a length that can be read.
+//! Truncates quotations of the author's text in messages to a readable length.
 //!
-//! **Invariant:** a sentence of ours passes unchanged; so does what the author's `#debug` and its kin say.
+//! **Invariant:** lucarne's own sentences are unchanged, and so is the output of `#debug` and its variants.
 
 use std::borrow::Cow;
 
 use super::{Code, Diagnostic};
 
-/// The most characters of one quoted piece, and of what stands without a blank.
+/// Maximum number of characters in a quotation, or in text without blanks.
 const LONGEST: usize = 120;
-/// What is kept of a longer one.
+/// Number of characters kept from a longer one.
 const BEGINNING: usize = 60;
 const END: usize = 40;
 
 impl Diagnostic {
-    /// Cuts quoted pieces in its sentences; what a fix writes stays whole.
+    /// Truncates quotations in the sentences of the message; the text of a fix is unchanged.
     pub(super) fn shorten(&mut self) {
         if self.is_the_authors() {
             return;
@@ -28,7 +28,7 @@ impl Diagnostic {
         }
     }
 
-    /// The message as [`Self::shorten`] leaves it.
+    /// Returns the message as truncated by [`Self::shorten`].
     pub(super) fn short_message(&self) -> Cow<'_, str> {
         match self.message.len() > LONGEST && !self.is_the_authors() {
             true => Cow::Owned(shortened(&self.message)),

@@ -1,8 +1,8 @@
-//! A message as a person reads it; the only file that names miette.
+//! Formats a message for people; the only file that uses miette.
 //!
-//! **In:** a [`Diagnostic`] and the texts it points into. **Out:** text. **Invariant:** costs no more
-//! than the lines it shows, however long the file or its lines are; no line is wider than the window; nothing the
-//! author wrote can move the cursor.
+//! **In:** a [`Diagnostic`] and the texts it refers to. **Out:** text. **Invariant:** the cost depends on
+//! the lines shown, not on the length of the file or of its lines; no line is wider than the window;
+//! nothing the author wrote can move the cursor.
 
 mod beside;
 
@@ -17,7 +17,7 @@ use super::wrap::wrapped;
 use super::{Diagnostic, Severity};
 use crate::source::{FileId, Position, Source, Sources, Span};
 
-/// How messages are drawn.
+/// Style in which messages are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Style {
     /// Columns of the terminal.
@@ -26,22 +26,22 @@ pub struct Style {
 }
 
 impl Style {
-    /// 80 columns, no colour: for files and snapshots.
+    /// 80 columns without color, for files and snapshots.
     pub const PLAIN: Self = Self { width: 80, color: false };
 }
 
-/// A narrower window is drawn to as if it had this many columns.
+/// Minimum width: a narrower window is treated as this many columns wide.
 const LEAST_WIDTH: usize = 30;
-/// Columns that miette sets before the lines of a message and of its help, and what stays free behind them.
+/// Columns that miette puts before the lines of a message and its help, plus the free columns after them.
 const BESIDE_MESSAGE: usize = 6;
 const BESIDE_HELP: usize = 10;
-/// Columns beside the number of a line and a place in a frame's head.
+/// Columns next to a line number and next to the location in a frame's header.
 const BESIDE_PLACE: usize = 6;
 
-/// Steps of a trace that are shown; of a longer one, the innermost and the outermost.
+/// Maximum number of trace steps shown: the innermost ones and the outermost.
 const TRACE_SHOWN: usize = 3;
 
-/// The message with the lines it is about, drawn; ends in a line break.
+/// Returns the message with source excerpts, ending in a line break.
 pub fn human(diagnostic: &Diagnostic, sources: &Sources, style: Style) -> String {
     let theme = match style.color {
         true => GraphicalTheme::unicode(),
@@ -63,12 +63,12 @@ pub fn human(diagnostic: &Diagnostic, sources: &Sources, style: Style) -> String
     beside::completed(&text, &view.texts, width)
 }
 
-/// The message alone, as its author laid it out; it may be a piece of a line.
+/// Returns the text of the message alone, formatted by the scene's author; it may be part of a line.
 pub fn plain(diagnostic: &Diagnostic) -> String {
     visible_untrimmed(&diagnostic.message)
 }
 
-/// `file:line:column: error[code]: message`, one line, no line break at its end.
+/// Returns `file:line:column: error[code]: message` on one line, without a trailing line break.
 pub fn short(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let at = diagnostic.primary().map(|label| label.span).unwrap_or(Span::new(FileId(0), 0, 0));
     let place = sources.iter().nth(at.file.0 as usize).map_or(String::new(), |(_, source)| {
@@ -80,7 +80,7 @@ pub fn short(diagnostic: &Diagnostic, sources: &Sources) -> String {
     format!("{place}{severity}[{code}]: {message}")
 }
 
-/// `2 errors, 1 warning`; nothing when there is neither.
+/// Returns `2 errors, 1 warning`, or `None` if there are neither.
 pub fn summary(errors: usize, warnings: usize) -> Option<String> {
     let count = |n: usize, what: &str| match n {
         0 => None,
@@ -92,7 +92,7 @@ pub fn summary(errors: usize, warnings: usize) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// A diagnostic as miette wants it.
+/// Adapts a diagnostic to miette.
 #[derive(Debug)]
 struct View {
     code: String,
@@ -100,7 +100,7 @@ struct View {
     severity: Severity,
     labels: Vec<LabeledSpan>,
     help: Option<String>,
-    /// What the marks in the labels stand for.
+    /// Texts that replace the marks in the labels.
     texts: Vec<String>,
     text: Text,
 }
@@ -135,7 +135,7 @@ impl View {
             ending(visible(&source.name).replace('\t', "␉").replace('\n', "␊"), room)
         };
         let names = sources.iter().map(|(_, source)| name(source, room)).collect();
-        // A message about the scene as a whole still says which scene.
+        // A message about the scene as a unit still names the scene.
         let mut code = diagnostic.code.name().to_owned();
         if let (true, Some((_, source))) = (diagnostic.labels.is_empty(), sources.iter().next()) {
             code += " in ";
@@ -153,8 +153,8 @@ impl View {
     }
 }
 
-/// The calls that led here: the innermost ones and the outermost; calls from one place
-/// once.
+/// Returns the calls that led here: the innermost ones and the outermost. Calls from the same location are
+/// listed once.
 pub(super) fn calls(diagnostic: &Diagnostic) -> impl Iterator<Item = (Span, String)> {
     let mut steps: Vec<(Span, String, usize)> = Vec::new();
     let told = |span: Span| diagnostic.labels.iter().any(|label| label.span == span);
@@ -178,7 +178,7 @@ pub(super) fn calls(diagnostic: &Diagnostic) -> impl Iterator<Item = (Span, Stri
     })
 }
 
-/// The help, and each fix that no help already spells out.
+/// Returns the help texts, and each fix that no help text already contains.
 pub(super) fn advice(diagnostic: &Diagnostic, sources: &Sources) -> Vec<String> {
     let mut lines: Vec<String> = diagnostic.help.iter().map(|text| visible(text)).collect();
     // How often each is told, of fixes that read alike.
@@ -243,7 +243,7 @@ impl miette::Diagnostic for View {
     }
 }
 
-/// The excerpt as miette reads it: a span lies in one run, and each run knows its file.
+/// Provides the excerpt to miette: each span lies in one run, and each run knows its file.
 #[derive(Debug)]
 struct Text {
     excerpt: Excerpt,

@@ -1,7 +1,7 @@
-//! Did you mean: the nearest known word, and ours for another tool's.
+//! Suggests words for misspellings: the nearest known word, or the equivalent of another tool's word.
 //!
-//! **Invariant:** a suggestion is made only when it is likely right, and does not depend on the order
-//! of the candidates.
+//! **Invariant:** a suggestion is made only if it is likely correct, and does not depend on the order of
+//! the candidates.
 
 mod foreign;
 
@@ -11,16 +11,16 @@ use self::foreign::FOREIGN;
 
 #[cfg(test)]
 thread_local! {
-    /// How often this thread has looked for a closest word.
+    /// Number of searches for a closest word made by this thread.
     pub static SEARCHES: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
 }
 
-/// The candidate that `word` was most likely meant to be.
+/// Returns the candidate that `word` was most likely meant to be.
 ///
-/// The same letters in another case come first; then the least optimal-string-alignment distance
-/// (insertion, deletion, substitution and transposition of neighbours count one each), up to a
-/// bound that grows with the word: 1 for three letters, 2 from six, 3 from ten. Shorter and very
-/// long words are only matched case-blind.
+/// A candidate with the same letters in different case comes first, then the one at the least optimal
+/// string alignment distance (insertions, deletions, substitutions and transpositions of neighbours count
+/// one each), up to a bound that grows with the length of the word: 1 from three letters, 2 from six, 3
+/// from ten. Shorter and very long words are only compared case-insensitively.
 pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     #[cfg(test)]
     SEARCHES.with(|searches| searches.set(searches.get() + 1));
@@ -38,7 +38,7 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .into_iter()
         .filter(|candidate| *candidate != word)
         .filter_map(|candidate| {
-            // One edit changes the length by one at most, and the set of letters by two.
+            // One edit changes the length by at most one, and the set of letters by at most two.
             let (other_count, other_set) = letters(candidate);
             let far = other_count.abs_diff(count) > bound
                 || (other_set ^ set).count_ones() as usize > 2 * bound;
@@ -65,7 +65,8 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(.., candidate)| candidate)
 }
 
-/// The one word of three letters that `word` lacks a letter of, not the first: `rg`, `bx`.
+/// Returns the only three-letter candidate that is `word` plus one letter, other than the first: `rg`,
+/// `bx`.
 pub fn short_of<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let fits = |candidate: &&str| {
         let mut letters = candidate.chars();
@@ -83,7 +84,8 @@ fn digits(word: &str) -> impl Iterator<Item = char> {
     word.chars().filter(char::is_ascii_digit)
 }
 
-/// The one candidate that begins as `word` does and is two edits away, of four letters or more: `Cole` and `Coal`.
+/// Returns the only candidate of at least four letters that starts like `word` and is two edits away:
+/// `Cole` and `Coal`.
 pub fn alike<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = word.to_lowercase();
     let mut near = candidates.into_iter().filter(|candidate| {
@@ -99,7 +101,7 @@ pub fn alike<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> O
     near.next().filter(|_| near.next().is_none())
 }
 
-/// Whether two words are made of the same letters.
+/// Whether two words consist of the same letters.
 fn same_letters(a: &str, b: &str) -> bool {
     let sorted = |word: &str| {
         let mut letters: Vec<char> = word.chars().collect();
@@ -109,8 +111,8 @@ fn same_letters(a: &str, b: &str) -> bool {
     a.len() == b.len() && sorted(a) == sorted(b)
 }
 
-/// Whether two names differ only in the number or the capital that tells the members of a series apart:
-/// `Ball1` and `Ball2`, `RadiusA` and `RadiusB`. One is rarely meant where the other is written.
+/// Whether two names differ only in the number or capital letter that distinguishes members of a series, as
+/// in `Ball1` and `Ball2` or `RadiusA` and `RadiusB`. One is rarely a misspelling of the other.
 pub fn are_of_a_series(a: &str, b: &str) -> bool {
     let digits = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).len();
     let letter = |name: &str| {
@@ -141,8 +143,8 @@ fn look_alike(a: &str, b: &str) -> bool {
     a.chars().map(shape).eq(b.chars().map(shape))
 }
 
-/// A word in lower case as it is spelt in America, in one piece, its numbers without zeros before them: `Grey5`,
-/// `Gray05` and `Gray_5` are one.
+/// Normalizes a word: lower case, American spelling, no separators, no leading zeros. `Grey5`, `Gray05` and
+/// `Gray_5` are equal.
 fn spelling(word: &str) -> Cow<'_, str> {
     let mut spelt = Cow::Borrowed(word);
     for (theirs, ours) in [("grey", "gray"), ("colour", "color"), ("centre", "center"), ("_", "")] {
@@ -164,7 +166,8 @@ fn spelling(word: &str) -> Cow<'_, str> {
     Cow::Owned(plain)
 }
 
-/// How many letters a word has in lower case, and which (one bit for each, some sharing one).
+/// Returns the number of letters in a word, and the set of its lower-case letters (one bit per letter, some
+/// shared).
 fn letters(word: &str) -> (usize, u32) {
     if word.is_ascii() {
         // The low five bits of a letter do not know its case.
@@ -175,14 +178,14 @@ fn letters(word: &str) -> (usize, u32) {
         .fold((0, 0), |(count, set), c| (count + 1, set | 1 << (c as u32 % 32)))
 }
 
-/// Our words for `word` as other tools, or people, call the same thing; the likeliest first. Which it is
-/// depends on the place.
+/// Returns lucarne's words for what other tools or people call `word`, the likeliest first. The right one
+/// depends on the context.
 pub fn foreign(word: &str) -> impl Iterator<Item = &'static str> {
     let lower = word.to_lowercase();
     FOREIGN.iter().filter(move |(theirs, _)| *theirs == lower).map(|&(_, ours)| ours)
 }
 
-/// The candidate that is made of the same parts as `word`, in another order or by words that mean the same:
+/// Returns the candidate made of the same parts as `word`, in another order or with synonyms:
 /// `pretrace_begin` for `pretrace_start`, `max_reuse` for `maximum_reuse`, `count_nearest`.
 pub fn reworded<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     const SAME: [&[&str]; 13] = [
@@ -220,12 +223,12 @@ pub fn reworded<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -
         **candidate != *word && equal > 0 && all && ours.is_empty()
     };
     let mut fitting = candidates.into_iter().filter(fits);
-    // Of several none is likely.
+    // If several candidates fit, none is likely.
     fitting.next().filter(|_| fitting.next().is_none())
 }
 
-/// The candidate that has the first letter of `word` and its consonants, where one of the two has no vowels: `Count`
-/// for `Cnt`.
+/// Returns the candidate with the same first letter and the same consonants as `word`, if one of the two
+/// has no vowels: `Count` for `Cnt`.
 pub fn contracted<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
@@ -247,7 +250,7 @@ pub fn contracted<'a>(
     fitting.next().filter(|_| fitting.next().is_none())
 }
 
-/// The candidate that `word` abbreviates or writes out, part by part, or whose first parts it is:
+/// Returns the candidate that `word` abbreviates or spells out part by part, or whose first parts it is:
 /// `LeafPigment` for `LeafPig`, `Copper_Old` for `Old_Copper`, `low_error` for `low_error_factor`.
 pub fn abridged<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let theirs = parts(word);
@@ -272,8 +275,8 @@ pub fn abridged<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -
     fitting.next().filter(|_| fitting.next().is_none())
 }
 
-/// The candidate that begins as `word` does, for two thirds of the longer one, or has its stem: `contained_by`
-/// for `container`, `extinction` for `extinct`, `spacing` for `space`.
+/// Returns the candidate that shares a prefix of two thirds of the longer word with `word`, or its stem:
+/// `contained_by` for `container`, `extinction` for `extinct`, `spacing` for `space`.
 pub fn begun<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     const LEAST: usize = 4;
     let fits = |candidate: &&str| {
@@ -286,13 +289,13 @@ pub fn begun<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> O
     fitting.next().filter(|_| fitting.next().is_none())
 }
 
-/// A word without its ending.
+/// Returns a word without its suffix.
 fn stem(word: &str) -> &str {
     const ENDINGS: [&str; 9] = ["ing", "ity", "ion", "ed", "er", "or", "e", "s", "y"];
     ENDINGS.iter().find_map(|ending| word.strip_suffix(ending)).unwrap_or(word)
 }
 
-/// The words that a name is made of, in lower case: `LeafPigment`, `leaf_pigment`.
+/// Splits a name into its words, in lower case: `LeafPigment`, `leaf_pigment`.
 fn parts(name: &str) -> Vec<String> {
     let mut parts = vec![String::new()];
     let mut before = '_';

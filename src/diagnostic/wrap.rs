@@ -1,17 +1,18 @@
-//! Sentences in lines that fit, broken between words.
+//! Wraps sentences into lines, broken between words.
 //!
-//! **Invariant:** no line is wider than the room; only blanks at a line's end are lost; what stands between two
+//! **Invariant:** no line is wider than the room; only blanks at line ends are lost; text between two
 //! backticks is one word, unless it is wider than a line.
 
 use super::cut::{TAB, columns, forward};
 
-/// The lines of a text in `room` columns.
+/// Wraps a text to `room` columns.
 pub fn wrapped(text: &str, room: usize) -> Vec<String> {
     let text = text.replace('\t', &" ".repeat(TAB));
     text.split('\n').flat_map(|line| broken(line, room)).collect()
 }
 
-/// As [`wrapped`], in lines about as long as each other: the narrowest that are no more, and break no word more.
+/// Like [`wrapped`], with lines of similar length: the narrowest width that needs no more lines and breaks
+/// no more words.
 pub fn balanced(text: &str, room: usize) -> Vec<String> {
     let lines = wrapped(text, room);
     let widest = text.lines().flat_map(words).map(|word| columns(word.trim_end())).max();
@@ -35,7 +36,7 @@ fn broken(text: &str, room: usize) -> Vec<String> {
     lines
 }
 
-/// The words of a line, each with the blanks behind it.
+/// Splits a line into words, each with the blanks after it.
 fn words(line: &str) -> Vec<&str> {
     let mut words = Vec::new();
     let mut start = 0;
@@ -56,8 +57,8 @@ fn words(line: &str) -> Vec<&str> {
     words
 }
 
-/// A word that is wider than a line: the words quoted in it, and of what is still wider as much as fits, up to a `/`
-/// where there is one.
+/// Splits a word that is wider than a line: between quotations and, if a part is still too wide, after as
+/// much as fits, up to a `/` if possible.
 fn pieces(word: &str, room: usize) -> Vec<&str> {
     if columns(word.trim_end()) <= room {
         return vec![word];

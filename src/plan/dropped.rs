@@ -1,14 +1,14 @@
-//! Parts of the scene that cannot change the picture, and why.
+//! Lists the parts of the scene that cannot change the picture, and why.
 //!
-//! **In:** [`World`], its [`Origins`], the arithmetic asked for. **Out:** each part once, at its place.
-//! **Invariant:** nothing is dropped here: what has no weight is not in the World, and what a single
-//! light or shape lacks the tracer does not ask it for.
+//! **In:** [`World`], its [`Origins`], the requested precision. **Out:** each part once, with its source
+//! location. **Invariant:** nothing is dropped here. Parts of zero weight are not in the World, and the
+//! tracer never evaluates a property that a light or shape lacks.
 
 use super::Precision;
 use super::kinds::without_single_kernel;
 use crate::world::{Dropped, Origins, World};
 
-/// What single lights and shapes lack, and what lowering dropped.
+/// Returns the properties that single lights and shapes lack, and what lowering dropped.
 pub(super) fn dropped(world: &World, origins: &Origins, precision: Precision) -> Vec<Dropped> {
     let mut dropped: Vec<Dropped> = shadowless(world, origins).collect();
     // Of one in a macro each call says it once.
@@ -38,7 +38,8 @@ fn shadowless(world: &World, origins: &Origins) -> impl Iterator<Item = Dropped>
     })
 }
 
-/// The first of each kind of shapes that is met in double precision all the same.
+/// Returns the first shape of each kind that is intersected in double precision even if single is
+/// requested.
 fn without_single_precision(world: &World, origins: &Origins) -> impl Iterator<Item = Dropped> {
     without_single_kernel(world, origins).into_iter().map(|(word, site)| Dropped {
         site,

@@ -1,8 +1,8 @@
-//! Decides which effects a World calls for.
+//! Decides which effects a World requires.
 //!
-//! **In:** [`World`], its [`Origins`], what the caller asks. **Out:** [`Plan`]. **Invariant:** an
-//! effect is left out only when it could not change a bit of the film: its weight is exactly
-//! zero, or nothing by its own flags can take part in it. No guess about what is visible.
+//! **In:** [`World`], its [`Origins`], the caller's options. **Out:** [`Plan`]. **Invariant:** an effect is
+//! left out only if it cannot change a bit of the film: its weight is exactly zero, or flags exclude
+//! everything from it. Visibility is not estimated.
 
 use super::dropped::dropped;
 use super::kinds::kinds;
@@ -12,8 +12,8 @@ use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions};
 use crate::source::Site;
 use crate::world::{Light, Material, MaterialOrigin, Object, Origins, Pigment, World};
 
-/// Lists every effect the picture needs with what called for it, and every one it does not need
-/// with the reason.
+/// Lists every effect the picture needs with what requires it, and every effect it does not need with the
+/// reason.
 pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
     // As POV-Ray: 0 still follows the camera's ray.
     let max_trace_level = options.depth.unwrap_or(world.settings.max_trace_level).max(1);
@@ -55,17 +55,17 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
     plan
 }
 
-/// Who called and what it costs, or why not and where that is said.
+/// The locations that require an effect and its cost, or the reason it is off and where the scene says so.
 type Decision = Result<(Vec<Site>, String), (String, Option<Site>)>;
 
 fn because<T>(why: &str, site: Option<Site>) -> Result<T, (String, Option<Site>)> {
     Err((why.to_owned(), site))
 }
 
-/// What there is, and what the caller wants of it.
+/// The World's contents and the caller's options, against which each effect is checked.
 ///
-/// Of several conditions of an effect, the one that the author wrote down calls for it: a light for what
-/// every surface answers by default, a surface's own word for the rest.
+/// If an effect has several conditions, the reported cause is the one the author wrote down: a light for
+/// effects that surfaces show by default, otherwise a property of the surface.
 struct Census<'a> {
     world: &'a World,
     origins: &'a Origins,
@@ -172,7 +172,7 @@ impl Census<'_> {
         if !self.world.materials.iter().any(reflects) {
             return because("no surface reflects", None);
         }
-        // Where paths fork at clear surfaces there are more rays than surfaces in a row.
+        // If paths fork at transparent surfaces, there are more rays than the depth.
         let forks = self.world.materials.iter().any(is_clear);
         let what = if forks { "surfaces deep" } else { "rays a camera ray" };
         let cost = format!("up to {} {what}", self.max_trace_level - 1);
@@ -193,7 +193,7 @@ impl Census<'_> {
         if self.world.interiors.is_empty() {
             return because("every object is filled with air", None);
         }
-        // What is as the air only matters beside what is not.
+        // An interior with the index of air only matters next to another index.
         let interiors = self.world.interiors.iter().zip(&self.origins.interiors);
         let bending = interiors.filter(|(interior, _)| interior.ior != 1.0);
         let by = bending.flat_map(|(_, sites)| sites).copied().collect();
@@ -218,7 +218,7 @@ impl Census<'_> {
         Ok((by, "one more search a ray toward a light that nothing opaque stops".to_owned()))
     }
 
-    /// Whether any ray goes on from a surface.
+    /// Returns whether any ray continues from a surface.
     fn goes_on(&self) -> Result<(), (String, Option<Site>)> {
         if self.max_trace_level > 1 {
             return Ok(());
@@ -253,14 +253,14 @@ impl Census<'_> {
         }
     }
 
-    /// What makes the lights shine that call.
+    /// Returns the locations that make the lights selected by `calls` shine.
     fn lights(&self, calls: impl Fn(&Light) -> bool) -> Vec<Site> {
         let lights = self.world.lights.iter().zip(&self.origins.light_pieces);
         let calling = lights.filter(|(light, _)| calls(light));
         calling.flat_map(|(_, pieces)| pieces).copied().collect()
     }
 
-    /// What gave the materials that call one of their parts.
+    /// Returns the locations that gave the selected materials one of their parts.
     fn materials(
         &self,
         calls: impl Fn(&Material) -> bool,

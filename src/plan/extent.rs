@@ -1,7 +1,7 @@
-//! How far a solid goes, and how thin it is for that.
+//! Measures the size of a solid, and how thin it is in relation to its length.
 //!
-//! **Invariant:** what is flat by its nature, a polygon, a patch, a landscape, is thin where it is nearly a
-//! line, not where it is flat.
+//! **Invariant:** shapes that are flat by nature (polygons, patches, height fields) count as thin if they
+//! are nearly a line, not because they are flat.
 
 use crate::math::singular::singular_values;
 use crate::math::{Matrix, Vector};
@@ -9,13 +9,13 @@ use crate::shape::body::Local;
 use crate::shape::{Body, Placed, Shape};
 use crate::world::World;
 
-/// Of what has an end.
+/// Size of a bounded shape.
 pub(super) struct Extent {
     pub centre: Vector,
-    /// Half widths, along the axes of its own that it was stretched along; none is 0.
+    /// Least and greatest half width along the axes of the shape's own frame; never 0.
     pub least: f64,
     pub greatest: f64,
-    /// Its length in thicknesses.
+    /// Ratio of length to thickness.
     pub slenderness: f64,
 }
 
@@ -36,7 +36,7 @@ impl Extent {
             }
             Shape::Box(at) => {
                 let solid = &world.boxes[at as usize];
-                // A flat box has two sides that count.
+                // Ignores the zero side of a flat box.
                 let sides = solid.half_widths.into_iter().filter(|&side| side > 0.0);
                 let least = sides.clone().fold(f64::INFINITY, f64::min);
                 along_axes(solid.centre, least, sides.fold(0.0, f64::max))
@@ -65,7 +65,7 @@ impl Extent {
             _ => body.is_sheet(),
         };
         let is_flat = is_sheet || matches!(**body, Body::HeightField(_));
-        // Of a sheet two count.
+        // Sheets have only two relevant sizes.
         let least_of = |sizes: [f64; 3], is_flat: bool| {
             let counted = if is_flat { 2 } else { 3 };
             sizes.into_iter().take(counted).rfind(|&half| half > 0.0)
@@ -90,8 +90,8 @@ fn half_width(body: &Body, along: Vector) -> f64 {
     0.5 * high - 0.5 * low
 }
 
-/// Three directions at right angles, of a body whose own axes tell nothing of its length: the first goes along
-/// it where it is nearly a line.
+/// Returns an orthogonal frame for a body whose own axes do not reveal its length. If the body is nearly a
+/// line, the first direction runs along it.
 fn frame_along(body: &Body) -> Option<[Vector; 3]> {
     let along = |u: Vector, v: Vector| {
         let (a, b) = (half_width(body, u), half_width(body, v));

@@ -1,15 +1,16 @@
-//! The hot effects: those the tracer decides by a kernel of its own, not by a branch for each ray.
+//! Selects the kernel that traces a frame. Hot effects are compiled into kernels instead of being tested
+//! for each ray.
 //!
-//! **Invariant:** one piece of code, compiled once for each combination; three bits, and no more.
+//! **Invariant:** one piece of code, compiled once per combination of exactly three flags.
 
-/// Which kernel traces a frame.
+/// Selects the kernel that traces a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Kernel {
-    /// Rays toward lights.
+    /// Traces rays toward lights.
     pub shadows: bool,
-    /// Rays from surface to surface.
+    /// Traces rays from surface to surface.
     pub secondary: bool,
-    /// Solids other than spheres, planes and boxes.
+    /// Intersects solids other than spheres, planes and boxes.
     pub bodies: bool,
 }
 

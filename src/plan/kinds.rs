@@ -1,7 +1,7 @@
-//! Which kinds of shapes a World has, and what it costs to meet one.
+//! Lists the kinds of shapes in a World, and what intersecting each of them costs.
 //!
-//! **In:** [`World`], its [`Origins`]. **Out:** each kind once, as the language calls it, in a fixed order.
-//! **Invariant:** a kind that is not there has no line.
+//! **In:** [`World`], its [`Origins`]. **Out:** each kind once, under its name in the language, in a fixed
+//! order. **Invariant:** kinds that do not occur are not listed.
 
 use std::collections::BTreeMap;
 
@@ -10,20 +10,20 @@ use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{Object, Origins, World};
 
-/// A kind of shape, or an operation on shapes, that the World has.
+/// Kind of shape, or operation on shapes, that occurs in the World.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kind {
-    /// `sphere`, `difference`.
+    /// Name in the language: `sphere`, `difference`.
     pub word: &'static str,
-    /// How many of them there are to be met; of operations, how many are written.
+    /// Number of shapes to intersect; for an operation, the number of occurrences in the scene.
     pub count: usize,
-    /// In text order, each place once.
+    /// Source locations in text order, without duplicates.
     pub by: Vec<Site>,
-    /// What it takes to hold one against a ray.
+    /// Cost of intersecting one shape with a ray.
     pub cost: &'static str,
 }
 
-/// The word for an object's shape, and what a ray costs there.
+/// Returns the name of an object's shape, and its cost per ray.
 pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'static str) {
     match shape {
         Shape::Sphere(_) => ("sphere", "a square root a ray"),
@@ -95,7 +95,7 @@ pub(super) fn kinds(world: &World, origins: &Origins) -> Vec<Kind> {
     kinds
 }
 
-/// Those of the objects that are met in double precision whatever is asked: the first of each kind.
+/// Returns the first object of each kind that is always intersected in double precision.
 pub(super) fn without_single_kernel<'a>(
     world: &'a World,
     origins: &'a Origins,

@@ -1,10 +1,10 @@
-//! What to do about a World: which effects to simulate and why, what each knob is set to, and which
-//! kernel traces it.
+//! Plans how to trace a World: which effects to simulate and why, the value of each setting, and the
+//! kernel.
 //!
-//! **Invariant:** each effect is named once, as simulated or as left out; pruning is exact or not
-//! done. Values of no weight are not in the World at all (`lower` drops them and says so); the Plan
-//! decides by what is there. Shadows and secondary rays are hot: the tracer has a kernel for each
-//! combination. Patterns, lights and lobes are data: it evaluates those there are.
+//! **Invariant:** each effect is listed once, as simulated or as left out. Pruning is exact or not done.
+//! Values of zero weight are not in the World (`lower` drops and reports them), so the Plan depends only on
+//! what the World contains. Shadows and secondary rays are hot: the tracer has a kernel for each
+//! combination. Patterns, lights and lobes are data: the tracer evaluates those that exist.
 
 mod dropped;
 mod effects;
@@ -22,7 +22,7 @@ pub use numerics::{Measured, Numerics, Thin};
 use crate::source::Site;
 use crate::world::Dropped;
 
-/// The whole picture's size and the part of it to trace, in pixels.
+/// Size of the full picture and the region to trace, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frame {
     pub width: u32,
@@ -36,7 +36,7 @@ impl Frame {
     }
 }
 
-/// Part of a picture: `x`, `y` from its top left.
+/// Part of a picture, in pixels; `x` and `y` count from the top left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Region {
     pub x: u32,
@@ -46,21 +46,21 @@ pub struct Region {
 }
 
 impl Region {
-    /// How many there are.
+    /// Returns the number of pixels.
     pub fn pixels(&self) -> f64 {
         f64::from(self.width) * f64::from(self.height)
     }
 }
 
-/// How edges are smoothed.
+/// Antialiasing mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Antialias {
     /// One ray through the centre of each pixel.
     Off,
-    /// N × N rays in each pixel, on a regular grid.
+    /// N × N rays per pixel, on a regular grid.
     Grid(u32),
-    /// One ray a pixel, then `grid` × `grid` where neighbours differ by more than `threshold` in
-    /// an encoded component.
+    /// One ray per pixel, then `grid` × `grid` where neighbours differ by more than `threshold` in an
+    /// encoded component.
     Adaptive { threshold: f64, grid: u32 },
 }
 
@@ -70,28 +70,27 @@ impl Default for Antialias {
     }
 }
 
-/// The arithmetic that rays and shapes meet in.
+/// Floating-point precision of intersections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Precision {
-    /// 32 bits, for shapes that have such a kernel.
+    /// 32-bit, for shapes that have a single-precision kernel.
     Single,
-    /// 64 bits.
+    /// 64-bit.
     #[default]
     Double,
 }
 
-/// How exactly rays and shapes meet.
+/// Precision of intersections.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arithmetic {
     pub precision: Precision,
-    /// How near a crossing must be found, of the size of its solid, where steps come nearer and nearer
-    /// to it; 0 asks for all that the arithmetic can tell.
+    /// Tolerance of iterative root finding, relative to the size of the solid; 0 means full precision.
     pub root_tolerance: f64,
-    /// So many iterations of a fractal are looked at, where it has more.
+    /// Maximum number of iterations of a fractal; a lower number in the scene is kept.
     pub julia_iterations: Option<u32>,
 }
 
-/// What the caller asks of the plan.
+/// The caller's options.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanOptions {
     pub frame: Frame,
@@ -103,12 +102,12 @@ pub struct PlanOptions {
     pub precision: Precision,
     /// See [`Arithmetic`].
     pub root_tolerance: f64,
-    /// Likewise.
+    /// See [`Arithmetic`].
     pub julia_iterations: Option<u32>,
 }
 
 impl PlanOptions {
-    /// What `render` does unless it is told otherwise.
+    /// Returns the defaults of `render`.
     pub fn new(frame: Frame) -> Self {
         let (antialias, precision) = (Antialias::default(), Precision::Double);
         Self {
@@ -123,32 +122,32 @@ impl PlanOptions {
     }
 }
 
-/// Something the tracer can simulate, or not.
+/// Effect that the tracer can simulate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Effect {
     Diffuse,
     Highlights,
     Shadows,
-    /// Lights that are less than their colour somewhere: beams, and light that fades with the distance.
+    /// Lights dimmer than their color in some places: spotlight beams, and light that fades with distance.
     Attenuation,
-    /// Light on one side of a surface that lights the other, too.
+    /// Light on one side of a surface that also illuminates the other side.
     DoubleIllumination,
     Reflection,
-    /// Rays that go on behind clear surfaces.
+    /// Rays that continue through transparent surfaces.
     Transparency,
-    /// What indices of refraction do: bend rays, and say how much is reflected.
+    /// Effects of the index of refraction: bent rays, and the fraction of light reflected.
     Refraction,
-    /// Light that comes through clear surfaces.
+    /// Light filtered by transparent surfaces.
     ColoredShadows,
     Patterns,
-    /// Objects that the camera or mirrors do not see.
+    /// Objects that are invisible to the camera or in reflections.
     Hiding,
     Sky,
     Antialiasing,
 }
 
 impl Effect {
-    /// In the order the plan lists them.
+    /// All effects, in the order in which the plan lists them.
     pub const ALL: [Self; 13] = [
         Self::Diffuse,
         Self::Highlights,
@@ -165,7 +164,7 @@ impl Effect {
         Self::Antialiasing,
     ];
 
-    /// How people call it.
+    /// Returns the name for people.
     pub fn name(self) -> &'static str {
         match self {
             Self::Diffuse => "diffuse light",
@@ -189,43 +188,43 @@ impl Effect {
 pub struct Plan {
     pub frame: Frame,
     pub antialias: Antialias,
-    /// Surfaces deep: 1 follows the camera's rays alone.
+    /// Maximum recursion depth; 1 traces camera rays only.
     pub max_trace_level: u32,
     pub adc_bailout: f64,
     pub precision: Precision,
     /// See [`Arithmetic`].
     pub root_tolerance: f64,
-    /// Likewise.
+    /// See [`Arithmetic`].
     pub julia_iterations: Option<u32>,
     pub kernel: Kernel,
-    /// What will be simulated.
+    /// Effects that are simulated.
     pub effects: Vec<Called>,
-    /// What will not, and why.
+    /// Effects that are not simulated, and why.
     pub left_out: Vec<LeftOut>,
     /// Parts of the scene that cannot change the picture.
     pub dropped: Vec<Dropped>,
     pub numerics: Numerics,
-    /// Each kind of shape that there is.
+    /// Kinds of shapes that occur.
     pub kinds: Vec<Kind>,
-    /// `None` where nobody sent one.
+    /// Statistics of the pilot, if one was traced.
     pub pilot: Option<Pilot>,
 }
 
-/// An effect, and everything that called for it.
+/// An effect that is simulated, and everything that requires it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Called {
     pub effect: Effect,
-    /// In text order, each place once: without all of these pieces of text the effect is gone, and the
-    /// scene still whole. Empty when the caller's options called.
+    /// Source locations in text order, without duplicates. Removing all of them removes the effect and
+    /// leaves a valid scene. Empty if the caller's options require the effect.
     pub by: Vec<Site>,
     /// What it costs: `one ray a light and hit`.
     pub cost: String,
-    /// How many rays the pilot sent for it, a ray of the camera; `None` for what sends none. Of
-    /// antialiasing: how many of the camera's are beyond one a pixel.
+    /// Rays that the pilot sent for this effect, per camera ray; `None` for effects that send none. For
+    /// antialiasing: camera rays beyond one per pixel.
     pub rays: Option<f64>,
 }
 
-/// An effect that nothing calls for.
+/// An effect that nothing requires.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
     pub effect: Effect,
@@ -233,19 +232,20 @@ pub struct LeftOut {
     pub site: Option<Site>,
 }
 
-/// Some pixels of the picture, traced to count rays.
+/// A sample of the picture's pixels, traced to count rays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pilot {
-    /// How many pixels there were to be, side by side and one above the other, spread over the region.
+    /// Columns and rows of the planned grid of pixels, which covers the region.
     pub width: u32,
     pub height: u32,
-    /// How many were traced, as far as its limit of rays went; these are spread over the region, too.
+    /// Pixels traced before the limit of rays was reached; they are spread over the region, too.
     pub pixels: usize,
-    /// How many surfaces deep, where as deep as the plan says not one of many would have been done.
+    /// Recursion depth, if it was reduced because too few pixels would have been traced at the planned
+    /// depth.
     pub depth: Option<u32>,
-    /// All rays, a ray of the camera.
+    /// All rays, per camera ray.
     pub rays: f64,
-    /// The share of the pixels that adaptive antialiasing samples anew; `None` where it is not
+    /// Fraction of the pixels that adaptive antialiasing supersamples; `None` if antialiasing is not
     /// adaptive.
     pub edges: Option<f64>,
 }
@@ -264,13 +264,14 @@ impl Plan {
         Arithmetic { precision, root_tolerance, julia_iterations }
     }
 
-    /// Rays of the camera, of the whole region.
+    /// Returns the number of camera rays for the region.
     pub fn camera_rays(&self) -> f64 {
         let Region { width, height, .. } = self.frame.region;
         f64::from(width) * f64::from(height) * self.camera_rays_a_pixel()
     }
 
-    /// Where antialiasing is adaptive, with what its pilot found; before that, the least number.
+    /// Returns the camera rays per pixel. With adaptive antialiasing, uses the pilot's result or, before
+    /// the pilot, the minimum.
     pub fn camera_rays_a_pixel(&self) -> f64 {
         let squared = |n: u32| f64::from(n.max(1)) * f64::from(n.max(1));
         match self.antialias {

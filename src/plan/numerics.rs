@@ -1,8 +1,8 @@
-//! How hard a World is on arithmetic: its range of sizes, how far off its smallest things are, what is
-//! thin for its length, and which maps nearly flatten space.
+//! Measures how demanding a World is numerically: its range of sizes, the distance of its smallest objects,
+//! thin shapes, and nearly singular maps.
 //!
-//! **In:** [`World`], its [`Origins`]. **Out:** [`Numerics`]. **Invariant:** computed, not guessed;
-//! changes nothing.
+//! **In:** [`World`], its [`Origins`]. **Out:** [`Numerics`]. **Invariant:** values are computed, not
+//! guessed; the World is not changed.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,40 +14,40 @@ use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{Coinciding, NearSingular, Origins, World};
 
-/// What is known of a World's numbers before a ray is traced.
+/// Numerical properties of a World, known before tracing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Numerics {
-    /// The least half width (radius, half edge, half axis) of any solid that has one, other than 0.
+    /// The smallest half width (radius, half edge, half axis) of any bounded solid, other than 0.
     pub smallest: Option<Measured>,
-    /// The greatest.
+    /// The largest half width.
     pub largest: Option<Measured>,
-    /// The greatest distance from the camera to a solid's centre, in that solid's least half
-    /// widths: so many times the rounding of a coordinate is larger for it.
+    /// The greatest distance from the camera to a solid's centre, in units of that solid's least half
+    /// width: the factor by which it magnifies the rounding of coordinates.
     pub farthest: Option<Measured>,
-    /// The first of each kind of shape that has no end, or none that is known, and so no half width.
+    /// The first shape of each kind that is unbounded, or of unknown extent, and so has no half width.
     pub endless: Vec<(&'static str, Option<Site>)>,
-    /// Solids that are 2²⁶ times as long as thick, or more, in the order of the objects.
+    /// Solids at least 2²⁶ times as long as thick, in the order of the objects.
     pub thin: Vec<Thin>,
-    /// Maps with a condition number of 2²⁶ or more, in text order.
+    /// Maps with a condition number of at least 2²⁶, in text order.
     pub near_singular: Vec<NearSingular>,
-    /// Parts of one solid that have a face in common, where they were looked for.
+    /// Parts of one solid that share a face, if they were searched for.
     pub coinciding: Vec<Coinciding>,
 }
 
-/// A solid that is nearly a sheet, a line or a point; a sheet that is nearly a line or a point.
+/// A solid that is nearly a sheet, a line or a point, or a sheet that is nearly a line or a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thin {
-    /// What is thin: `torus`, `triangle of a mesh`.
+    /// Name of the shape: `torus`, `triangle of a mesh`.
     pub what: &'static str,
-    /// Its length in thicknesses: of a torus R/r; of a triangle its longest side over its height there; of a
-    /// flat ring its radius over half of its width.
+    /// Ratio of length to thickness: R/r of a torus, the longest side of a triangle over its height there,
+    /// the radius of a flat ring over half of its width.
     pub slenderness: f64,
     pub site: Option<Site>,
 }
 
 impl Numerics {
-    /// Whether 24 bits cannot tell the smallest solid's size from the rounding of a coordinate, on the
-    /// largest or as seen from the camera.
+    /// Whether single precision (24 bits) cannot resolve the smallest solid against the rounding of a
+    /// coordinate on the largest solid, or of the camera's distance.
     pub fn exceeds_single(&self) -> bool {
         let value = |found: &Option<Measured>| found.map_or(0.0, |found| found.value);
         let range = value(&self.largest) / value(&self.smallest);
@@ -55,12 +55,12 @@ impl Numerics {
     }
 }
 
-/// What 24 bits tell apart.
+/// Relative resolution of single precision, 2²⁴.
 const SINGLE: f64 = 16_777_216.0;
-/// What costs more than half of the 53 bits of a number.
+/// Ratio above which more than half of the 53 bits of a double are lost, 2²⁶.
 const THIN: f64 = 67_108_864.0;
 
-/// A number, and the object it is of.
+/// A value and the object it belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     pub value: f64,
@@ -84,7 +84,7 @@ pub(super) fn numerics(world: &World, origins: &Origins) -> Numerics {
             continue;
         };
         let Extent { centre, least, greatest, slenderness } = extent;
-        // Of what is smaller than numbers can say, no less than the greatest number.
+        // Limits an overflow to the greatest finite number.
         let distance = (length(centre - world.camera.location) / least).min(f64::MAX);
         keep(&mut found.smallest, least, site, |new, old| new < old);
         keep(&mut found.largest, greatest, site, |new, old| new > old);
@@ -99,7 +99,7 @@ pub(super) fn numerics(world: &World, origins: &Origins) -> Numerics {
     found
 }
 
-/// The slenderest triangle of each mesh, however often that is placed.
+/// Slenderness of the thinnest triangle of each mesh; instances share one entry.
 #[derive(Default)]
 struct Triangles(BTreeMap<*const Body, f64>);
 
@@ -113,7 +113,7 @@ impl Triangles {
     }
 }
 
-/// Of several the first.
+/// Keeps the extreme value; of equal values, the first.
 fn keep(
     best: &mut Option<Measured>,
     value: f64,
@@ -125,7 +125,7 @@ fn keep(
     }
 }
 
-/// |v|, also where its square over- or underflows.
+/// Returns |v|, even if the square over- or underflows.
 fn length(v: Vector) -> f64 {
     let largest = v.abs().max_element();
     if largest == 0.0 { 0.0 } else { (v / largest).length() * largest }

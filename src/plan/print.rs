@@ -1,4 +1,4 @@
-//! A Plan for people to read: `lucarne plan`.
+//! Formats a Plan for `lucarne plan`.
 
 use std::fmt::{self, Write};
 
@@ -6,18 +6,18 @@ use super::{Antialias, Called, Effect, Kernel, Kind, Measured, Plan, Precision};
 use crate::source::{Site, Sources, Span};
 use crate::world::Coinciding;
 
-/// Places named for one effect; the rest are counted.
+/// Maximum number of locations printed for one effect; the rest are counted.
 const PLACES_SHOWN: usize = 3;
 
-/// What is to be said of single precision where it is asked for and not enough.
+/// Note for scenes that exceed single precision when it is requested.
 pub const BEYOND_SINGLE: &str =
     "single precision cannot resolve this range: its 24 bits tell 17 million sizes apart";
 
-/// Characters shown of a piece of the text.
+/// Maximum number of characters quoted from the source.
 const QUOTE: usize = 48;
 
-/// The knobs and the kernel; each effect, on with what called for it and what it costs, or off and
-/// why; what was dropped; what is hard on the numbers.
+/// Formats the settings and the kernel; each effect, with its cause and cost or the reason why it is off;
+/// what was dropped; and the numerical difficulties.
 pub fn dump(plan: &Plan, sources: &Sources) -> String {
     let mut out = String::new();
     let printer = Printer { plan, sources };
@@ -207,19 +207,19 @@ impl Printer<'_> {
         writeln!(out, ")")
     }
 
-    /// Rays a camera ray, as rays a pixel and of the whole picture.
+    /// Formats rays per camera ray, as rays per pixel and in total.
     fn counted(&self, rays: f64) -> String {
         let each = rays * self.plan.camera_rays_a_pixel();
         if each == 0.0 {
             return a_pixel(each);
         }
-        // A pilot that had to look less deep counts some of them only.
+        // A pilot with reduced depth counts only some of the rays.
         let is_short = self.plan.pilot.is_some_and(|pilot| pilot.depth.is_some());
         let (least, about) = if is_short { ("at least ", "") } else { ("", "about ") };
         format!("{least}{}, {about}{}", a_pixel(each), round(rays * self.plan.camera_rays()))
     }
 
-    /// The first places, and how many more.
+    /// Lists the first locations, and the number of the rest.
     fn list(&self, places: &[Span]) -> String {
         let first = places.iter().take(PLACES_SHOWN).map(|span| self.sources.place(*span));
         let first = first.collect::<Vec<_>>().join(", ");
@@ -233,7 +233,7 @@ impl Printer<'_> {
         site.map_or(String::new(), |site| format!("  ({})", self.sources.place(site.span)))
     }
 
-    /// The text of a place on one line, or as much of it as fits.
+    /// Returns the source text of a location on one line, truncated to fit.
     fn quote(&self, site: Site) -> String {
         let words: Vec<&str> = self.sources.text(site.span).split_whitespace().collect();
         let text = words.join(" ");
@@ -244,7 +244,7 @@ impl Printer<'_> {
     }
 }
 
-/// So many rays of a pixel: few are not none.
+/// Formats a number of rays per pixel; small numbers are not rounded to zero.
 pub fn a_pixel(rays: f64) -> String {
     match rays {
         0.0 => "none sent by the pilot".to_owned(),
@@ -253,7 +253,7 @@ pub fn a_pixel(rays: f64) -> String {
     }
 }
 
-/// Why a kind of shape has no half width.
+/// Explains why a kind of shape has no half width.
 pub fn without_end(word: &str) -> String {
     match word {
         "plane" => "a plane has no end".to_owned(),
@@ -261,7 +261,7 @@ pub fn without_end(word: &str) -> String {
     }
 }
 
-/// A number, as one part of so many where it is.
+/// Formats a number, as a fraction `1/n` if it is one.
 pub fn part(value: f64) -> String {
     match 1.0 / value {
         parts if parts > 1.0 && parts.round() == parts => format!("1/{parts}"),
@@ -269,12 +269,12 @@ pub fn part(value: f64) -> String {
     }
 }
 
-/// `1 part`, `2 parts`.
+/// Formats a count with its noun: `1 part`, `2 parts`.
 pub(super) fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
-/// Three digits, in the shortest form.
+/// Formats a number with three digits, in the shortest form.
 fn number(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     match rounded.abs() {
@@ -284,7 +284,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// A count to two digits, in groups of three.
+/// Formats a count rounded to two digits, with digits in groups of three.
 fn round(count: f64) -> String {
     let rounded: f64 = format!("{count:.1e}").parse().unwrap_or(count);
     let digits = format!("{rounded:.0}");

@@ -1,42 +1,42 @@
-//! Every word of the language: its family, its role, and one sentence about it.
+//! Lists every word of the language, with its family, its role, and a one-sentence description.
 //!
-//! **In:** nothing. **Out:** [`Word`], a closed enum, and what is known of each.
-//! **Invariant:** a spelling names one word. Contextual words are words only directly inside their
-//! block; everywhere else they are free as names.
+//! **In:** nothing. **Out:** [`Word`], a closed enum, and the properties of each word. **Invariant:** a
+//! spelling names one word. Contextual words are reserved only directly inside their block; elsewhere, they
+//! are free for use as names.
 
-/// How the main file's kind sets defaults; `docs/language.md` has the table.
+/// Language of the main file, which sets the defaults; see the table in `docs/language.md`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Dialect {
-    /// `.scene`: right-handed frame, lints on, the seed's own words.
+    /// `.scene`: right-handed coordinates, lints enabled, lucarne's own words.
     #[default]
     Scene,
-    /// `.pov`: POV-Ray's left-handed frame and defaults.
+    /// `.pov`: POV-Ray's left-handed coordinates and defaults.
     Pov,
 }
 
-/// What a word belongs to. The families are the chapters of `docs/language.md`.
+/// Group of related words. The families are the chapters of `docs/language.md`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Family {
-    /// After a `#`, and the modes of `#fopen`.
+    /// Used after a `#`; also the modes of `#fopen`.
     Directive,
-    /// Opens a shape's block.
+    /// Opens the block of a shape.
     Shape,
-    /// A part of a shape's block.
+    /// Part of the block of a shape.
     ShapeItem,
-    /// Makes one object of several.
+    /// Combines several objects into one.
     Csg,
     /// Changes an object.
     Modifier,
     Transform,
     /// Textures, pigments, normals, and maps of them.
     Texture,
-    /// A function from points to numbers.
+    /// Function from points to numbers.
     Pattern,
-    /// A part of a pattern's block: maps, waves, turbulence, warps, pictures.
+    /// Part of the block of a pattern: maps, waves, turbulence, warps, pictures.
     PatternItem,
-    /// A part of `finish`.
+    /// Part of `finish`.
     FinishItem,
-    /// Colours and their components.
+    /// Colors and their components.
     Color,
     /// `camera` and its parts.
     Camera,
@@ -48,55 +48,55 @@ pub enum Family {
     Atmosphere,
     /// `global_settings`, radiosity and photons.
     Setting,
-    /// A function that gives a number.
+    /// Function that returns a number.
     FloatFunction,
-    /// A function that gives a vector.
+    /// Function that returns a vector.
     VectorFunction,
-    /// A function that gives a string.
+    /// Function that returns a string.
     StringFunction,
-    /// A word that is a value.
+    /// Constant value.
     Constant,
-    /// Makes values of other kinds: functions, arrays.
+    /// Creates values of other kinds: functions, arrays.
     Definition,
-    /// A format of files or strings.
+    /// Format of files or strings.
     FileKind,
 }
 
-/// How a word may stand in a text.
+/// Syntactic role of a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Role {
-    /// An item of its own: `sphere`, `rotate`, `rgb`.
+    /// Item of its own: `sphere`, `rotate`, `rgb`.
     Statement,
-    /// An operand: `x`, `pi`, `clock`.
+    /// Operand: `x`, `pi`, `clock`.
     Value,
-    /// An operand once called with its arguments in parentheses.
+    /// Function: an operand when called with arguments in parentheses.
     Function {
-        /// It takes exactly one argument, so the parentheses hold a full expression.
+        /// Takes exactly one argument, so that the parentheses contain a full expression.
         one_argument: bool,
     },
 }
 
-/// What this version does with a word.
+/// Support for a word in this version.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Standing {
     Built,
-    /// Known; what it stands for is poison.
+    /// Recognized, but not supported: its value is poison.
     Later,
-    /// Read, its arguments checked, and without effect on any picture.
+    /// Parsed, with its arguments checked, but without effect on the picture.
     Inert {
-        /// Until one of these is built: then it is to be built, too.
+        /// Words whose implementation requires this one to be implemented, too.
         until: &'static [Word],
     },
 }
 
 /// One row of the table.
 struct Row {
-    /// The spellings, the usual one first.
+    /// Spellings, the preferred one first.
     names: &'static [&'static str],
     family: Family,
     role: Role,
     standing: Standing,
-    /// The opener of the only block it is a word in.
+    /// Word that opens the only block in which this one is reserved.
     block: Option<Word>,
     sentence: &'static str,
 }
@@ -116,7 +116,7 @@ macro_rules! vocabulary {
             pub const ALL: &[Word] = &[$($(Word::$variant),*),*];
         }
 
-        /// Row `n` tells about `Word::ALL[n]`.
+        /// Row `n` describes `Word::ALL[n]`.
         pub(super) static ROWS: &[Row] = &[$($(Row {
             names: &[$($name),+],
             family: Family::$family,
@@ -146,10 +146,10 @@ pub use standard::{
 use words::ROWS;
 pub use words::Word;
 
-/// Names that stand for a value before the first line, and may be declared anew like any other.
+/// Names with a value before the first line, which may be redeclared like any other name.
 ///
-/// **Source:** POV-Ray 3.7 manual, section 3.3.1.5.6 "Built-in Variables"; the program refuses none
-/// of them in `#declare`.
+/// **Source:** POV-Ray 3.7 manual, section 3.3.1.5.6 "Built-in Variables"; the program accepts all of them
+/// in `#declare`.
 pub const PREDECLARED: &[(&str, &str)] = &[
     ("image_width", "the picture's width in pixels"),
     ("image_height", "the picture's height in pixels"),
@@ -167,7 +167,7 @@ impl Word {
         &ROWS[self as usize]
     }
 
-    /// The reserved word of this spelling. Contextual words have none outside their block.
+    /// Returns the reserved word with this spelling. Contextual words are not found.
     pub fn from_name(name: &str) -> Option<Self> {
         let mut slot = hash(name.as_bytes()) % SLOTS;
         while let Some((word, spelling)) = TABLE[slot] {
@@ -179,7 +179,7 @@ impl Word {
         None
     }
 
-    /// The word that `name` is directly inside the block that `block` opened, and nowhere else.
+    /// Returns the word that `name` is directly inside a block opened by `block`, and only there.
     pub fn contextual(name: &str, block: Word) -> Option<Self> {
         CONTEXTUAL
             .iter()
@@ -187,12 +187,12 @@ impl Word {
             .find(|word| word.row().block == Some(block) && word.row().names.contains(&name))
     }
 
-    /// The usual spelling: `color`, never `colour`.
+    /// Returns the preferred spelling: `color`, never `colour`.
     pub fn name(self) -> &'static str {
         self.row().names[0]
     }
 
-    /// Every spelling, the usual one first.
+    /// Returns all spellings, the preferred one first.
     pub fn names(self) -> &'static [&'static str] {
         self.row().names
     }
@@ -209,17 +209,17 @@ impl Word {
         self.row().standing
     }
 
-    /// True if a scene may use it in this version; else its value is poison.
+    /// Whether a scene may use the word in this version; otherwise, its value is poison.
     pub fn is_built(self) -> bool {
         self.standing() != Standing::Later
     }
 
-    /// True if a scene may use it and it changes nothing.
+    /// Whether a scene may use the word, but it has no effect.
     pub fn is_inert(self) -> bool {
         matches!(self.standing(), Standing::Inert { .. })
     }
 
-    /// What a word of old versions is called today.
+    /// Returns the current name of an obsolete word.
     pub fn today(self) -> Option<Word> {
         match self {
             Word::Composite => Some(Word::Union),
@@ -228,24 +228,24 @@ impl Word {
         }
     }
 
-    /// The opener of the only block it is a word in, for a contextual word.
+    /// Returns the word that opens the only block in which this contextual word is reserved.
     pub fn block(self) -> Option<Word> {
         self.row().block
     }
 
-    /// One sentence: what it means, its parameters, units and default.
+    /// Returns a one-sentence description: meaning, parameters, units and default.
     pub fn sentence(self) -> &'static str {
         self.row().sentence
     }
 }
 
-/// The words that are free as names outside their block.
+/// Words that are free for use as names outside their block.
 const CONTEXTUAL: [Word; 5] = [Word::File, Word::Kd, Word::Ks, Word::PhongExponent, Word::Shift];
 
-/// A little more than four slots a spelling, so that most look-ups compare one string.
+/// Size of the hash table: more than four slots per spelling, so that most lookups compare one string.
 const SLOTS: usize = 2048;
 
-/// Reserved spellings by their hash, with linear probing.
+/// Hash table of reserved spellings, with linear probing.
 static TABLE: [Option<(Word, &str)>; SLOTS] = table();
 
 const fn table() -> [Option<(Word, &'static str)>; SLOTS] {
@@ -267,7 +267,7 @@ const fn table() -> [Option<(Word, &'static str)>; SLOTS] {
     table
 }
 
-/// FNV-1a, 32 bits: short, and computed while compiling too.
+/// Computes the FNV-1a hash, 32 bits, which is short and can be computed at compile time.
 ///
 /// **Source:** Fowler, Noll, Vo, "The FNV Non-Cryptographic Hash Algorithm".
 const fn hash(name: &[u8]) -> usize {

@@ -1,42 +1,42 @@
-//! The includes that come with POV-Ray, and the names that each declares.
+//! Lists the includes that ship with POV-Ray, and the names that each declares.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-/// One line for each include, without its `.inc`: `colors: Aquamarine BakersChoc …`. Names that only tell
-/// that an include was read are left out. The first line that has a name is the include to name: `stones`
-/// and `glass` have those of the files that they include, too.
+/// One line per include, without the extension `.inc`: `colors: Aquamarine BakersChoc …`. Names that only
+/// record that an include was read are omitted. If several lines have a name, the first is the include to
+/// suggest: `stones` and `glass` also have the names of the files they include.
 ///
-/// **Source:** every `#declare` and `#macro` outside of macros in the includes of POV-Ray 3.7; their
-/// list is in its manual, section 3.4.9 "Include Files".
+/// **Source:** every `#declare` and `#macro` outside of macros in the includes of POV-Ray 3.7; its manual
+/// lists them in section 3.4.9 "Include Files".
 const TABLE: &str = include_str!("includes.txt");
 
 fn rows() -> impl Iterator<Item = (&'static str, &'static str)> {
     TABLE.lines().filter_map(|line| line.split_once(':'))
 }
 
-/// Whether a file of this name comes with POV-Ray.
+/// Whether a file with this name ships with POV-Ray.
 pub fn is_standard_include(file: &str) -> bool {
     file.strip_suffix(".inc").is_some_and(|name| rows().any(|(include, _)| include == name))
 }
 
-/// Whether a text is one of those files, wherever it lies, or one of our own in its place.
+/// Whether a text is one of those files, wherever it is located, or lucarne's replacement for one.
 pub fn is_standard_source(path: &str) -> bool {
     is_standard_include(path.rsplit(['/', '\\', ':']).next().unwrap_or(path))
 }
 
-/// The includes that come with POV-Ray, without their `.inc`.
+/// Returns the includes that ship with POV-Ray, without the extension `.inc`.
 pub fn standard_includes() -> impl Iterator<Item = &'static str> {
     rows().map(|(include, _)| include)
 }
 
-/// The names that an include declares.
+/// Returns the names that an include declares.
 pub fn standard_names(file: &str) -> impl Iterator<Item = &'static str> {
     let row = rows().find(|(include, _)| file.strip_suffix(".inc") == Some(*include));
     row.map_or("", |(_, names)| names).split_whitespace()
 }
 
-/// The include, as `#include` names it, that declares `name`.
+/// Returns the include that declares `name`, as written in `#include`.
 pub fn standard_include_of(name: &str) -> Option<String> {
     static INCLUDES: LazyLock<HashMap<&str, &str>> = LazyLock::new(|| {
         let mut all = HashMap::new();

@@ -1,9 +1,9 @@
-//! The table of all words, by family. One row: variant, spelling (and older spellings), role, whether
-//! this version builds it or it is inert (until what), the block it is confined to where it is
-//! contextual, one sentence.
+//! The table of all words, by family. Each row has the variant, the spelling (and older spellings), the
+//! role, whether this version supports the word or it is inert (and until what), the block to which a
+//! contextual word is confined, and a one-sentence description.
 //!
-//! **Source:** POV-Ray 3.7 manual, section 3.3.1.2 "Keywords"; each was tried on the program with
-//! `#declare word = 1;`, which refuses exactly the words that are reserved.
+//! **Source:** POV-Ray 3.7 manual, section 3.3.1.2 "Keywords"; each was tested in the program with
+//! `#declare word = 1;`, which is rejected for exactly the reserved words.
 
 vocabulary! {
     Directive {

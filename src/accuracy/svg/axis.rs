@@ -1,12 +1,12 @@
-//! A logarithmic scale between two places of the page.
+//! A logarithmic scale between two positions on the page.
 //!
-//! **Invariant:** equal ratios are equal lengths, and at least two ticks have numbers.
+//! **Invariant:** equal ratios have equal lengths, and at least two ticks have numbers.
 
 use crate::math::elementary::{log10, pow};
 
-/// The least ratio of its ends.
+/// Minimum ratio of the scale's ends.
 const LEAST: f64 = 4.0;
-/// Room around the values.
+/// Margin around the values, as a factor.
 const ROOM: f64 = 1.4;
 
 pub struct Axis {
@@ -17,7 +17,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Holds all values that a logarithm has, with room around them.
+    /// Creates a scale for all positive finite values, with a margin around them.
     pub fn around(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Self {
         let valid = values.filter(|value| value.is_finite() && *value > 0.0);
         let ends = |(low, high): (f64, f64), v: f64| (low.min(v), high.max(v));
@@ -27,15 +27,15 @@ impl Axis {
         Self { low: low / more, high: high * more, from, to }
     }
 
-    /// The place of a value, or of the end it lies beyond.
+    /// Returns the position of a value, clamped to the ends of the scale.
     pub fn at(&self, value: f64) -> f64 {
         let value = value.clamp(self.low, self.high);
         let part = log10(value / self.low) / log10(self.high / self.low);
         self.from + part * (self.to - self.from)
     }
 
-    /// Lines at 1 … 9 times powers of ten; numbers stand at 1, and where there is room at 2 and 5, or
-    /// at all.
+    /// Returns grid lines at 1 … 9 times powers of ten, each with whether it has a number: those at 1 do,
+    /// at least in every other decade, and, if there is room, those at 2 and 5, or all.
     pub fn ticks(&self) -> Vec<(f64, bool)> {
         let decades = log10(self.high / self.low);
         let named = |digit: u32, exponent: i32| match digit {
@@ -56,7 +56,7 @@ impl Axis {
     }
 }
 
-/// A digit times a power of ten, in as few characters as will do.
+/// Formats a digit times a power of ten, as short as possible.
 pub fn number(value: f64) -> String {
     let exponent = log10(value * 1.000_001).floor();
     if (-3.0..4.0).contains(&exponent) {

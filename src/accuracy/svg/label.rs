@@ -1,13 +1,13 @@
-//! Where names go in a diagram: beside what they name, and over nothing.
+//! Places labels in a diagram next to their points, without overlaps.
 //!
-//! **Invariant:** a placed box lies in the frame and meets no marker and no other label; one that fits
-//! nowhere is left out. The same input gives the same places.
+//! **Invariant:** a placed box lies in the frame and overlaps no marker and no other label; labels that do
+//! not fit anywhere are omitted. The same input gives the same positions.
 //!
-//! **Source:** candidate places of rising badness, taken one label after the other: J. Christensen,
-//! J. Marks, S. Shieber, "An empirical study of algorithms for point-feature label placement", ACM TOG
-//! 14, 1995, §3.1 (greedy).
+//! **Source:** greedy choice among candidate positions in order of increasing badness, one label after the
+//! other: J. Christensen, J. Marks, S. Shieber, "An empirical study of algorithms for point-feature label
+//! placement", ACM TOG 14, 1995, §3.1.
 
-/// Of an upright rectangle, y down.
+/// An axis-aligned rectangle; y points down.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rectangle {
     pub left: f64,
@@ -17,7 +17,7 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
-    /// All points within `reach` of one, each way.
+    /// Returns the square with half width `reach` around a point.
     pub fn about((x, y): (f64, f64), reach: f64) -> Self {
         Self { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach }
     }
@@ -36,12 +36,12 @@ impl Rectangle {
             && self.bottom >= other.bottom
     }
 
-    /// Its point nearest to another.
+    /// Returns the point of the rectangle nearest to the given one.
     pub fn nearest(&self, (x, y): (f64, f64)) -> (f64, f64) {
         (x.clamp(self.left, self.right), y.clamp(self.top, self.bottom))
     }
 
-    /// Whether a line from one point to another passes through it (Liang and Barsky's clipping).
+    /// Whether a line segment passes through the rectangle (Liang–Barsky clipping).
     fn is_crossed(&self, (from, to): Line) -> bool {
         let (mut enters, mut leaves) = (0.0f64, 1.0f64);
         let sides = [(from.0, to.0, self.left, self.right), (from.1, to.1, self.top, self.bottom)];
@@ -60,26 +60,26 @@ impl Rectangle {
     }
 }
 
-/// From one point to another.
+/// Line segment between two points.
 pub type Line = ((f64, f64), (f64, f64));
 
-/// What stands in the diagram.
+/// Content of the diagram.
 #[derive(Debug, Clone)]
 pub struct Layout {
-    /// No label leaves it.
+    /// Area that labels must not leave.
     pub frame: Rectangle,
-    /// No label meets them: markers, and the labels placed so far.
+    /// Areas that labels must not overlap: markers, and the labels placed so far.
     pub taken: Vec<Rectangle>,
-    /// A label would rather not meet them.
+    /// Lines that labels should avoid.
     pub lines: Vec<Line>,
 }
 
-/// Of a label beyond its text.
+/// Height of a label's box above and below the baseline, relative to the font size.
 const ABOVE: f64 = 0.8;
 const BELOW: f64 = 0.25;
-/// Between a point and its label, outward.
+/// Distances between a point and its label, in the order in which they are tried.
 const DISTANCES: [f64; 10] = [9.0, 12.0, 17.0, 24.0, 33.0, 45.0, 60.0, 80.0, 105.0, 135.0];
-/// From the best place to the worst: to the right and above, where the front is not.
+/// Directions from best to worst: the best is to the right and above, away from the front.
 const DIRECTIONS: [(f64, f64); 16] = [
     (0.7, -0.7),
     (1.0, 0.0),
@@ -98,11 +98,11 @@ const DIRECTIONS: [(f64, f64); 16] = [
     (-0.4, 0.9),
     (-0.9, 0.4),
 ];
-/// What a line under a label costs, in units of distance.
+/// Cost of a line under a label, in units of distance.
 const CROSSED: f64 = 14.0;
 const HIDDEN: f64 = 40.0;
 
-/// Which part of a text its place is that of.
+/// Part of a text that its position refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     Start,
@@ -111,7 +111,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// How much of the text is before its place.
+    /// Returns the fraction of the text that lies before its position.
     fn part(self) -> f64 {
         match self {
             Self::Start => 0.0,
@@ -121,12 +121,12 @@ impl Side {
     }
 }
 
-/// Where a text of `size` stands on its line whose box is as given.
+/// Returns the position on the baseline of a text of `size` with the given box.
 pub fn baseline(of: &Rectangle, side: Side, size: f64) -> (f64, f64) {
     (of.left + side.part() * (of.right - of.left), of.top + ABOVE * size)
 }
 
-/// The box of a text that stands at `(x, y)`.
+/// Returns the box of a text at `(x, y)`.
 pub fn text_box(text: &str, size: f64, side: Side, (x, y): (f64, f64)) -> Rectangle {
     let wide = width(text, size);
     let left = x - side.part() * wide;
@@ -134,7 +134,7 @@ pub fn text_box(text: &str, size: f64, side: Side, (x, y): (f64, f64)) -> Rectan
 }
 
 impl Layout {
-    /// Finds a place for a text beside a point, and takes it.
+    /// Finds a position for a text next to a point, and marks it as taken.
     pub fn place(&mut self, text: &str, size: f64, (x, y): (f64, f64)) -> Option<Rectangle> {
         let (wide, high) = (width(text, size), (ABOVE + BELOW) * size);
         let mut best: Option<(f64, Rectangle)> = None;
@@ -164,9 +164,10 @@ impl Layout {
     }
 }
 
-/// About how wide a text is at most: Helvetica's advances, and a seventh more for wider faces.
+/// Returns the approximate maximum width of a text: the advances of Helvetica, plus a seventh for wider
+/// fonts.
 ///
-/// **Source:** Adobe Font Metrics of Helvetica, in thousandths of the size.
+/// **Source:** Adobe Font Metrics of Helvetica, in thousandths of the font size.
 pub fn width(text: &str, size: f64) -> f64 {
     let advance = |letter: char| match letter {
         'i' | 'j' | 'l' | '\'' | '’' => 222.0,
@@ -184,7 +185,7 @@ pub fn width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * 1.15 * size / 1000.0
 }
 
-/// As much of the beginning of a text as there is room for.
+/// Truncates a text to the available width.
 pub fn fitted(text: &str, size: f64, room: f64) -> String {
     if width(text, size) <= room {
         return text.to_owned();

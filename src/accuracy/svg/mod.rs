@@ -1,11 +1,10 @@
-//! The report as a work-precision diagram: error against time, both logarithmic.
+//! Draws the report as a work-precision diagram: error against time, both logarithmic.
 //!
-//! **Out:** one SVG that stands on a light page and on a dark one, and is fit for print. **Invariant:**
-//! knobs are told apart by colour and by shape; every point says what it is when pointed at; no text leaves the
-//! page, meets another or covers a marker.
+//! **Out:** one SVG for light and dark pages and for print. **Invariant:** knobs differ in color and in
+//! shape; every point has a tooltip; no text leaves the page, overlaps another text or covers a marker.
 //!
-//! **Source:** the form is that of E. Hairer, G. Wanner, Solving Ordinary Differential Equations II;
-//! the colours are M. Okabe's and K. Ito's, which the colour-blind tell apart.
+//! **Source:** the form follows E. Hairer, G. Wanner, Solving Ordinary Differential Equations II; the
+//! colors are those of M. Okabe and K. Ito, which color-blind readers can distinguish.
 
 mod axis;
 mod label;
@@ -23,14 +22,14 @@ const HEIGHT: f64 = 520.0;
 const LEFT: f64 = 78.0;
 const RIGHT: f64 = WIDTH - 30.0;
 const BOTTOM: f64 = HEIGHT - 62.0;
-/// Of the first line of the legend, and from one to the next.
+/// Position of the first line of the legend, and distance between lines.
 const LEGEND: f64 = 72.0;
 const LEGEND_LINE: f64 = 20.0;
-/// Of text: as a rule, of the head, and of small print.
+/// Font sizes: default, title, and small print.
 const TEXT: f64 = 13.0;
 const BIG: f64 = 16.0;
 const SMALL: f64 = 11.0;
-/// Around a point: its marker, and the ring around the picture as rendered.
+/// Radius around a point: of its marker, and of the ring around the picture as rendered.
 const MARKER: f64 = 5.4;
 const RING: f64 = 8.0;
 
@@ -50,7 +49,7 @@ text{font:13px Helvetica,Arial,'Liberation Sans',sans-serif;fill:#222}
 .k0{fill:#4aa8e0;stroke:#4aa8e0}.k1{fill:#ff8a3d;stroke:#ff8a3d}.k2{fill:#2fd0a0;stroke:#2fd0a0}
 .k4{fill:#f0b429;stroke:#f0b429}}";
 
-/// The diagram as a file.
+/// Returns the diagram as the text of an SVG file.
 pub fn text(report: &Report, file: &str, host: &Host) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
@@ -58,20 +57,20 @@ pub fn text(report: &Report, file: &str, host: &Host) -> String {
     out
 }
 
-/// The report and where things lie.
+/// The report and the layout of the diagram.
 struct Diagram<'a> {
     report: &'a Report,
     x: Axis,
     y: Axis,
-    /// Of the plot.
+    /// Upper edge of the plot.
     top: f64,
-    /// What the markers mean, each with its place.
+    /// Entries of the legend, each with its position.
     legend: Vec<(Key, (f64, f64))>,
-    /// The rows that none dominates, by their time.
+    /// Rows that no other dominates, in order of time.
     standing: Vec<usize>,
 }
 
-/// What is explained in the legend.
+/// Entry of the legend.
 #[derive(Clone, Copy)]
 enum Key {
     Knob(usize),
@@ -222,8 +221,8 @@ impl<'a> Diagram<'a> {
         (self.x.at(time), self.y.at(self.report.error(row).value))
     }
 
-    /// The least error so far, as time goes on: what is paid first, then what it buys. Nothing lies left
-    /// of it and below: what another dominates takes longer than that, and is no better.
+    /// Returns the line of the least error so far over time. No point lies below and to the left of it,
+    /// because a dominated setting takes longer than another and is no better.
     fn path(&self) -> Vec<(f64, f64)> {
         let mut path: Vec<(f64, f64)> = Vec::new();
         for (x, y) in self.standing.iter().map(|&row| self.place(row)) {
@@ -236,7 +235,7 @@ impl<'a> Diagram<'a> {
         path
     }
 
-    /// The interval of a row and the span of its runs.
+    /// Returns the error interval of a row, and the span of its run times.
     fn bars(&self, row: usize) -> [Line; 2] {
         let (x, y) = self.place(row);
         let error = self.report.error(row);
@@ -274,7 +273,7 @@ impl<'a> Diagram<'a> {
         Ok(())
     }
 
-    /// The names of the points of the front.
+    /// Draws the names of the points of the front.
     fn labels(&self, out: &mut String, floor: Option<f64>) -> Result {
         let frame = Rectangle { left: LEFT, top: self.top, right: RIGHT, bottom: BOTTOM };
         let rows = || self.report.knobs.iter().flat_map(|knob| &knob.settings).map(|s| s.row);
@@ -340,10 +339,10 @@ impl Key {
     }
 }
 
-/// As many as colours.
+/// Number of marker shapes; equal to the number of colors.
 const SHAPES: usize = 6;
 
-/// A shape for each knob.
+/// Draws the marker of a knob.
 fn marker(number: usize, x: f64, y: f64, with: &str) -> String {
     match number % SHAPES {
         0 => format!("<circle{with} cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.2\"/>"),

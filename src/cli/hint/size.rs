@@ -1,9 +1,9 @@
-//! A size in pixels that was given in another form than `--size 320x240`.
+//! Recognizes sizes in pixels that are not written as `--size 320x240`.
 //!
-//! **In:** the words of the command line. **Out:** the size that is meant; where only one side is given, the
-//! other is that of a 4:3 picture.
+//! **In:** the words of the command line. **Out:** the intended size. If only one side is given, the other
+//! one makes the picture 4:3.
 
-/// The words that give a size, as typed, and what they mean.
+/// The words that specify a size, as typed, and the size they mean.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Meant {
     pub typed: String,
@@ -11,18 +11,18 @@ pub struct Meant {
     pub height: u32,
 }
 
-/// Whether an option that nobody knows gives a size: `--width`, `-w`, `+H240`.
+/// Whether an unknown option specifies a size: `--width`, `-w`, `+H240`.
 pub fn is_size(word: &str) -> bool {
     matches!(word, "--width" | "--height") || switch(word).is_some()
 }
 
-/// Whether a width and a height stand behind `--size` as two words.
+/// Whether `--size` is followed by width and height as two words.
 pub fn is_parted(words: &[String]) -> bool {
     let is_number = |word: &String| word.parse::<u32>().is_ok();
     words.windows(3).any(|three| three[0] == "--size" && three[1..].iter().all(is_number))
 }
 
-/// The size that is meant by the words before `--`, if one is.
+/// Returns the size specified by the words before `--`, if any.
 pub fn meant(words: &[String]) -> Option<Meant> {
     let (mut typed, mut width, mut height) = (Vec::new(), None, None);
     let mut rest = words.split(|word| word == "--").next()?;
@@ -69,7 +69,7 @@ pub fn meant(words: &[String]) -> Option<Meant> {
     (is_side(width) && is_side(height)).then(|| Meant { typed: typed.join(" "), width, height })
 }
 
-/// POV-Ray's `+W320`, `-w` and the like: which side, and the number that is written with it.
+/// Parses `+W320`, `-w` and similar switches into the side and the attached number.
 fn switch(word: &str) -> Option<(&'static str, &str)> {
     let word = word.strip_prefix(['+', '-'])?;
     let side = match word.get(..1)? {
@@ -81,7 +81,7 @@ fn switch(word: &str) -> Option<(&'static str, &str)> {
     value.bytes().all(|byte| byte.is_ascii_digit()).then_some((side, value))
 }
 
-/// `320*240`, `320, 240` or `320 240`; `320x` is a width.
+/// Parses `320*240`, `320, 240` or `320 240`; `320x` is a width.
 fn sides(value: &str) -> Option<(Option<u32>, Option<u32>)> {
     let value = value.trim();
     let behind = value.trim_start_matches(|c: char| c.is_ascii_digit());

@@ -1,21 +1,24 @@
-//! Where a label's text stands: right of its bar; where it does not fit there, left of it, if that takes fewer rows.
+//! Positions the text of a label: to the right of its bar or, if it does not fit there, to the left if that
+//! takes fewer rows.
 //!
-//! miette knows the right side only. It is given a mark for each text, and the rows that it drew are completed here.
+//! miette only supports the right side. It is given a mark in place of each text, and the marks are
+//! replaced in the rows that it drew.
 
 use super::super::cut::columns;
 use super::super::wrap::{balanced, wrapped};
 
-/// Text is drawn over other labels' bars rather than in less room than this.
+/// Minimum columns for a text; with less room, it is drawn over the bars of other labels.
 const LEAST: usize = 10;
-/// The columns from a bar to its text.
+/// Columns between a bar and its text.
 const ARM: usize = 4;
 
-/// What stands for the text of a label: no author's text holds such a character once it is visible.
+/// Returns the mark that stands in for the text of a label. It does not occur in source text that was made
+/// visible.
 pub fn mark(label: usize) -> String {
     format!("\u{1}{label}\u{2}")
 }
 
-/// The drawing with each mark replaced by its text, in a window of `width` columns.
+/// Replaces each mark in a drawing by its text, for a window of `width` columns.
 pub fn completed(drawn: &str, texts: &[String], width: usize) -> String {
     let mut text = String::new();
     for line in drawn.lines() {
@@ -25,7 +28,7 @@ pub fn completed(drawn: &str, texts: &[String], width: usize) -> String {
     text
 }
 
-/// The rows that a row with a mark becomes.
+/// Returns the rows that replace a row with a mark.
 fn row(line: &str, texts: &[String], width: usize) -> Option<Vec<String>> {
     let (before, rest) = line.split_once('\u{1}')?;
     let (label, after) = rest.split_once('\u{2}')?;
@@ -72,13 +75,13 @@ fn row(line: &str, texts: &[String], width: usize) -> Option<Vec<String>> {
     Some(lines.iter().enumerate().map(draw).collect())
 }
 
-/// What stands before the code that a row ends with, and that code.
+/// Splits a row before the escape code at its end, and returns both parts.
 fn before_code(row: &str) -> (&str, &str) {
     let code = row.rfind('\u{1b}').filter(|_| row.ends_with('m'));
     row.split_at(code.unwrap_or(row.len()))
 }
 
-/// The text of a label over several lines, which stands below the last of them.
+/// Returns the rows for the text of a multi-line label, which is placed below the last of its lines.
 fn below_lines(before: &str, text: &str, after: &str, width: usize) -> Vec<String> {
     let lines = balanced(text, width.saturating_sub(plain(before).count()).max(LEAST));
     let (arm, end) = before.rsplit_once('─').unwrap_or((before, ""));
@@ -91,7 +94,7 @@ fn below_lines(before: &str, text: &str, after: &str, width: usize) -> Vec<Strin
     lines.iter().enumerate().map(draw).collect()
 }
 
-/// The characters of a row with, for each, whether it is seen, or is part of a code that colours.
+/// Returns the characters of a row; for each, whether it is visible rather than part of a color code.
 fn seen(row: &str) -> impl Iterator<Item = (char, bool)> {
     let mut code = false;
     row.chars().map(move |c| {
@@ -106,7 +109,7 @@ fn plain(row: &str) -> impl Iterator<Item = char> {
     seen(row).filter(|(_, seen)| *seen).map(|(c, _)| c)
 }
 
-/// The first columns of a row, with all its colours.
+/// Returns the first columns of a row, with all of its color codes.
 fn beginning(row: &str, count: usize) -> String {
     let mut kept = 0;
     let keep = |&(_, seen): &(char, bool)| {

@@ -1,9 +1,9 @@
-//! What other tools, and people, call what the language has.
+//! Maps words of other tools, and everyday words, to lucarne's words for the same concept.
 //!
-//! **Invariant:** none of these is a word of the language where it is looked up: they are asked for names that
-//! are nothing here.
+//! **Invariant:** none of these is a word of the language in the context where it is looked up; they are
+//! only looked up for unknown names.
 
-/// Other tools' words, in lower case, and ours.
+/// Words of other tools in lower case, each with lucarne's word.
 pub(super) const FOREIGN: &[(&str, &str)] = &[
     // shapes
     ("ball", "sphere"),
