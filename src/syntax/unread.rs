@@ -18,7 +18,7 @@ use crate::vocabulary::Dialect;
 /// The most times that a text is parsed to find errors after those found before.
 const MOST_READINGS: usize = 16;
 
-/// Returns whether errors in parts that are never run are ignored.
+/// Returns whether bodies with errors are left as text: only in a `.pov`.
 pub(super) fn is_asked_for(options: &ParseOptions) -> bool {
     options.defers && options.dialect == Dialect::Pov
 }

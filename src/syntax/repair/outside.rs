@@ -35,8 +35,8 @@ impl Repair<'_> {
                     None => {}
                 }
             }
-            // Only statements that are adjacent to several blocks end more than the innermost; items around
-            // one that has ended before have ended, too.
+            // A token that begins no statement ends only the innermost item, unless it belongs beside several
+            // blocks; items around one that has ended before have ended, too.
             let ended = known.is_some_and(|outside| outside.certain);
             if !begins && (ended || !self.stands_beside(self.open[level].token, at)) {
                 break;
