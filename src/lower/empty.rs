@@ -1,9 +1,9 @@
 //! Lints operations that certainly leave nothing: parts that do not overlap, a part that is subtracted
-//! entirely, an object outside its clipping objects. Also lints parts that subtract nothing, such as those that
-//! are only a surface.
+//! entirely, an object outside its clipping objects. Also lints parts that subtract nothing, such as those
+//! that are only a surface.
 //!
-//! **In:** the parts of each operation, as they are placed. **Out:** lints. **Invariant:** reported where boxes
-//! around the parts prove it, or corners around the first part that lie in a convex one; an operation that a
+//! **In:** the parts of each operation, as they are placed. **Out:** lints. **Invariant:** reported where
+//! boxes around the parts prove it, or corners around the first part that lie in a convex one; an operation that a
 //! loop or a macro repeats is reported only if every repetition leaves nothing.
 
 mod gap;

@@ -158,7 +158,7 @@ impl Road<'_> {
         written.count() == scene.objects.iter().filter(|object| is_light(&object.kind)).count()
     }
 
-    /// Drops the report that a camera is in the dark if an error in its block, or in the object's, was
+    /// Drops `nothing-in-view` diagnostics if an error in the camera's block, or in the object's, was
     /// skipped: its position may be another.
     pub(super) fn drop_doubtful(&mut self, before: usize) {
         let is_error = |one: &&Diagnostic| one.is_error();

@@ -154,8 +154,8 @@ impl<'a> Nest<'a> {
         self.operand(ExpressionKind::Missing, before, false);
     }
 
-    /// `sphere { 0, 2 #if (A) * 3 #end }`: returns whether the operand is on the other side of a directive; only
-    /// inside a bracket or a block, or a function's formula.
+    /// `sphere { 0, 2 #if (A) * 3 #end }`: returns whether the operand is on the other side of a directive,
+    /// inside a bracket, a block or a function's formula.
     fn goes_on_behind_a_directive(&mut self) -> bool {
         let top = self.top();
         let (state, items, operators) = (top.state, top.items, top.operators);

@@ -132,7 +132,7 @@ impl Repair<'_> {
             matches!(open.opener, Opener::Bracket(Bracket::Round | Bracket::Square))
         });
         let blocks = self.open.len() - usize::from(inside && vector.is_none());
-        // What looks ended, or should have been closed before, is a mistake of its own.
+        // An item that seems to have ended, or should have been closed before, is a separate mistake.
         let inside_blocks = self.open[..blocks]
             .iter()
             .all(|open| !matches!(open.opener, Opener::Bracket(Bracket::Round | Bracket::Square)));
