@@ -3,8 +3,8 @@
 //! that are only a surface.
 //!
 //! **In:** the parts of each operation, as they are placed. **Out:** lints. **Invariant:** reported where
-//! boxes around the parts prove it, or corners around the first part that lie in a convex one; an operation that a
-//! loop or a macro repeats is reported only if every repetition leaves nothing.
+//! boxes around the parts prove it, or corners around the first part that lie in a convex one; an operation
+//! that a loop or a macro repeats is reported only if every repetition leaves nothing.
 
 mod gap;
 
