@@ -1,7 +1,8 @@
-//! The whole road in one place: what the command line, the tests and any other program call.
+//! The compilation pipeline, for the command line, the tests and any other program.
 //!
-//! **In:** a main file's text and a way to its includes. **Out:** each noun in turn; texts and
-//! messages gather beside. **Invariant:** every stage yields its noun, also from a broken input.
+//! **In:** a main file's text and access to its includes. **Out:** the result of each stage in turn; sources
+//! and diagnostics are collected alongside. **Invariant:** every stage yields a result, even from invalid
+//! input.
 
 mod again;
 mod dark;
@@ -18,22 +19,22 @@ use crate::syntax::{ParseOptions, legacy, parse};
 use crate::vocabulary::is_standard_include;
 use crate::world::{Origins, World};
 
-/// What the caller may choose about a scene.
+/// Options of the compilation.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// Which lints are told, and as what.
+    /// The level of each lint.
     pub levels: Levels,
-    /// Width and height in pixels of the picture that will be made, where it is known.
+    /// Width and height in pixels of the output picture, if known.
     pub picture: Option<(u32, u32)>,
-    /// Tell every old form of the main file, also where it is not run.
+    /// Report every old form in the main file, even in branches that are not run.
     pub legacy: bool,
-    /// Look for coinciding faces, though nobody may be told.
+    /// Search for coinciding faces even if no diagnostic would report them.
     pub coinciding: bool,
     pub evaluate: EvaluateOptions,
 }
 
 impl Options {
-    /// The defaults of a dialect: lints on for `.scene`, 640×480.
+    /// Returns the defaults of a dialect: lints on for `.scene`, 640×480.
     pub fn new(dialect: Dialect) -> Self {
         let evaluate = EvaluateOptions { dialect, ..EvaluateOptions::default() };
         Self {
@@ -46,7 +47,7 @@ impl Options {
     }
 }
 
-/// The dialect of a main file by its name: POV-Ray's for `.pov` and `.inc`, else ours.
+/// Returns the dialect of a main file by its name: POV-Ray's for `.pov` and `.inc`, else the native one.
 pub fn dialect(name: &str) -> Dialect {
     let lower = name.to_lowercase();
     match lower.ends_with(".pov") || lower.ends_with(".inc") {
@@ -55,13 +56,13 @@ pub fn dialect(name: &str) -> Dialect {
     }
 }
 
-/// A scene on its way, with the texts and the messages so far.
+/// A scene in the pipeline, with its sources and diagnostics so far.
 pub struct Road<'a> {
     files: &'a dyn Files,
     options: Options,
     pub sources: Sources,
     pub diagnostics: Diagnostics,
-    /// What the comments of the first `heard` sources allow.
+    /// The number of sources whose comments were searched for allowed lints.
     heard: usize,
 }
 
@@ -72,10 +73,10 @@ impl<'a> Road<'a> {
         Self { files, options, sources, diagnostics, heard: 0 }
     }
 
-    /// Takes in the main file as it lies on disk.
+    /// Reads the main file from its bytes.
     pub fn read(&mut self, name: &str, bytes: Vec<u8>) -> FileId {
         let wide = matches!(bytes.get(..2), Some([0xff, 0xfe] | [0xfe, 0xff]));
-        // The first byte that is not UTF-8, and how many bytes it and those before it become.
+        // The offset of the first byte that is not UTF-8, in the text decoded as Latin-1.
         let wrong = std::str::from_utf8(&bytes).err().map(|error| {
             let before = &bytes[..error.valid_up_to()];
             error.valid_up_to() + before.iter().filter(|byte| !byte.is_ascii()).count()
@@ -125,7 +126,7 @@ impl<'a> Road<'a> {
         ast
     }
 
-    /// How a file is encoded matters to nothing but what stands outside its comments.
+    /// Drops the diagnostic about a file's encoding if only its comments are affected.
     fn drop_encoding_of_comments(&mut self, ast: &Ast) {
         let is_its = |told: &Diagnostic| {
             told.code == Code::BadEncoding
@@ -143,7 +144,7 @@ impl<'a> Road<'a> {
     pub fn evaluate(&mut self, ast: Ast) -> Scene {
         let options = &self.options.evaluate;
         let mut before = self.diagnostics.len();
-        // Only a tree with faults has echoes; others are large, and gone when they have run.
+        // Only a tree with faults is searched for echoes; others are large, and dropped after evaluation.
         let faulty = self.diagnostics.has_errors().then(|| ast.clone());
         let scene = evaluate(ast, &mut self.sources, self.files, options, &mut self.diagnostics);
         if let Some(ast) = &faulty {
@@ -157,7 +158,7 @@ impl<'a> Road<'a> {
         self.with_loose_braces().unwrap_or(scene)
     }
 
-    /// Beyond a limit nothing is lowered: the scene is not whole, and its message was given.
+    /// Lowers the scene, unless it exceeded a limit: then it is incomplete, and that was reported.
     pub fn lower(&mut self, scene: Scene) -> (World, Origins) {
         if self.diagnostics.iter().any(|message| message.code == Code::ObjectLimit) {
             return (World::default(), Origins::default());
@@ -177,7 +178,7 @@ impl<'a> Road<'a> {
         lowered
     }
 
-    /// An old form that is an error, too, is told as that.
+    /// Drops the lint for an old form that is also reported as an error.
     fn drop_twice_told(&mut self) {
         let errors = self.diagnostics.iter().filter(|one| one.is_error());
         let mended: Vec<Vec<Fix>> =
@@ -186,7 +187,7 @@ impl<'a> Road<'a> {
             .retain_after(0, |one| one.code != Code::LegacyForm || !mended.contains(&one.fixes));
     }
 
-    /// Drops, of the messages after the first `len`, those that comments allow.
+    /// Drops those diagnostics after the first `len` that comments allow.
     fn silence(&mut self, len: usize) {
         for (file, source) in self.sources.iter().skip(self.heard) {
             let (allowed, told) = allowances(source, file);
@@ -199,7 +200,7 @@ impl<'a> Road<'a> {
         self.diagnostics.retain_after(len, |told| !is_of_a_standard_include(told, sources));
     }
 
-    /// From the main file to its World.
+    /// Compiles the main file to its World.
     pub fn compile(&mut self, name: &str, bytes: Vec<u8>) -> (World, Origins) {
         let file = self.read(name, bytes);
         let ast = self.parse(file);
@@ -208,10 +209,10 @@ impl<'a> Road<'a> {
     }
 }
 
-/// A lint about a file that comes with POV-Ray is no use to who includes it.
+/// Returns whether a lint is about a file that ships with POV-Ray, where its reader cannot act on it.
 fn is_of_a_standard_include(told: &Diagnostic, sources: &Sources) -> bool {
     let file = told.primary().map_or(FileId(0), |label| label.span.file);
-    // An opinion on what POV-Ray renders all the same.
+    // An error, by its code, that is lowered because POV-Ray renders the scene all the same.
     let is_opinion = told.code.severity() == Severity::Error && !told.is_error();
     if !(told.code.is_lint() || is_opinion) || file == FileId(0) {
         return false;

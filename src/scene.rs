@@ -1,8 +1,8 @@
-//! What the author meant: no macro, loop, include or name is left.
+//! The scene as the author meant it, after macros, loops, includes and names are resolved.
 //!
-//! **Invariant:** an object is a kind plus its modifiers *in written order* (a transform moves only
-//! what precedes it); numbers and degrees are still the author's. All trees are arenas: a child
-//! is an index, shared and never copied, and stands before its parents.
+//! **Invariant:** an object is a kind plus its modifiers *in written order* (a transform moves only what
+//! precedes it); numbers and degrees are still the author's. All trees are arenas: a child is an index,
+//! shared and never copied, and precedes its parents.
 
 pub mod blob;
 pub mod camera;
@@ -55,37 +55,37 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     pub background: Option<Background>,
     pub sky_sphere: Option<SkySphere>,
-    /// What stands in the scene itself, in written order: lights and solids.
+    /// The lights and solids placed in the scene itself, in written order.
     pub roots: Vec<Root>,
     pub objects: Vec<Object>,
     pub transforms: Vec<Vec<Step>>,
-    /// All of each transform as it was written.
+    /// The source range of each transform.
     pub transform_sites: Vec<Site>,
     pub textures: Vec<Texture>,
     pub pigments: Vec<Pigment>,
     pub finishes: Vec<Finish>,
-    /// Where each finish was written; a finish without an entry is a default.
+    /// The origin of each finish; a finish without an entry is a default.
     pub finish_origins: Vec<FinishOrigin>,
-    /// Names of the main file that nothing used.
+    /// Names declared in the main file and never used.
     pub unused: Vec<Unused>,
-    /// Branches of the main file that were not run, where its text had mistakes.
+    /// Branches of the main file that were not run and contain errors.
     pub skipped: Vec<Span>,
-    /// Shapes without size, told and left out: the word of each, and where.
+    /// Shapes without size, which were reported and left out: the keyword and the site of each.
     pub sizeless: Vec<(&'static str, Site)>,
     pub interiors: Vec<Interior>,
     pub expansions: Expansions,
 }
 
-/// A name that was declared, and that nothing used.
+/// A declared name that is never used.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unused {
-    /// `declare`, `local`, `macro`.
+    /// `declare`, `local` or `macro`.
     pub directive: &'static str,
     pub name: String,
     pub site: Site,
-    /// What it stands for is a light.
+    /// Its value is a light.
     pub is_light: bool,
-    /// What it stands for is a camera.
+    /// Its value is a camera.
     pub is_camera: bool,
 }
 
@@ -93,7 +93,7 @@ pub struct Unused {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Root {
     pub object: ObjectId,
-    /// The default texture where it was placed: for whatever in it has no texture.
+    /// The default texture at the point of placement, for every part without a texture.
     pub default_texture: TextureId,
 }
 
@@ -102,9 +102,9 @@ pub struct Object {
     pub kind: ObjectKind,
     /// In written order.
     pub modifiers: Vec<Modifier>,
-    /// The word that opened it.
+    /// The keyword that opened it.
     pub site: Site,
-    /// All of it, where the scene or a union holds it and would be whole without it; `None` for the
+    /// The whole object, if the scene or union that contains it remains valid without it; `None` for the
     /// value of a declaration and the like.
     pub item: Option<Site>,
 }
@@ -123,14 +123,14 @@ pub enum ObjectKind {
     LightSource(Box<LightSource>),
 }
 
-/// How several solids make one.
+/// An operation that combines several solids into one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Operation {
-    /// All of them together, without walls inside.
+    /// The union without interior surfaces.
     Merge,
-    /// What all of them share.
+    /// The intersection of all.
     Intersection,
-    /// The first without the others.
+    /// The first minus the others.
     Difference,
 }
 
@@ -155,23 +155,22 @@ pub enum ModifierKind {
     Transform(TransformId),
     /// Replaces the texture.
     Texture(TextureId),
-    /// Replaces the texture's pigment only (a texture always precedes it). As in POV-Ray
-    /// (measured) it stands where the other one stood: its own transforms come after all that the
-    /// other went through.
+    /// Replaces the texture's pigment only (a texture always precedes it). As in POV-Ray (measured) it keeps
+    /// the placement of the replaced one: its own transforms come after all those that moved the other.
     Pigment(PigmentId),
     /// Replaces the texture's finish only (a texture always precedes it).
     Finish(FinishId),
     /// Replaces the interior.
     Interior(InteriorId),
     NoShadow,
-    /// True: the camera does not see it. False undoes it for a declared object.
+    /// `true`: invisible to camera rays. `false` undoes this for a declared object.
     NoImage(bool),
-    /// Likewise, mirrors do not.
+    /// Likewise, for reflected rays.
     NoReflection(bool),
-    /// Likewise, it is lit on both sides by light on either.
+    /// Likewise, lights on either side illuminate both sides.
     DoubleIlluminate(bool),
     Inverse,
-    /// Only what lies in this object is left of the surface.
+    /// Keeps only the part of the surface inside this object.
     ClippedBy(ObjectId),
 }
 
@@ -180,7 +179,7 @@ pub enum ModifierKind {
 pub struct Texture {
     pub pigment: PigmentId,
     pub finish: FinishId,
-    /// Move the pigment, in written order.
+    /// Transforms of the pigment, in written order.
     pub transforms: Vec<TransformId>,
 }
 
@@ -189,15 +188,15 @@ pub struct Pigment {
     pub kind: PigmentKind,
     pub transforms: Vec<TransformId>,
     pub site: Site,
-    /// What has to be taken out of the text for it to have no pattern, each the smallest such piece; also
-    /// what those override, where it would show again.
+    /// The smallest source pieces to remove for it to have no pattern, including overridden ones that would
+    /// apply again.
     pub pattern: Vec<Site>,
-    /// Likewise, for no light to go through it.
+    /// Likewise, for it to let no light through.
     pub clear: Vec<Site>,
 }
 
 impl Pigment {
-    /// Where it was written; `None` for the default, whose place is empty.
+    /// Returns its site; `None` for the default, whose span is empty.
     pub fn written(&self) -> Option<Site> {
         Some(self.site).filter(|site| site.span.start < site.span.end)
     }
@@ -210,12 +209,12 @@ pub enum PigmentKind {
         pattern: Pattern,
         map: ColorMap,
     },
-    /// Each face of the mesh has its own, of these: `mesh::Face::paint`. At least one.
+    /// Each face of the mesh has its own of these, see `mesh::Face::paint`. At least one.
     Faces(Arc<[Color]>),
 }
 
 impl PigmentKind {
-    /// Its colours, without their places.
+    /// Returns its colours, without their map values.
     pub fn colors(&self) -> impl Iterator<Item = Color> {
         let (some, map) = match self {
             Self::Color(color) => (std::slice::from_ref(color), &[][..]),
@@ -226,13 +225,13 @@ impl PigmentKind {
     }
 }
 
-/// Colours over pattern values; entries sorted by value, at least one. Between two entries the
-/// colour is interpolated, outside it is that of the nearest.
+/// Colours over pattern values, at least one entry, sorted by value. Interpolated between entries; constant
+/// before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColorMap(pub Vec<(f64, Color)>);
 
 impl ColorMap {
-    /// The only colour of a map; black where it has none at all.
+    /// Returns the only colour of a map, black if it is empty; `None` if it has several.
     pub fn lone_color(&self) -> Option<Color> {
         let first = self.0.first().map_or(Color::BLACK, |(_, color)| *color);
         self.0.iter().all(|(_, color)| *color == first).then_some(first)
@@ -241,28 +240,28 @@ impl ColorMap {
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum Finish {
-    /// The seed's formula (`kd ks phong_exponent`).
+    /// The native formula (`kd ks phong_exponent`).
     Seed { kd: f64, ks: f64, phong_exponent: f64 },
-    /// POV-Ray's words.
+    /// POV-Ray's finish.
     Classic(ClassicFinish),
 }
 
-/// Where a finish was written. Each site is the smallest piece that can be taken out of the text, such as
-/// `phong 0.4`; what it overrides is listed too where it would show again.
+/// The origin of a finish. Each site is the smallest piece that can be removed from the source, such as
+/// `phong 0.4`; pieces that it overrides are listed too if they would apply again.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FinishOrigin {
-    /// The word `finish`.
+    /// The keyword `finish`.
     pub site: Option<Site>,
-    /// With the word that it is about.
+    /// Each highlight with its keyword.
     pub highlights: Vec<(Word, Site)>,
     pub reflection: Vec<Site>,
-    /// The old place of the index of refraction.
+    /// The sites of the old `ior` in a finish.
     pub ior: Vec<Site>,
-    /// Words whose last value is a weight of zero.
+    /// Keywords whose last value is a weight of zero.
     pub zeros: Vec<(Word, Site)>,
-    /// Without what is listed none of the seed's words is left.
+    /// Removing the listed pieces leaves none of the native keywords.
     pub all_of_seed: bool,
-    /// The first word of the seed's, and of POV-Ray's.
+    /// The first native keyword, and the first of POV-Ray's.
     pub seed: Option<(Word, Site)>,
     pub classic: Option<(Word, Site)>,
 }
@@ -281,10 +280,9 @@ pub struct ClassicFinish {
     /// 0: highlights have the light's colour, 1: the surface's.
     pub metallic: f64,
     pub reflection: Option<Reflection>,
-    /// What is reflected is not let through as well.
+    /// Reflected light is not transmitted as well.
     pub conserve_energy: bool,
-    /// The old place of the interior's index of refraction, which it outdoes (measured on POV-Ray
-    /// 3.7).
+    /// The old form of the interior's index of refraction, which it overrides (measured on POV-Ray 3.7).
     pub ior: Option<f64>,
 }
 
@@ -309,25 +307,25 @@ impl Default for ClassicFinish {
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reflection {
-    /// At grazing angles when `minimum` was given too, else at all angles.
+    /// At grazing angles if `minimum` was given too, else at all angles.
     pub maximum: Rgb,
-    /// Seen head-on.
+    /// At normal incidence.
     pub minimum: Rgb,
     pub falloff: f64,
-    /// From minimum to maximum it goes as Fresnel's equations have it, not by `falloff`.
+    /// Varies from minimum to maximum by Fresnel's equations, not by `falloff`.
     pub fresnel: bool,
     pub exponent: f64,
     pub metallic: f64,
 }
 
-/// What a solid is filled with.
+/// The interior of a solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interior {
-    /// Index of refraction, > 0; 1 is that of the air around.
+    /// Index of refraction, > 0; that of the surrounding air is 1.
     pub ior: f64,
-    /// Each `ior`, as a piece that can be taken out of the text, and of those it replaces.
+    /// The removable source piece of each `ior`, and of those it replaces.
     pub sites: Vec<Site>,
-    /// `caustics` above zero, which is not simulated yet.
+    /// A `caustics` above zero, which is not simulated yet.
     pub caustics: Option<Site>,
 }
 
@@ -339,11 +337,11 @@ pub struct Background {
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct SkySphere {
-    /// Painted one over the other, the last on top.
+    /// Layers, the last on top.
     pub pigments: Vec<PigmentId>,
     pub transforms: Vec<TransformId>,
     pub site: Site,
-    /// All of each pigment, as a piece that can be taken out of the text.
+    /// The removable source piece of each pigment.
     pub items: Vec<Site>,
 }
 
@@ -351,13 +349,13 @@ pub struct SkySphere {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     pub ambient_light: Rgb,
-    /// What turns the scene's colours into linear light.
+    /// The conversion of the scene's colours to linear light.
     pub assumed_gamma: Gamma,
-    /// How clear colours are, the background's too.
+    /// The rule for clear colours, the background's included.
     pub clearness: Clearness,
     pub max_trace_level: u32,
     pub adc_bailout: f64,
-    /// Where `max_trace_level` was written.
+    /// The site of `max_trace_level`.
     pub max_trace_level_site: Option<Site>,
 }
 

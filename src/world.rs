@@ -1,7 +1,7 @@
-//! What is there, in canonical form: what the tracer is handed.
+//! The scene in canonical form, as the tracer reads it.
 //!
-//! **Invariant:** no transform list, no degree, no missing default, no nested union; every placement
-//! invertible; every number finite. One flat list per kind; an object is (kind, index, material).
+//! **Invariant:** no transform list, no degrees, no missing default, no nested union; every placement is
+//! invertible; every number is finite. One flat list per kind; an object is (kind, index, material).
 //! Specified in `docs/world.md`.
 
 pub mod pigment;
@@ -22,7 +22,7 @@ use crate::source::{Expansions, Site, Span};
 pub struct World {
     pub camera: Camera,
     pub settings: Settings,
-    /// What a ray that leaves the scene sees where the sky shows nothing.
+    /// The colour of a ray that leaves the scene where the sky is transparent.
     pub background: Rgb,
     pub sky: Option<Sky>,
     pub lights: Vec<Light>,
@@ -32,130 +32,131 @@ pub struct World {
     pub planes: Vec<Plane>,
     pub boxes: Vec<Box_>,
     pub ellipsoids: Vec<Ellipsoid>,
-    /// Whatever else there is, each where it stands; bodies are shared.
+    /// All other solids, each with its placement; bodies are shared.
     pub placed: Vec<Placed>,
-    /// Solids made of others.
+    /// CSG solids.
     pub wholes: Vec<Whole>,
     pub materials: Vec<Material>,
-    /// What solids are filled with; `Object::interior` points here. Empty when nothing bends light.
+    /// Interiors of solids, indexed by `Object::interior`. Empty when nothing refracts light.
     pub interiors: Vec<Interior>,
-    /// Where textures stand; `Object::texture_from_world` points here.
+    /// Placements of textures, indexed by `Object::texture_from_world`.
     pub texture_maps: Vec<Map>,
-    /// Texture coordinates that are the same all over a flat face; see `Object::faces`.
+    /// Texture coordinates that are constant over a flat face; see `Object::faces`.
     pub faces: Vec<FaceCoordinates>,
 }
 
-/// A solid made of others.
+/// A CSG solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Whole {
     /// In postfix order.
     pub nodes: Vec<Node>,
-    /// Its leaves are the objects from here on, in the order of the nodes.
+    /// The index of its first leaf in `World::objects`; the leaves follow in the order of the nodes.
     pub first: u32,
     pub count: u32,
 }
 
 impl Whole {
-    /// The places of its leaves in `World::objects`.
+    /// Returns the indices of its leaves in `World::objects`.
     pub fn leaves(&self) -> std::ops::Range<usize> {
         self.first as usize..(self.first + self.count) as usize
     }
 }
 
-/// Where the World's parts came from, a list for each of its lists. Never compared.
+/// The origins of the World's parts, one list for each of its lists. Never compared.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Origins {
     pub objects: Vec<Site>,
-    /// What makes the wholes, as it is written: several may make one.
+    /// The operations that make the CSG solids, as written: several may make one.
     pub operations: Vec<OperationOrigin>,
-    /// All of each, as a piece that can be taken out of the text.
+    /// The removable source piece of each light.
     pub lights: Vec<Site>,
-    /// What has to be taken out for each not to shine: mostly all of it.
+    /// The pieces to remove for each light not to shine: usually the whole light.
     pub light_pieces: Vec<Vec<Site>>,
-    /// Each word that makes a light less than its colour somewhere, likewise.
+    /// Each keyword that attenuates a light, likewise.
     pub attenuation: Vec<Site>,
     pub materials: Vec<MaterialOrigin>,
-    /// What called for each interior, likewise.
+    /// The source pieces that give each interior, likewise.
     pub interiors: Vec<Vec<Site>>,
-    /// Each `no_image` and `no_reflection` that holds for a solid, likewise.
+    /// Each `no_image` and `no_reflection` that applies to a solid, likewise.
     pub hidden: Vec<Site>,
     /// Each `double_illuminate`, likewise.
     pub double_illuminate: Vec<Site>,
     pub camera: Option<Site>,
     pub sky: Option<SkyOrigin>,
     pub max_trace_level: Option<Site>,
-    /// What lowering left out, and why.
+    /// Parts that lowering left out, with the reasons.
     pub dropped: Vec<Dropped>,
-    /// Transforms that nearly flatten space, in text order.
+    /// Transforms that nearly flatten space, in source order.
     pub near_singular: Vec<NearSingular>,
-    /// Parts of one solid whose surfaces coincide, where they were looked for; each two places once.
+    /// Parts of one solid whose surfaces coincide, if searched; each pair of locations once.
     pub coinciding: Vec<Coinciding>,
     pub expansions: Expansions,
 }
 
-/// Where a material's parts were written. Each site of a list is a piece that can be taken out of
-/// the text, such as `phong 0.4`; without all of them the material has no such part.
+/// The origins of a material's parts. Each site of a list is a removable source piece, such as `phong 0.4`;
+/// without all of them the material has no such part.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MaterialOrigin {
-    /// The word `pigment` that called for it first; `None` for a default.
+    /// The keyword `pigment` of its first use; `None` for a default.
     pub pigment: Option<Site>,
-    /// The word `finish`, likewise.
+    /// The keyword `finish`, likewise.
     pub finish: Option<Site>,
     pub pattern: Vec<Site>,
     pub highlights: Vec<Site>,
     pub reflection: Vec<Site>,
-    /// Of colours that let light through.
+    /// For colours that let light through.
     pub clear: Vec<Site>,
-    /// Of those on objects that cast shadows.
+    /// For colours with a `filter` on objects that cast shadows.
     pub filter: Vec<Site>,
 }
 
-/// An operation that makes one solid of others.
+/// An operation that combines several solids into one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OperationOrigin {
-    /// `difference`, `clipped_by`.
+    /// For example `difference` or `clipped_by`.
     pub word: &'static str,
     pub site: Site,
 }
 
-/// Where the sky was written.
+/// The origin of the sky.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SkyOrigin {
-    /// The word `sky_sphere`.
+    /// The keyword `sky_sphere`.
     pub site: Site,
-    /// All of each pigment.
+    /// The source range of each pigment.
     pub items: Vec<Site>,
-    /// As of a material.
+    /// As in [`MaterialOrigin`].
     pub pattern: Vec<Site>,
 }
 
-/// A part of the Scene that cannot change the picture, and so is not in the World.
+/// A part of the Scene that cannot change the picture, and is therefore not in the World.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dropped {
     pub site: Site,
-    /// `light_source`, `reflection`.
+    /// For example `light_source` or `reflection`.
     pub what: String,
-    /// `its colour is black`.
+    /// For example `its colour is black`.
     pub why: String,
-    /// Of what stands in a macro the calls that made it, each place once.
+    /// For a part inside a macro, the calls that made it, each location once.
     pub calls: Vec<Span>,
 }
 
-/// A map that costs more than half of the digits of what goes through it.
+/// A map that loses more than half of the digits of its input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearSingular {
-    /// All of the transform; of the object, where only its transforms together are so.
+    /// The whole transform; the object if only its transforms together are near-singular.
     pub site: Site,
-    /// The largest factor by which it stretches a direction over the smallest: 2²⁶ or more.
+    /// The condition number: the largest factor by which it stretches a direction over the smallest; 2²⁶ or
+    /// more.
     pub condition: f64,
 }
 
-/// Two parts of one solid that have a face, or a part of one, in common.
+/// Two parts of one solid that share a face, or part of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coinciding {
-    /// `box`, `cylinder`.
+    /// For example `box` and `cylinder`.
     pub words: [&'static str; 2],
-    /// The first declared first.
+    /// In order of declaration.
     pub sites: [Site; 2],
 }
 
@@ -164,28 +165,28 @@ pub struct Object {
     pub shape: Shape,
     /// Index into `World::materials`.
     pub material: u32,
-    /// Index into `World::texture_maps`; `None` is the identity, or a material without pattern.
+    /// Index into `World::texture_maps`; `None` for the identity, or a material without pattern.
     pub texture_from_world: Option<u32>,
     /// For a patterned plane (1 entry) or box (6 entries, in the order of
-    /// [`crate::shape::SurfacePoint::face`]): where its entries start in `World::faces`.
+    /// [`crate::shape::SurfacePoint::face`]): the index of its first entry in `World::faces`.
     pub faces: Option<u32>,
-    /// Index into `World::interiors`; `None` is filled with air.
+    /// Index into `World::interiors`; `None` for air.
     pub interior: Option<u32>,
     pub casts_shadow: bool,
-    /// Rays that come from the camera, straight or through others, meet it.
+    /// Visible to camera rays, direct or transmitted.
     pub in_image: bool,
-    /// Rays that have been mirrored meet it.
+    /// Visible to reflected rays.
     pub in_reflections: bool,
-    /// Light on one side of the surface lights the other, too.
+    /// Light on one side of the surface illuminates the other, too.
     pub double_illuminate: bool,
     /// Inside and outside are exchanged.
     pub inverse: bool,
-    /// Index into `World::wholes`: it is a part of that, and nothing by itself.
+    /// Index into `World::wholes` of the CSG solid that it is part of; it is not an object by itself then.
     pub whole: Option<u32>,
 }
 
 impl Object {
-    /// Rays can meet it in 32 bits.
+    /// Returns whether rays can be intersected with it in 32-bit floats.
     pub fn has_single_kernel(&self) -> bool {
         match self.shape {
             Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) => self.whole.is_none(),
@@ -193,7 +194,7 @@ impl Object {
         }
     }
 
-    /// A shape of which nothing else is said: the first material, filled with air.
+    /// Returns an object of this shape with defaults: the first material, filled with air.
     pub fn plain(shape: Shape) -> Self {
         Self {
             shape,
@@ -211,15 +212,15 @@ impl Object {
     }
 }
 
-/// What a solid is filled with. It only matters where light goes into it.
+/// The interior of a solid. It matters only where light enters it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interior {
-    /// Index of refraction, > 0; that of the air is 1.
+    /// Index of refraction, > 0; that of air is 1.
     pub ior: f64,
 }
 
-/// For one flat face: each texture coordinate that is constant over it, computed in extended
-/// precision. The tracer uses these numbers, so a pattern never flickers on its own lattice.
+/// For one flat face: each texture coordinate that is constant over it, computed in extended precision. The
+/// tracer uses these numbers, so that a pattern never flickers on its own lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FaceCoordinates(pub [Option<f64>; 3]);
 
@@ -234,17 +235,17 @@ pub enum Pigment {
     Color(Color),
     Patterned {
         pattern: Pattern,
-        /// The pattern's space from the texture's.
+        /// Maps the texture's space to the pattern's.
         pattern_from_texture: Map,
         /// Sorted by value; at least one entry.
         map: Vec<(f64, Color)>,
     },
-    /// The colours of a mesh's faces, by their corners: `shape::mesh::Skin::paint`. At least two.
+    /// The colours of a mesh's faces, by corner: `shape::mesh::Skin::paint`. At least two.
     Faces(Arc<[Color]>),
 }
 
 impl Pigment {
-    /// Its colours, without their places.
+    /// Returns its colours, without their map values.
     pub fn colors(&self) -> impl Iterator<Item = Color> {
         let (some, map) = match self {
             Self::Color(color) => (std::slice::from_ref(color), &[][..]),
@@ -254,13 +255,13 @@ impl Pigment {
         some.iter().copied().chain(map.iter().map(|(_, color)| *color))
     }
 
-    /// Whether light goes through in any place.
+    /// Returns whether light passes through it anywhere.
     pub fn is_clear(&self) -> bool {
         self.colors().any(Color::is_clear)
     }
 }
 
-/// How a surface answers light. Everything of weight zero is absent.
+/// The reflection and emission of a surface. Components of weight zero are absent.
 ///
 /// The radiance toward the viewer is, with C the pigment's colour, f and t its filter and
 /// transmit, and the sum over the lights that are visible:
@@ -274,9 +275,9 @@ pub struct Finish {
     pub brilliance: f64,
     pub lobes: Vec<Lobe>,
     pub reflection: Option<Reflection>,
-    /// What is let through is less by what is reflected; only where both are.
+    /// The transmitted light is reduced by the reflected; set only if there are both.
     pub conserve_energy: bool,
-    /// The seed's rules: every radiance is clamped at 1 per component, and the surface is seen from
+    /// The native rules: every radiance is clamped at 1 per component, and the surface is visible from
     /// outside only. Its one lobe is `Blinn` with the pigment's colour, unweighted by angle.
     pub seed: bool,
 }
@@ -293,21 +294,21 @@ pub struct Lobe {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LobeKind {
-    /// (R·L)^exponent, R the mirrored direction of view.
+    /// (R·L)^exponent, where R is the mirrored view direction.
     Phong,
-    /// (N·H)^exponent, H the bisector of the directions to the light and to the viewer.
+    /// (N·H)^exponent, where H bisects the directions to the light and to the viewer.
     Blinn,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reflection {
-    /// Seen head-on; equal to `maximum` where the angle does not matter.
+    /// At normal incidence; equal to `maximum` where the angle does not matter.
     pub minimum: Rgb,
-    /// Seen at a grazing angle.
+    /// At grazing incidence.
     pub maximum: Rgb,
     pub falloff: f64,
-    /// From minimum to maximum as Fresnel's equations have it, by the indices of refraction on
-    /// both sides; `falloff` is then 1.
+    /// Varies from minimum to maximum by Fresnel's equations, with the indices of refraction on both sides;
+    /// `falloff` is then 1.
     pub fresnel: bool,
     pub exponent: f64,
     pub metallic: f64,
@@ -318,30 +319,30 @@ pub struct Light {
     pub kind: LightKind,
     pub color: Rgb,
     pub casts_shadows: bool,
-    /// `None`: it shines everywhere in its colour.
+    /// `None`: its full colour everywhere.
     pub attenuation: Option<Attenuation>,
 }
 
-/// Where a light is less than its colour: the product of both.
+/// Attenuation of a light: the product of both factors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Attenuation {
     pub beam: Option<Beam>,
     pub fade: Option<Fade>,
 }
 
-/// With s(a, b; v) = t²(3 − 2t), t = (v − a)/(b − a) kept within 0 … 1.
+/// A beam, in terms of s(a, b; v) = t²(3 − 2t), where t = (v − a)/(b − a) is clamped to 0 … 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Beam {
-    /// Of a point light: c^tightness · s(edge, core; c), c the cosine of the angle between `axis` and
-    /// the light's way; 0 where c ≤ 0.
+    /// For a point light: c^tightness · s(edge, core; c), where c is the cosine of the angle between `axis`
+    /// and the light ray; 0 where c ≤ 0.
     Cone { axis: UnitVector, edge: f64, core: f64, tightness: f64 },
-    /// Of a parallel light, before its plane: d^tightness · s(0, core; d), d = 1 − r/radius, r the
-    /// distance from its axis; 0 where d ≤ 0.
+    /// For a parallel light, in front of its plane: d^tightness · s(0, core; d), where d = 1 − r/radius and r
+    /// is the distance from its axis; 0 where d ≤ 0.
     Cylinder { radius: f64, core: f64, tightness: f64 },
 }
 
-/// 2/(1 + (d/distance)^power) at the distance d; before and behind a parallel light's plane, that from
-/// the plane.
+/// Multiplies by 2/(1 + (d/distance)^power) at the distance d from the light; for a parallel light, from its
+/// plane, on both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fade {
     pub distance: f64,
@@ -353,7 +354,7 @@ pub enum LightKind {
     Point {
         position: Vector,
     },
-    /// From infinitely far.
+    /// From infinitely far away.
     Directional {
         to_light: UnitVector,
     },
@@ -367,13 +368,13 @@ pub enum LightKind {
 /// The sky, at infinity: patterns are evaluated at the ray's direction, of length 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sky {
-    /// Painted one over the other, the last on top.
+    /// Layers, the last on top.
     pub pigments: Vec<Pigment>,
 }
 
-/// The point (u, v) of the screen, −½ … ½ from left to right and from bottom to top, is seen along
-/// `forward + u·right + v·up` from `location` (perspective), or along `forward` from
-/// `location + u·right + v·up` (orthographic). A lens shift is part of `forward` or `location`.
+/// The camera. The point (u, v) of the screen, −½ … ½ from left to right and from bottom to top, is seen
+/// along `forward + u·right + v·up` from `location` (perspective), or along `forward` from `location +
+/// u·right + v·up` (orthographic). A lens shift is part of `forward` or `location`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     pub kind: CameraKind,
@@ -403,13 +404,13 @@ impl Default for Camera {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// How many surfaces deep a ray is followed: 1 is the camera's ray alone.
+    /// The most surfaces that a ray is followed through: 1 is the camera ray alone.
     pub max_trace_level: u32,
-    /// A path whose weight falls below this in every component is not followed.
+    /// A path is not followed if its weight is below this in every component.
     pub adc_bailout: f64,
-    /// What turns the film's colours into linear light.
+    /// The conversion of the film's colours to linear light.
     pub assumed_gamma: Gamma,
-    /// `Old` only where that changes the picture.
+    /// `Old` only if that changes the picture.
     pub clearness: Clearness,
 }
 

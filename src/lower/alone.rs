@@ -1,6 +1,6 @@
-//! Parts of a Scene by themselves: for functions of the author's, which ask them at points.
+//! Lowers single parts of a Scene, for the author's functions that evaluate them at points.
 //!
-//! **Out:** the same as in a World; a diagnostic where it cannot be built.
+//! **Out:** the same as in a World, or a diagnostic if the part cannot be built.
 
 use super::texture::{inverse_map, lower_pigment};
 use super::transform::Transforms;
@@ -11,7 +11,7 @@ use crate::scene::{PigmentId, Scene, TransformId};
 use crate::source::Site;
 use crate::world::Pigment;
 
-/// A pigment, as a World has it; what is wrong with it is told.
+/// Returns a pigment in its World form; reports what is wrong with it.
 pub fn pigment(scene: &Scene, id: PigmentId, diagnostics: &mut Diagnostics) -> Option<Pigment> {
     let written = &scene.pigments[id.index()];
     let mut transforms = Transforms::new(&scene.transforms);
@@ -21,10 +21,10 @@ pub fn pigment(scene: &Scene, id: PigmentId, diagnostics: &mut Diagnostics) -> O
     Reporter::new(scene, diagnostics).made(lowered, written.site)
 }
 
-/// An affine map: three rows, and what is added.
+/// An affine map: the three rows of its matrix, and its translation.
 pub type Rows = ([Vector; 3], Vector);
 
-/// Where a transform, written at `site`, moves points.
+/// Returns the affine map of a transform written at `site`.
 pub fn rows(
     scene: &Scene,
     id: TransformId,

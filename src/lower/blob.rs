@@ -1,4 +1,4 @@
-//! Blobs: each component in a space where it is 1 thick, all of them around the middle of the positive ones.
+//! Lowers blobs: each component to a space where its radius is 1, all about the centre of the positive ones.
 
 use super::Fault;
 use super::body::frame;
@@ -10,15 +10,15 @@ use crate::scene::blob::{Blob, Component};
 use crate::shape::blob::Component as Local;
 use crate::shape::{self, Body};
 
-/// A component in its own space, where it is 1 thick about a bar along z, and the map from there.
+/// A component in its own space, where it has radius 1 about a segment along z, and the map from there.
 struct Spent {
     half: f64,
     strength: f64,
     map: Affine,
 }
 
-/// Around the middle of its box, of size about 1; the middle is rounded to 1/256 of the size, and that to a
-/// power of two. `None` where the field is nowhere as strong as the threshold.
+/// Returns the blob at size about 1, about the centre of its box; the centre is rounded to 1/256 of the size,
+/// and the size to a power of two. `None` if the field reaches the threshold nowhere.
 pub fn blob(blob: &Blob, transforms: &mut Transforms) -> Result<Option<(Body, Affine)>, Fault> {
     let spend = |component| spent(component, blob.threshold, transforms);
     let all = blob.components.iter().map(spend).collect::<Result<Vec<_>, _>>()?;

@@ -1,7 +1,7 @@
-//! Bodies: each solid that is no sphere, plane or box becomes a body in a space of its own, and one
-//! placement that holds all its transforms.
+//! Converts each solid other than a sphere, plane or box to a body in its own space, with one placement that
+//! holds all its transforms.
 //!
-//! **In:** a solid as written, and the map its transforms come to. **Out:** a [`Placed`].
+//! **In:** a solid as written, and the product of its transforms. **Out:** a [`Placed`].
 
 use std::sync::Arc;
 
@@ -25,13 +25,13 @@ use crate::shape::{
 };
 use crate::vocabulary::Word;
 
-/// The round of radius 1 from z = −1 to z = 1, between the middles of the ends.
+/// Returns the cylinder of radius 1 from z = −1 to z = 1, between the centres of the ends.
 pub fn cylinder(ends: [Vector; 2], radius: f64, open: bool) -> Result<(Body, Affine), Fault> {
     let frame = along_axis(ends, Double::from(radius).abs())?;
     Ok((Body::Cylinder(Cylinder { open }), frame))
 }
 
-/// The polynomial in lengths of λ, over its greatest coefficient; a cone about its tip.
+/// Returns the polynomial in units of λ, divided by its greatest coefficient; a cone about its tip.
 pub fn polynomial(degree: usize, terms: &[f64]) -> Result<(Body, Affine), Fault> {
     let (mut terms, mut scale) = normalised(degree, terms);
     let mut tip = DoubleVector::ZERO;
@@ -50,8 +50,8 @@ pub fn polynomial(degree: usize, terms: &[f64]) -> Result<(Body, Affine), Fault>
     Ok((Body::Algebraic(surface), Affine::from_columns(columns, tip)))
 }
 
-/// The terms in lengths of λ, over the greatest, and the binary logarithm of λ: at which no term of lower degree
-/// outweighs those of the highest.
+/// Returns the terms in units of λ, divided by the greatest, and the binary logarithm of λ, chosen so that no
+/// term of lower degree outweighs those of the highest.
 fn normalised(degree: usize, terms: &[f64]) -> (Vec<f64>, i32) {
     let sum = |powers: [usize; 3]| powers.iter().sum::<usize>();
     let degrees: Vec<usize> = exponents(degree).map(sum).collect();
@@ -67,14 +67,14 @@ fn normalised(degree: usize, terms: &[f64]) -> (Vec<f64>, i32) {
     let power = |d: usize| binary(greatest[d]) + scale * d as i32;
     let most = (0..=top).filter(|&d| greatest[d] > 0.0).map(power).max().unwrap_or(0);
     let terms = terms.iter().zip(&degrees).map(|(term, &d)| {
-        // In two steps, of which neither overflows.
+        // In two steps, neither of which overflows.
         let shift = scale * d as i32 - most;
         term * power_of_two(shift / 2) * power_of_two(shift - shift / 2)
     });
     (terms.collect(), scale)
 }
 
-/// The cone whose wider end, at z = −1, has the radius 1; a cylinder where both have.
+/// Returns the cone whose wider end, at z = −1, has the radius 1; a cylinder if the radii are equal.
 pub fn cone(
     [base, cap]: [Vector; 2],
     radii: [f64; 2],
@@ -90,7 +90,7 @@ pub fn cone(
     Ok((Body::Cone(Cone { cap, open }), along_axis(ends, Double::from(wide).abs())?))
 }
 
-/// The disc of radius 1 around the z axis, which faces along it.
+/// Returns the disc of radius 1 around the z axis, facing along it.
 pub fn disc(
     centre: Vector,
     normal: Vector,
@@ -104,7 +104,7 @@ pub fn disc(
     Ok((Body::Disc(Disc { hole }), Affine::from_columns(columns, exact(centre))))
 }
 
-/// The ovus from z = −1 to z = 1.
+/// Returns the ovus from z = −1 to z = 1.
 pub fn ovus(bottom: f64, top: f64) -> (Body, Affine) {
     let (bottom, top) = (Double::from(bottom), Double::from(top));
     let half = Double::from(0.5);
@@ -114,12 +114,12 @@ pub fn ovus(bottom: f64, top: f64) -> (Body, Affine) {
     (Body::Ovus(Ovus::new(bottom, top)), frame)
 }
 
-/// As it is written.
+/// Returns the superellipsoid in the space it is written in.
 pub fn superellipsoid([east, north]: [f64; 2]) -> (Body, Affine) {
     (Body::Superellipsoid(Superellipsoid::new(east, north)), Affine::IDENTITY)
 }
 
-/// As it is written.
+/// Returns the Julia fractal in the space it is written in.
 pub fn julia_fractal(written: &scene::JuliaFractal) -> (Body, Affine) {
     let scene::JuliaFractal { parameter, iterations, distance, .. } = *written;
     let algebra = match (written.hypercomplex, written.function) {
@@ -156,7 +156,7 @@ fn function_of(word: Word, power: [f64; 2]) -> Function {
     }
 }
 
-/// The torus about the z axis that reaches 1 from it.
+/// Returns the torus about the z axis whose greatest distance from it is 1.
 pub fn torus(major: f64, minor: f64) -> (Body, Affine) {
     let (major, minor) = (Double::from(major).abs(), Double::from(minor).abs());
     let size = major + minor;
@@ -166,8 +166,8 @@ pub fn torus(major: f64, minor: f64) -> (Body, Affine) {
     (Body::Torus(torus), Affine::from_columns(columns, exact(Vector::ZERO)))
 }
 
-/// The surface in lengths of a power of two that makes its container of size about 1, about the container's
-/// middle.
+/// Returns the surface about its container's centre, in units of a power of two that makes the container of
+/// size about 1.
 pub fn isosurface(
     function: &Arc<Closed>,
     container: Container,
@@ -183,7 +183,7 @@ pub fn isosurface(
     Ok((Body::Isosurface(body), about(centre, scale)))
 }
 
-/// The surface in the space of its container, as an isosurface.
+/// Returns the surface in the space of its container, as for an isosurface.
 pub fn parametric(
     functions: &[Arc<Closed>; 3],
     corners: [[f64; 2]; 2],
@@ -197,13 +197,13 @@ pub fn parametric(
     Ok((Body::Parametric(surface), about(centre, scale)))
 }
 
-/// Lengths of `scale` from `centre` on.
+/// Returns the map that scales by `scale` and moves the origin to `centre`.
 fn about(centre: Vector, scale: f64) -> Affine {
     let columns = [0, 1, 2].map(|i| DoubleVector::axis(i).map(|c| c * Double::from(scale)));
     Affine::from_columns(columns, exact(centre))
 }
 
-/// A container about its own middle, of size about 1; the middle, and the power of two it is measured in.
+/// Returns a container about its own centre, of size about 1; its centre; and its unit, a power of two.
 fn held(container: Container) -> Result<(isosurface::Container, Vector, f64), Fault> {
     let (centre, half) = match container {
         Container::Sphere { centre, radius } => (centre, Vector::splat(radius.abs())),
@@ -221,8 +221,8 @@ fn held(container: Container) -> Result<(isosurface::Container, Vector, f64), Fa
     Ok((container, centre, scale))
 }
 
-/// The map that takes the z axis from −1 to 1 to the line between two points, and lengths across it to
-/// `radius` times as much.
+/// Returns the map that takes the z axis from −1 to 1 to the line between two points, and scales lengths
+/// across it by `radius`.
 fn along_axis([a, b]: [Vector; 2], radius: Double) -> Result<Affine, Fault> {
     let half = Double::from(0.5);
     let (a, b) = (exact(a), exact(b));
@@ -231,12 +231,12 @@ fn along_axis([a, b]: [Vector; 2], radius: Double) -> Result<Affine, Fault> {
     Ok(Affine::from_columns([across * radius, aside * radius, axis], (a + b) * half))
 }
 
-/// Three vectors of length 1 at right angles; the last goes along `axis`.
+/// Returns three orthonormal vectors, the last along `axis`.
 pub(super) fn frame(
     axis: DoubleVector,
 ) -> Result<(DoubleVector, DoubleVector, DoubleVector), Fault> {
     let unit = axis.normalized().ok_or_else(|| no_size("this solid has no length"))?;
-    // The coordinate axis that is farthest from it.
+    // The coordinate axis farthest from it.
     let sizes = unit.round().abs();
     let away = (0..3).min_by(|&i, &j| sizes[i].total_cmp(&sizes[j])).unwrap_or(0);
     let across = unit.cross(DoubleVector::axis(away)).normalized();
@@ -244,9 +244,9 @@ pub(super) fn frame(
     Ok((across, unit.cross(across), unit))
 }
 
-/// Triangles around the middle of the box that holds them, of size about 1; `None` where not one is left
-/// that is no line or point. The size is rounded to a power of two, and from the middle each vertex is told without a
-/// rounding: one that two meshes have is the same in both.
+/// Returns triangles about the centre of their bounding box, of size about 1; `None` if every one is
+/// degenerate. The size is rounded to a power of two, and subtracting the centre does not round any vertex: a
+/// vertex shared by two meshes is the same in both.
 pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
     if triangles.faces.is_empty() {
         return Ok(None);
@@ -268,7 +268,7 @@ pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
     let faces =
         triangles.faces.iter().map(|face| Face { corners: face.vertices, normals: face.normals });
     let inside = triangles.inside.and_then(UnitVector::from_direction);
-    // One that is zero tells nothing, and the others of its face count alone.
+    // A zero normal is ignored; the others of its face count alone.
     let unit =
         |normal: &Vector| UnitVector::from_direction(*normal).map_or(Vector::ZERO, |n| n.get());
     let normals = triangles.normals.iter().map(unit).collect();
@@ -279,12 +279,12 @@ pub fn mesh(triangles: &Triangles) -> Result<Option<(Body, Affine)>, Fault> {
     Ok(body.map(|mesh| (Body::Mesh(mesh), frame)))
 }
 
-/// What the faces are painted with.
+/// Returns the textures of the faces.
 fn skin(triangles: &Triangles) -> Skin {
     let Triangles { faces, uvs, textures, .. } = triangles;
     let mut skin = Skin::default();
     if faces.iter().any(|face| face.paint.is_some()) {
-        // Behind the mesh's own textures comes what it is painted with itself.
+        // The mesh's own texture follows those of its faces.
         let bare = match textures.len() {
             0 => Skin::BARE,
             count => [count as u32; 3],
@@ -298,7 +298,7 @@ fn skin(triangles: &Triangles) -> Skin {
     skin
 }
 
-/// A body under a map, as it stands in the world.
+/// Returns a body placed in the world by `map`.
 pub fn place(body: Arc<Body>, map: &Affine) -> Result<Placed, Fault> {
     let what = format!("this {}", body.word());
     if !map.is_finite() {

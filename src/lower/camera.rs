@@ -1,11 +1,11 @@
-//! The camera: its words become a point and three vectors.
+//! Lowers the camera: turns its keywords into a point and three vectors.
 //!
-//! As in POV-Ray 3.7 (measured) the order of the words does not matter and the last of a kind
-//! counts: `angle` sets the length of `direction` from that of `right` (but for `angle 0`), then
-//! `look_at` turns the three vectors, then the transforms move everything, in order. In scenes for
-//! version 3.1 and older each word acts at once on what those before it came to.
+//! As in POV-Ray 3.7 (measured), the order of the keywords does not matter and the last of a kind counts:
+//! `angle` sets the length of `direction` from that of `right` (except `angle 0`), then `look_at` turns the
+//! three vectors, then the transforms move everything, in order. In scenes for version 3.1 and older each
+//! keyword acts at once on the result of those before it.
 //!
-//! **Invariant:** forward, right and up span space, or there is a message.
+//! **Invariant:** forward, right and up span space, or there is a diagnostic.
 //! **Source:** POV-Ray manual, section 3.4.2 "Camera"; formulas in `docs/world.md`.
 
 use super::transform::{Affine, exact};
@@ -17,17 +17,17 @@ use crate::scene::{self, CameraItem, CameraItemKind, CameraKind, Dialect, Transf
 use crate::source::Site;
 use crate::world::{self, Camera};
 
-/// A word's value and where it stands; defaults stand nowhere.
+/// A keyword's value and its site; defaults have no site.
 #[derive(Debug, Clone, Copy)]
 struct Word {
     vector: DoubleVector,
     site: Option<Site>,
 }
 
-/// The camera's words, sorted out.
+/// The camera's keywords, sorted by kind.
 struct Words {
     location: DoubleVector,
-    /// Whether that is written.
+    /// Whether `location` is written.
     placed: bool,
     direction: Word,
     right: Word,
@@ -41,7 +41,7 @@ struct Words {
     is_flat: bool,
 }
 
-/// The length of what stands for a vector that is zero, in its default length.
+/// The length of the replacement for a zero vector, relative to its default length.
 const NEARLY_ZERO: f64 = 1e-9;
 
 /// Two directions closer than this, relative, are parallel: 2⁻⁸⁰, far below `f64`.
@@ -91,7 +91,7 @@ impl Lowering<'_, '_> {
                 Fault::new(Code::DegenerateCamera, message).label("no picture plane is left");
             match dialect {
                 Dialect::Scene => return Err((fault, camera.site)),
-                // POV-Ray 3.7 traces the rays that are left (measured).
+                // POV-Ray 3.7 traces the remaining rays (measured).
                 Dialect::Pov => self.reporter.fault(fault, camera.site),
             }
         }
@@ -109,9 +109,9 @@ impl Lowering<'_, '_> {
         Ok(Camera { kind, location, forward, right, up })
     }
 
-    /// As POV-Ray 3.7 reads a scene of version 3.1 or older (measured): each word changes what those before it
-    /// came to, so that a `direction` behind `look_at` is not turned, nor a `location` behind `translate` moved. `angle 0`
-    /// makes `direction` endless: nothing is met along it.
+    /// Applies the keywords as POV-Ray 3.7 reads a scene of version 3.1 or older (measured): each changes the
+    /// result of those before it, so that a `direction` after `look_at` is not turned, nor a `location` after
+    /// `translate` moved. `angle 0` makes `direction` infinitely long: its rays hit nothing.
     fn words_in_order(&mut self, camera: &scene::Camera) -> Result<Words, (Fault, Site)> {
         let dialect = self.scene.dialect;
         let is_perspective = camera.kind == CameraKind::Perspective;
@@ -182,7 +182,7 @@ impl Words {
         }
     }
 
-    /// Moves the camera where it has come to; where it looked before does not matter.
+    /// Moves the camera from its current state; where it looked before does not matter.
     fn go_through(&mut self, map: &Affine) {
         self.location = map.point(self.location);
         for word in [&mut self.direction, &mut self.right, &mut self.up] {
@@ -211,7 +211,7 @@ impl Words {
         Ok(())
     }
 
-    /// Where a vector is zero, nearly so: its picture is that of POV-Ray 3.7 (measured).
+    /// Replaces zero and nearly zero vectors, so that the picture is that of POV-Ray 3.7 (measured).
     fn fill(&mut self) {
         let (direction, right) = defaults(Dialect::Pov);
         let words =
@@ -238,14 +238,14 @@ impl Words {
         Ok(())
     }
 
-    /// Whether it is written how much an orthographic camera sees.
+    /// Returns whether the source sets the view size of an orthographic camera.
     fn is_sized(&self) -> bool {
         (self.right.site.is_some() || self.up.site.is_some()) && self.angle.is_none()
     }
 
-    /// An orthographic camera with `angle`, or with neither `right` nor `up`, sees at `look_at` what
-    /// a perspective one would see there. `look_at` is then by default one default direction from
-    /// the origin, wherever the camera stands.
+    /// Sizes an orthographic camera that has `angle`, or neither `right` nor `up`: it sees at `look_at` what
+    /// a perspective one would see there. `look_at` is then by default one default direction from the origin,
+    /// wherever the camera is.
     fn fit_to_look_at(&mut self, dialect: Dialect) {
         let target = self.look_at.map_or_else(|| exact(defaults(dialect).0), |(v, _)| v);
         let factor = (target - self.location).length() / self.direction.vector.length();
@@ -253,8 +253,8 @@ impl Words {
         self.up.vector = self.up.vector * factor;
     }
 
-    /// `look_at`: turns the three vectors, keeping their lengths and their handedness, so that `sky`
-    /// stands upright in the picture. Where the camera looks along `sky`, it keeps its `right`.
+    /// Applies `look_at`: turns the three vectors, keeping their lengths and handedness, so that `sky` is
+    /// upright in the picture. If the camera looks along `sky`, it keeps its `right`.
     fn turn(&mut self, dialect: Dialect, camera: &scene::Camera) -> Result<(), (Fault, Site)> {
         let Some((target, site)) = self.look_at else { return Ok(()) };
         let Some(forward) = (target - self.location).normalized() else {
@@ -280,7 +280,7 @@ impl Words {
         };
         let [direction, right, up] = [self.direction, self.right, self.up].map(|word| word.vector);
         let handed = up.cross(direction).dot(right).round();
-        // Before it is turned a camera may be flat, as with `up z`: POV-Ray mirrors it (measured).
+        // A camera may be flat before it turns, as with `up z`: POV-Ray mirrors it (measured).
         let mirrored = handed < 0.0 || (handed == 0.0 || self.is_flat) && dialect == Dialect::Pov;
         let mut across = self.sky.cross(forward);
         if across.largest() <= PARALLEL * self.sky.largest() {
@@ -290,7 +290,7 @@ impl Words {
             }
             if across.largest() <= PARALLEL * right.largest() {
                 if dialect == Dialect::Pov {
-                    // Nothing is left of `up`, and `right` stays (measured).
+                    // `up` vanishes, and `right` stays (measured).
                     self.direction.vector = forward * direction.length();
                     self.up.vector =
                         forward.cross(exact(aside(forward))) * Double::from(NEARLY_ZERO);
@@ -314,7 +314,7 @@ impl Words {
     }
 }
 
-/// `direction` and `right` where the author gives none.
+/// Returns the default `direction` and `right`.
 fn defaults(dialect: Dialect) -> (Vector, Vector) {
     match dialect {
         Dialect::Scene => (-Vector::Z, Vector::X * (4.0 / 3.0)),
@@ -327,7 +327,7 @@ fn degenerate(message: &str, label: &str) -> Fault {
     Fault::new(Code::DegenerateCamera, message).label(label).refused()
 }
 
-/// The axis that is least along a direction.
+/// Returns the axis along which `direction` is smallest.
 fn aside(direction: DoubleVector) -> Vector {
     let sizes = direction.round().abs();
     [Vector::X, Vector::Y, Vector::Z]

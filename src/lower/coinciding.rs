@@ -1,6 +1,6 @@
-//! Faces that parts of one solid have in common: drawn as they are here, as speckles elsewhere.
+//! Lints coinciding faces of parts of one solid: they render cleanly here, and as speckles elsewhere.
 //!
-//! **Invariant:** looked for only where somebody is told.
+//! **Invariant:** searched only if the lint is enabled.
 
 use std::collections::BTreeSet;
 

@@ -1,8 +1,8 @@
-//! Solids made of others: the tree of operations becomes a list in postfix order.
+//! Lowers CSG solids: flattens the tree of operations to a list in postfix order.
 //!
-//! **Invariant:** no difference is left, and no inverse of a node: what is outside of a solid goes down
-//! to the leaves (de Morgan). A node of one part is that part, no node holds another of its kind; a whole of
-//! one leaf is no whole.
+//! **Invariant:** no differences remain, and no inverse nodes: complements move to the leaves (de Morgan). A
+//! node of one part is replaced by that part, and no node contains another of its kind; a solid of one leaf
+//! is not a CSG solid.
 
 use super::Lowering;
 use super::empty::Known;
@@ -11,7 +11,7 @@ use crate::shape::csg::Node;
 use crate::source::Site;
 use crate::world::{OperationOrigin, Whole};
 
-/// A whole under way.
+/// A CSG solid under construction.
 #[derive(Debug)]
 pub(super) struct Building {
     /// Its first leaf in `World::objects`.
@@ -19,15 +19,15 @@ pub(super) struct Building {
     nodes: Vec<Node>,
     /// The innermost operation that is open.
     kind: Kind,
-    /// So many parts it has so far.
+    /// The number of its parts so far.
     parts: u32,
-    /// The operations that make it, as they are written.
+    /// The operations that make it, as written.
     operations: Vec<OperationOrigin>,
-    /// What is known of the parts, as operations end: one of each.
+    /// What is known of the parts; an operation that ends becomes one part.
     pub(super) known: Vec<Known>,
 }
 
-/// What an operation comes to, on solids or on what is outside of them.
+/// The effect of an operation on solids or on their complements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Union,
@@ -36,25 +36,25 @@ enum Kind {
     Clip { inverse: bool },
 }
 
-/// An operation on parts that are still to come.
+/// An operation whose parts are not complete.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Open {
     pub(super) making: Making,
     pub(super) inverse: bool,
-    /// The word that opened it.
+    /// The site of its keyword.
     pub(super) site: Site,
-    /// How many parts were known before.
+    /// The number of known parts before it.
     pub(super) known: usize,
-    /// The operation around it, and its parts; `None` where it began the whole.
+    /// The enclosing operation and its number of parts; `None` if this operation began the CSG solid.
     outer: Option<(Kind, u32)>,
 }
 
-/// What makes one solid of several.
+/// The ways to combine several solids into one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Making {
     Union,
     Operation(Operation),
-    /// Of an object, and then what it is clipped by.
+    /// An object, followed by its clipping objects.
     Clip,
 }
 
@@ -67,7 +67,7 @@ impl Making {
         }
     }
 
-    /// By de Morgan.
+    /// Returns the effect, by de Morgan's laws.
     fn kind(self, inverse: bool) -> Kind {
         match (self, inverse) {
             (Self::Clip, inverse) => Kind::Clip { inverse },
@@ -90,13 +90,13 @@ impl Kind {
         }
     }
 
-    /// What makes one of so many parts.
+    /// Returns the nodes that combine this many parts into one.
     fn nodes(self, parts: u32) -> impl Iterator<Item = Node> {
         let (first, last) = match self {
             Self::Union => (None, Node::Union(parts)),
             Self::Merge => (None, Node::Merge(parts)),
             Self::Intersection => (None, Node::Intersection(parts)),
-            // All of what clips is what it shares.
+            // The clipping objects are intersected first.
             Self::Clip { inverse } => {
                 ((parts > 2).then_some(Node::Intersection(parts - 1)), Node::Clip { inverse })
             }
@@ -106,7 +106,7 @@ impl Kind {
 }
 
 impl Lowering<'_, '_> {
-    /// Opens an operation; `None` where its parts may stand by themselves.
+    /// Opens an operation; returns `None` if its parts may stay separate objects.
     pub(super) fn open(&mut self, making: Making, inverse: bool, site: Site) -> Option<Open> {
         let kind = making.kind(inverse);
         let written = OperationOrigin { word: making.word(), site };
@@ -127,7 +127,7 @@ impl Lowering<'_, '_> {
         Some(Open { making, inverse, site, known: 0, outer: None })
     }
 
-    /// Ends an operation: all of its parts are there.
+    /// Closes an operation after its last part.
     pub(super) fn close(&mut self, open: Open) {
         let Open { inverse, outer, site, .. } = open;
         if self.building.as_ref().is_some_and(|building| building.parts == 0) {
@@ -150,7 +150,7 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// A part that is nowhere, or everywhere.
+    /// Adds a part that is nowhere, or everywhere.
     pub(super) fn nothing(&mut self, inverse: bool, site: Site) {
         self.know_nothing(inverse, site);
         if let Some(building) = &mut self.building {
@@ -159,7 +159,7 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// The whole that an object placed now is a part of.
+    /// Returns the CSG solid that an object placed now belongs to.
     pub(super) fn leaf(&mut self, inverse: bool) -> Option<u32> {
         let building = self.building.as_mut()?;
         building.nodes.push(Node::Leaf { inverse });
@@ -167,7 +167,7 @@ impl Lowering<'_, '_> {
         Some(self.world.wholes.len() as u32)
     }
 
-    /// Lets the parts of a whole that will have no more stand by themselves.
+    /// Turns the parts of an unfinished CSG solid into separate objects.
     pub(super) fn leave_unfinished(&mut self) {
         let Some(building) = self.building.take() else { return };
         for part in &mut self.world.objects[building.first as usize..] {

@@ -1,6 +1,8 @@
-//! Clear objects that stand in one place: light goes through each of them here, and through one in POV-Ray.
+//! Lints clear objects that coincide: light passes through each of them here, but through only one in
+//! POV-Ray.
 //!
-//! **Invariant:** looked for only where somebody is told; two places in the text are told once.
+//! **Invariant:** searched only if the lint is enabled; each pair of locations in the source is reported
+//! once.
 
 use std::collections::BTreeSet;
 

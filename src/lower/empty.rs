@@ -1,9 +1,10 @@
-//! Operations of which certainly nothing is left: parts that do not meet, a part that is all taken away, an object
-//! that does not meet what clips it; and parts that take nothing away, such as those that are only a surface.
+//! Lints operations that certainly leave nothing: parts that do not overlap, a part that is subtracted
+//! entirely, an object outside its clipping objects. Also lints parts that subtract nothing, such as those
+//! that are only a surface.
 //!
-//! **In:** the parts of each operation, as they are placed. **Out:** lints. **Invariant:** told where boxes
-//! around the parts prove it, or corners around the first part that lie in a convex one; an operation that a
-//! loop or a macro makes again and again is told only where nothing is left of any.
+//! **In:** the parts of each operation, as they are placed. **Out:** lints. **Invariant:** reported where
+//! boxes around the parts prove it, or corners around the first part that lie in a convex one; an operation
+//! that a loop or a macro repeats is reported only if every repetition leaves nothing.
 
 mod gap;
 
@@ -22,20 +23,20 @@ use crate::shape::{Body, Bounds, Box_, Rounding, Shape};
 use crate::source::{Site, Span};
 use crate::world::Object;
 
-/// Of operations with more parts, two are compared along the axes alone.
+/// The most parts of an operation for which pairs are compared along slanted axes too.
 const MOST_SLANTED: usize = 64;
-/// Corners of the polygon that is drawn around a circle.
+/// Corners of the polygon drawn around a circle.
 const CORNERS: usize = 32;
 
-/// What is known of a part of a whole.
+/// Bounds and origin of one part of a CSG solid.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Known {
-    /// The word that made it.
+    /// The site of the keyword that made it.
     site: Site,
-    /// Boxes around what is in it, and around what is not.
+    /// Bounds of its inside, and of its outside.
     inside: Bounds,
     outside: Bounds,
-    /// The object that it is, where it is one, and whether it is what that is not.
+    /// The index of its object, if it is a single one, and whether the part is that object's complement.
     object: Option<(u32, bool)>,
 }
 
@@ -44,7 +45,7 @@ impl Known {
         Self { site, inside: Bounds::NOWHERE, outside: Bounds::EVERYWHERE, object: None }
     }
 
-    /// All that is not in it, where `turns`.
+    /// Returns the complement if `turns`.
     fn turned(self, turns: bool) -> Self {
         let Self { site, inside, outside, object } = self;
         match turns {
@@ -62,7 +63,7 @@ impl Known {
         self.inside.is_empty()
     }
 
-    /// How far from 0 it ends along an axis.
+    /// Returns the largest distance from 0 of its bounds along an axis.
     fn size(&self, axis: usize) -> f64 {
         let ends = [self.inside.low[axis], self.inside.high[axis]].map(f64::abs);
         ends.into_iter().filter(|end| end.is_finite()).fold(0.0, f64::max)
@@ -70,7 +71,7 @@ impl Known {
 }
 
 impl Lowering<'_, '_> {
-    /// Notes a part of the whole under way: the object placed last.
+    /// Records a part of the CSG solid under construction: the object placed last.
     pub(super) fn know_leaf(&mut self, inverse: bool, site: Site) {
         let object = self.world.objects.len() as u32 - 1;
         let around =
@@ -89,7 +90,7 @@ impl Lowering<'_, '_> {
         self.note_known(known);
     }
 
-    /// Likewise, one that is nowhere, or everywhere.
+    /// Likewise, for a part that is nowhere or everywhere.
     pub(super) fn know_nothing(&mut self, inverse: bool, site: Site) {
         self.note_known(Known::nothing(site).turned(inverse));
     }
@@ -98,7 +99,7 @@ impl Lowering<'_, '_> {
         self.building.iter_mut().for_each(|building| building.known.push(known));
     }
 
-    /// Makes one of the parts of an operation that ends, and notes whether anything is left of it.
+    /// Combines the parts of an operation that ends into one, and records whether anything is left of it.
     pub(super) fn know_operation(&mut self, open: &Open) {
         let Open { making, inverse, site, known: first, .. } = *open;
         let Some(building) = &mut self.building else { return };
@@ -122,7 +123,8 @@ impl Lowering<'_, '_> {
         self.note_known(whole(making, &parts, inverse, site).turned(inverse));
     }
 
-    /// Notes what is told of an operation, or of a clipped object, if it is told of each that is made there.
+    /// Records a diagnostic about an operation or a clipped object; it is reported only if it holds for every
+    /// one made there.
     fn note_emptied(&mut self, place: (Span, bool), told: Option<Diagnostic>, site: Site) {
         self.emptied
             .entry(place)
@@ -130,7 +132,7 @@ impl Lowering<'_, '_> {
             .or_insert(told.map(|told| (told, site)));
     }
 
-    /// Says that nothing is left of an operation, where that is certain, and not for a part that is nothing.
+    /// Returns a diagnostic if certainly nothing is left of an operation, unless a part is itself empty.
     fn nothing_left(
         &self,
         operation: Operation,
@@ -146,7 +148,7 @@ impl Lowering<'_, '_> {
             Diagnostic::new(Code::NothingLeft, message).at(site.span, "nothing is left of it")
         };
         if operation == Operation::Difference {
-            // Each of the others is here what it leaves.
+            // Each of the other parts is here what it leaves.
             let others = &parts[1..];
             let is_short = parts.len() <= MOST_SLANTED;
             let by_one = others.iter().find(|other| self.takes_all(&parts[0], other, is_short));
@@ -176,7 +178,7 @@ impl Lowering<'_, '_> {
         })
     }
 
-    /// Notes what takes nothing away, and what takes something, of the parts of a difference.
+    /// Records which parts of a difference take nothing away, and which take something.
     fn note_idle(&mut self, parts: &[Known]) {
         let [first, others @ ..] = parts else { return };
         let is_short = parts.len() <= MOST_SLANTED;
@@ -206,7 +208,7 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// What to do about a part that is a surface alone; `None` of one that has an inside.
+    /// Returns the help for a part that is a surface alone; `None` if the part has an inside.
     fn sheet(&self, part: &Known) -> Option<&'static str> {
         let (object, _) = part.object?;
         let Shape::Placed(i) = self.world.objects[object as usize].shape else { return None };
@@ -217,17 +219,18 @@ impl Lowering<'_, '_> {
         })
     }
 
-    /// Whether nothing of a part is left where `rest` is what another leaves.
+    /// Returns whether nothing of `first` is left, where `rest` is the complement of another part.
     fn takes_all(&self, first: &Known, rest: &Known, is_short: bool) -> bool {
         self.gap_of_two([*first, *rest], is_short).is_some() || self.is_within(first, rest)
     }
 
-    /// Between two parts of an operation, of a short one also across slanted faces.
+    /// Returns the gap between two parts of an operation; a short operation is also searched across slanted
+    /// faces.
     fn gap_of_two(&self, parts: [Known; 2], is_short: bool) -> Option<Gap> {
         if is_short { self.gap(&parts) } else { gap_along_axes(&parts) }
     }
 
-    /// Whether a part lies all in a convex object, of which `rest` is what is not in it.
+    /// Returns whether `first` lies entirely inside a convex object, whose complement is `rest`.
     fn is_within(&self, first: &Known, rest: &Known) -> bool {
         let world = &self.world;
         let Some((index, turned)) = rest.object else { return false };
@@ -250,7 +253,7 @@ impl Lowering<'_, '_> {
         !corners.is_empty() && corners.iter().all(is_held)
     }
 
-    /// Whether what is in an object, or all that is not, is convex.
+    /// Returns whether the inside of an object, or its outside, is convex.
     fn is_convex(&self, object: &Object, inside: bool) -> bool {
         match object.shape {
             Shape::Plane(_) => true,
@@ -282,14 +285,14 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// The shape that a part is.
+    /// Returns the shape of a part that is a single object.
     fn shape(&self, part: &Known) -> Option<Shape> {
         let (object, turned) = part.object?;
         let object = &self.world.objects[object as usize];
         (object.inverse == turned).then_some(object.shape)
     }
 
-    /// Corners of a polyhedron that a part lies in; none where it has no end.
+    /// Returns the corners of a polyhedron that contains a part; empty if the part is unbounded.
     fn corners(&self, part: &Known) -> Vec<Vector> {
         match self.shape(part) {
             Some(Shape::Box(i)) => return corners_of_box(&self.world.boxes[i as usize]),
@@ -310,12 +313,13 @@ impl Lowering<'_, '_> {
         corners_of(&part.inside)
     }
 
-    /// Says that nothing is left of an object, the first of the parts, in what clips it, where that is certain.
+    /// Returns a diagnostic if certainly nothing is left of an object, the first of the parts, after
+    /// clipping.
     fn clipped_away(&self, parts: &[Known], site: Site) -> Option<Diagnostic> {
         if parts.len() < 2 || parts.iter().any(Known::is_nothing) {
             return None;
         }
-        // What lies in a face of what clips it is kept.
+        // A part that lies in a face of its clip is kept.
         let Gap { parts: apart, .. } = self.gap(parts).filter(|gap| !gap.touching)?;
         let why = match apart.contains(&0) {
             true => "it does not reach into what clips it",
@@ -339,7 +343,7 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// What is known of all that an operation makes of its parts, as its author sees them.
+/// Returns what is known of the result of an operation, as its author sees it.
 fn whole(making: Making, parts: &[Known], inverse: bool, site: Site) -> Known {
     if let ([only], false) = (parts, making == Making::Clip) {
         return *only;
@@ -354,7 +358,7 @@ fn whole(making: Making, parts: &[Known], inverse: bool, site: Site) -> Known {
         Making::Union | Making::Operation(Operation::Merge) => {
             (united(|part| part.inside), shared(|part| part.outside))
         }
-        // What a difference takes away is turned already.
+        // The complement of a part that a difference subtracts is already taken.
         Making::Operation(Operation::Intersection | Operation::Difference) => {
             (shared(|part| part.inside), united(|part| part.outside))
         }
@@ -378,7 +382,7 @@ fn corners_of_box(solid: &Box_) -> Vec<Vector> {
     (0..8).map(|i| solid.centre + way(i, 0) + way(i, 1) + way(i, 2)).collect()
 }
 
-/// Corners of a polygon around a circle about the z axis.
+/// Returns the corners of a polygon around a circle about the z axis.
 fn ring(radius: f64, z: f64) -> Vec<Vector> {
     let reach = radius / cos(PI / CORNERS as f64);
     let corner = |i: usize| {

@@ -1,4 +1,4 @@
-//! Textures that faces of a mesh have themselves: the colours of one material, by their corners.
+//! Lowers textures of single faces of a mesh: the colours of one material, by corner.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::scene::{self, FinishId, PigmentId, PigmentKind};
 use crate::world::Pigment;
 
 impl Surface {
-    /// As the surface of a mesh, of which it is seen where a face has no texture itself.
+    /// Returns the surface for a mesh; it is visible where a face has no texture of its own.
     fn of_faces(&self, scene: &scene::Scene, triangles: &Arc<Triangles>) -> Self {
         let Some(first) = triangles.textures.first() else { return self.clone() };
         if triangles.faces.iter().all(|face| face.paint.is_none()) {
@@ -27,7 +27,7 @@ impl Surface {
         Self { pigment, finish, faces, ..self.clone() }
     }
 
-    /// All that may be seen of it: the textures of faces, in their order, and then its own.
+    /// Returns all textures that may be visible: those of faces, in their order, and then its own.
     pub fn all(&self, scene: &scene::Scene) -> impl Iterator<Item = (PigmentId, FinishId)> {
         let textures = self.faces.iter().flat_map(|triangles| &triangles.textures);
         let of_faces = textures.map(|id| &scene.textures[id.index()]);
@@ -37,14 +37,14 @@ impl Surface {
 }
 
 impl Inherited {
-    /// What is said of a mesh whose faces may have textures themselves.
+    /// Returns what a mesh inherits whose faces may have textures of their own.
     pub fn of_faces(&self, scene: &scene::Scene, triangles: &Arc<Triangles>) -> Self {
         Self { surface: self.surface.of_faces(scene, triangles), ..self.clone() }
     }
 }
 
 impl Lowering<'_, '_> {
-    /// The World's index of the material of a mesh whose faces have textures themselves.
+    /// Returns the World's index of the material of a mesh whose faces have textures of their own.
     pub(super) fn material_of_faces(&mut self, surface: &Surface) -> Result<u32, Fault> {
         let scene = self.scene;
         let all: Vec<_> = surface.all(scene).collect();

@@ -1,15 +1,14 @@
-//! Finishes: which answers to light a surface gives, and with what weight.
+//! Lowers finishes: the kinds of reflection that a surface has, and their weights.
 //!
-//! **In:** the seed's or POV-Ray's words. **Out:** the World's finish.
-//! **Invariant:** everything of weight zero or less is left out, as in POV-Ray 3.7 (measured); every number
-//! is finite.
+//! **In:** the native or POV-Ray's keywords. **Out:** the World's finish. **Invariant:** every component of
+//! weight zero or less is left out, as in POV-Ray 3.7 (measured); every number is finite.
 
 use super::Fault;
 use crate::color::Rgb;
 use crate::scene::{self, ClassicFinish};
 use crate::world::{Finish, Lobe, LobeKind, Reflection};
 
-/// A finish that answers no light.
+/// A finish that reflects and emits no light.
 pub const BARE: Finish = Finish {
     glow: Rgb::BLACK,
     diffuse: 0.0,
@@ -20,7 +19,7 @@ pub const BARE: Finish = Finish {
     seed: false,
 };
 
-/// Everything of weight zero or less is left out.
+/// Returns the World's finish, without components of weight zero or less.
 pub fn lower_finish(finish: &scene::Finish, ambient_light: Rgb) -> Result<Finish, Fault> {
     let lowered = match finish {
         &scene::Finish::Seed { kd, ks, phong_exponent } => Finish {
@@ -56,13 +55,13 @@ fn lower_classic(finish: &ClassicFinish, ambient_light: Rgb) -> Finish {
     Finish {
         glow: finish.ambient * ambient_light + finish.emission,
         diffuse: if finish.diffuse < 0.0 { 0.0 } else { finish.diffuse },
-        // Brilliance bends diffuse light only.
+        // Brilliance affects diffuse reflection only.
         brilliance: if finish.diffuse <= 0.0 { 1.0 } else { finish.brilliance },
         lobes,
         reflection: reflection.map(|r| Reflection {
             minimum: r.minimum,
             maximum: r.maximum,
-            // Where both ends are the same, the way between does not matter.
+            // With equal ends, the interpolation between them does not matter.
             falloff: if r.fresnel { 1.0 } else { r.falloff },
             fresnel: r.fresnel && r.minimum != r.maximum,
             exponent: r.exponent,

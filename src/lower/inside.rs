@@ -1,7 +1,7 @@
-//! What stands inside of an opaque solid: a camera that sees only that, a light that lights only that.
+//! Lints a camera inside an opaque solid, and lights enclosed in one.
 //!
-//! **In:** the World. **Out:** lints. **Invariant:** told only of a solid whose surface is certainly all
-//! around, and lets nothing through.
+//! **In:** the World. **Out:** lints. **Invariant:** reported only for a solid whose surface is certainly
+//! closed and opaque.
 
 use super::Lowering;
 use super::lint::DEFAULT_AMBIENT;
@@ -14,15 +14,15 @@ use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{CameraKind, Light, LightKind, Object};
 
-/// How many lights are looked at.
+/// The most lights that are checked.
 const MOST_LIGHTS: usize = 1000;
 
 impl Lowering<'_, '_> {
-    /// A camera inside of a solid that neither light nor anything else comes into. Whether it is told.
+    /// Lints a camera inside a solid that no light enters. Returns whether it was reported.
     pub(super) fn lint_inside(&mut self) -> bool {
-        // Without one, that is what is said.
+        // A missing camera has a diagnostic of its own.
         let Some(camera) = self.origins.camera else { return false };
-        // What glows may be in there too.
+        // An emitting surface may be inside too.
         if self.glows() {
             return false;
         }
@@ -32,9 +32,9 @@ impl Lowering<'_, '_> {
             let material = world.materials.get(object.material as usize);
             material.is_some_and(|m| m.finish.glow.largest() <= DEFAULT_AMBIENT)
         };
-        // Under a ground it is as dark as in a room, where no sky is seen.
+        // Below a ground plane it is as dark as in a closed room, because no sky is visible.
         let is_plane = |solid: u32| self.is_plane(solid);
-        // A mistake may have kept a part of a solid from being read.
+        // An error may have kept a part of a solid from being read.
         let is_certain =
             |solid: u32| self.is_sound || world.objects[solid as usize].whole.is_none();
         let is_around = |solid: u32| {
@@ -47,7 +47,7 @@ impl Lowering<'_, '_> {
         let comes_in = |solid: u32, light: &Light| match light.kind {
             _ if !light.casts_shadows => true,
             LightKind::Point { position } => self.holds(solid, position),
-            // It may come from as far below.
+            // Its light may come from below as well.
             LightKind::Directional { .. } | LightKind::Parallel { .. } => is_plane(solid),
         };
         let around = world.solids().find(|&solid| {
@@ -66,7 +66,7 @@ impl Lowering<'_, '_> {
         true
     }
 
-    /// Lights inside of solids that no light leaves, and that are seen from outside.
+    /// Lints lights inside solids that no light leaves, and that are visible from outside.
     pub(super) fn lint_enclosed(&mut self) {
         if self.origins.camera.is_none() {
             return;
@@ -88,14 +88,14 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// Each such light, and the solid around it.
+    /// Returns each such light, and the solid around it.
     fn enclosed(&self) -> Vec<(Site, u32)> {
         let world = &self.world;
         let is_endless = |solid: u32| self.is_plane(solid) && !self.is_inverse(solid);
         let lights = world.lights.iter().zip(&self.lamps).take(MOST_LIGHTS);
         let lamps = lights.filter_map(|(light, &site)| match light.kind {
             LightKind::Point { position } if light.casts_shadows => Some((position, site)),
-            // Theirs comes from outside.
+            // Their light comes from outside.
             LightKind::Point { .. }
             | LightKind::Directional { .. }
             | LightKind::Parallel { .. } => None,
@@ -119,7 +119,7 @@ impl Lowering<'_, '_> {
         found
     }
 
-    /// Whether light neither comes into a solid nor leaves it: it is opaque all around, and not inside out.
+    /// Returns whether a solid is closed to light: opaque all around, and not inside out.
     fn is_shut(&self, solid: u32) -> bool {
         let world = &self.world;
         let is_wall = |object: &Object| {
@@ -131,14 +131,14 @@ impl Lowering<'_, '_> {
                 && self.is_closed(object)
         };
         let whole = world.objects[solid as usize].whole.map(|i| &world.wholes[i as usize]);
-        // What is clipped is open where it is cut.
+        // A clipped solid is open where it is cut.
         let is_clip = |node: &Node| matches!(node, Node::Clip { .. });
         !self.is_inverse(solid)
             && !whole.is_some_and(|whole| whole.nodes.iter().any(is_clip))
             && world.parts(solid).iter().all(is_wall)
     }
 
-    /// Whether an object's surface is all around its inside; `false` where that is not certain.
+    /// Returns whether an object's surface is closed; `false` if that is uncertain.
     fn is_closed(&self, object: &Object) -> bool {
         let body = match object.shape {
             Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) | Shape::Ellipsoid(_) => {
@@ -171,7 +171,8 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// Whether the camera may see a solid's inside. Which points are an orthographic one's is not asked.
+    /// Returns whether the camera may see a solid's inside. The ray origins of an orthographic camera are not
+    /// checked.
     fn may_be_seen_inside(&self, solid: u32) -> bool {
         let camera = &self.world.camera;
         let is_seen = self.world.parts(solid).iter().all(|object| object.in_reflections);
@@ -182,7 +183,7 @@ impl Lowering<'_, '_> {
         self.world.whole_contains(&self.world.objects[solid as usize], place)
     }
 
-    /// Whether a place lies inside of a solid of this size by more than was rounded on the way.
+    /// Returns whether a point lies inside a solid of size `size` by more than the accumulated rounding.
     fn clearly_holds(&self, solid: u32, place: Vector, size: f64) -> bool {
         let off = (size + place.abs().max_element()) * CLEARLY;
         let axes = [Vector::X, Vector::Y, Vector::Z];
@@ -191,13 +192,14 @@ impl Lowering<'_, '_> {
         })
     }
 
-    /// A plane that is no part of anything: its inside is all that lies below it.
+    /// Returns whether a solid is a plane outside any CSG solid: its inside is everything below it.
     fn is_plane(&self, solid: u32) -> bool {
         let object = &self.world.objects[solid as usize];
         object.whole.is_none() && matches!(object.shape, Shape::Plane(_))
     }
 
-    /// What is outside of it has no end. (A whole that has none has no bounds.)
+    /// Returns whether a solid is inverse, so that its inside is unbounded. (An unbounded CSG solid has no
+    /// bounds.)
     pub(super) fn is_inverse(&self, solid: u32) -> bool {
         let object = &self.world.objects[solid as usize];
         object.whole.is_none() && object.inverse

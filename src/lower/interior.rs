@@ -1,7 +1,7 @@
-//! Interiors: what solids are filled with, as far as any ray can tell.
+//! Lowers interiors, as far as they affect a ray.
 //!
-//! **Invariant:** pruning is exact. An interior goes only when no ray can come into it, or when all
-//! of the scene is filled alike.
+//! **Invariant:** pruning is exact. An interior is dropped only if no ray can enter it, or if the whole scene
+//! has the same one.
 
 use std::collections::HashSet;
 
@@ -11,11 +11,11 @@ use crate::scene::{ClassicFinish, Finish, FinishId, InteriorId};
 use crate::source::Site;
 use crate::world::{CameraKind, Interior, Object, World};
 
-/// What says how an object is filled: its interior, and its finish.
+/// The origins of an object's interior: its `interior` block, and its finish.
 pub type Filling = (Option<InteriorId>, FinishId);
 
 impl Lowering<'_, '_> {
-    /// The World's index of an object's interior. A finish with the old `ior` has the last word.
+    /// Returns the World's index of an object's interior. The old `ior` in a finish takes precedence.
     pub(super) fn interior(
         &mut self,
         interior: Option<InteriorId>,
@@ -50,8 +50,8 @@ impl Lowering<'_, '_> {
         Some(index)
     }
 
-    /// What called for an interior: for one other than the air, what has to be taken out for it to be
-    /// like that.
+    /// Returns the source pieces that give an object its interior: for one other than air, the pieces to
+    /// remove to be rid of it.
     fn interior_sites(&self, (interior, finish): Filling) -> Vec<Site> {
         let written = interior.map(|id| &self.scene.interiors[id.index()]);
         let of_interior = || written.map_or(vec![], |interior| interior.sites.clone());
@@ -62,14 +62,14 @@ impl Lowering<'_, '_> {
         };
         let origin = self.scene.finish_origins.get(finish.index());
         let mut sites = origin.map_or(vec![], |origin| origin.ior.clone());
-        // Without it the interior's own shows again.
+        // Without it the interior's own `ior` applies again.
         if old != 1.0 && written.is_some_and(|interior| interior.ior != 1.0) {
             sites.extend(of_interior());
         }
         sites
     }
 
-    /// Drops the interiors that nothing can show, and tells so.
+    /// Drops the interiors that no ray can reveal, and records that.
     pub(super) fn prune_interiors(&mut self) {
         if self.world.interiors.is_empty() {
             return;
@@ -100,7 +100,7 @@ impl Lowering<'_, '_> {
         for ((object, index, kept), filling) in filled.into_iter().zip(fillings) {
             let new = renamed[index as usize];
             self.world.objects[object].interior = new.filter(|_| kept);
-            // One and the same, time and again.
+            // The same pair recurs.
             if !noted.insert((filling, kept)) {
                 continue;
             }
@@ -123,15 +123,15 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// Whether the object's surface does anything by the indices of refraction.
+/// Returns whether the object's surface uses the indices of refraction.
 fn asks(world: &World, object: &Object) -> bool {
     let material = &world.materials[object.material as usize];
     let fresnel = material.finish.reflection.as_ref().is_some_and(|r| r.fresnel);
     fresnel || material.pigment.is_clear()
 }
 
-/// Whether a ray may be inside: through its surface, or because the camera is. Which points are an
-/// orthographic camera's is not asked.
+/// Returns whether a ray may be inside: through the surface, or because the camera is. The ray origins of an
+/// orthographic camera are not checked.
 fn is_entered(world: &World, object: &Object) -> bool {
     asks(world, object)
         || world.camera.kind == CameraKind::Orthographic

@@ -1,4 +1,4 @@
-//! Lights: transforms are spent on positions and directions.
+//! Lowers lights: applies transforms to positions and directions.
 
 use super::transform::{Affine, exact};
 use super::{Fault, Lowering};
@@ -10,7 +10,7 @@ use crate::source::Site;
 use crate::world::{self, Attenuation, Beam, Fade, Light};
 
 impl Lowering<'_, '_> {
-    /// A black light gives nothing and is dropped. `item` is all of what it stands in.
+    /// Places a light; a black one is dropped. `item` is the whole source item that contains it.
     pub(super) fn light(&mut self, light: &LightSource, map: &Affine, site: Site, item: Site) {
         if light.color.is_black() {
             self.black.get_or_insert(light.color_site.unwrap_or(site));
@@ -34,7 +34,8 @@ impl Lowering<'_, '_> {
         self.origins.light_pieces.push(pieces);
     }
 
-    /// Takes a light's `point_at` to where it would be, were it moved by all of the light's transforms.
+    /// Returns the map that takes a light's `point_at` to where all of the light's transforms would have
+    /// moved it.
     fn aim(&mut self, light: &LightSource) -> Result<Affine, Fault> {
         match light.aimed_after.as_slice() {
             [] => Ok(Affine::IDENTITY),
@@ -79,8 +80,8 @@ fn unit(direction: DoubleVector) -> Result<UnitVector, Fault> {
     }
 }
 
-/// A beam and a fade without effect are absent. Only the axis is moved: neither angles nor the width of
-/// a cylinder of light nor `fade_distance` go through transforms, as in POV-Ray 3.7 (measured).
+/// Returns the beam and the fade if they have an effect. Only the axis is moved: transforms change neither
+/// angles nor the width of a cylinder of light nor `fade_distance`, as in POV-Ray 3.7 (measured).
 fn attenuation(
     light: &LightSource,
     map: &Affine,

@@ -1,8 +1,8 @@
-//! What lowering has to say about the scene as a whole.
+//! Lints the scene as a whole.
 //!
-//! **Invariant:** only what is certain: after a fault of another object that is what each is by itself, and
-//! nothing about the whole; after one of the camera all but what it sees; of a scene that was read with
-//! mistakes, what nothing that is missing could change.
+//! **Invariant:** reports only what is certain. After a fault of another object, only lints of single objects
+//! remain; after a fault of the camera, all but those about its view; in a scene read with errors, those that
+//! no missing part could change.
 
 use std::cmp::Ordering;
 
@@ -14,20 +14,20 @@ use crate::shape::Body;
 use crate::shape::isosurface::Nowhere;
 use crate::source::{Site, Span};
 
-/// What a white surface gives off by default: it tells shapes apart from black, and no more.
+/// The default ambient of a white surface: enough to distinguish shapes from black, and no more.
 pub(super) const DEFAULT_AMBIENT: f64 = 0.1;
-/// What the sum of two decimals may be off by.
+/// The rounding error allowed in a sum of two decimals.
 const ROUNDING: f64 = 1e-9;
-/// So many of several places that are alike are named.
+/// The most similar locations that are named.
 const MOST_NAMED: usize = 8;
-/// How far from square a pixel may be, relative: POV-Ray's own `right 1.33*x` stands for 4:3.
+/// How far a pixel may be from square, relative: POV-Ray's own `right 1.33*x` means 4:3.
 const NEARLY_SQUARE: f64 = 0.01;
 
 impl Lowering<'_, '_> {
     pub(super) fn lint(&mut self) {
-        // What a mistake kept from being read may be what is missing.
+        // A missing part may be one that an error kept from being read.
         if !self.is_sound {
-            // A file that includes itself holds its camera twice.
+            // A file that includes itself contains its camera twice.
             let mut spans: Vec<_> = self.scene.cameras.iter().map(|one| one.site.span).collect();
             spans.dedup();
             if spans.len() == self.scene.cameras.len() {
@@ -41,7 +41,7 @@ impl Lowering<'_, '_> {
         }
         let is_error = |told: &&Diagnostic| told.is_error();
         let errors = self.reporter.diagnostics.iter().filter(is_error).count();
-        // A camera that cannot be built is missed by nothing but what it would see.
+        // A camera that cannot be built affects only the lints about its view.
         let is_whole = errors == usize::from(self.is_blind);
         if is_whole {
             self.lint_cameras();
@@ -57,14 +57,14 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// Whether a mistake may have left one part of several, which is then taken for the whole.
+    /// Returns whether an error may have left an operation with one part of several.
     fn lacks_parts(&self) -> bool {
         self.scene.objects.iter().any(
             |object| matches!(&object.kind, ObjectKind::Csg { children, .. } if children.len() < 2),
         )
     }
 
-    /// What all that is there comes to.
+    /// Runs the lints that need the complete scene.
     fn lint_whole(&mut self) {
         self.lint_emptied();
         let is_telescope = !self.is_blind && self.lint_angle();
@@ -76,7 +76,7 @@ impl Lowering<'_, '_> {
         let is_dark = world.lights.is_empty() && empty_sky && !self.glows();
         if is_dark {
             self.lint_unlit();
-            // Without a camera too it is rather a shape that is tried.
+            // Without a camera as well, the author is probably trying out a shape.
             if self.origins.camera.is_none() {
                 return;
             }
@@ -92,10 +92,10 @@ impl Lowering<'_, '_> {
         self.lint_pigment();
     }
 
-    /// No camera, or more than one.
+    /// Lints a missing camera, or more than one.
     fn lint_cameras(&mut self) {
         let cameras = &self.scene.cameras;
-        // One that is declared alone was told.
+        // A camera that is only declared was reported before.
         if cameras.is_empty() && !self.scene.unused.iter().any(|unused| unused.is_camera) {
             let message = "the scene has no camera; it is seen from <0, 0, 0>";
             let help = "a camera such as `camera { location <0, 1, 5> look_at <0, 1, 0> }`";
@@ -123,7 +123,7 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// A scene without an object.
+    /// Lints a scene without objects.
     fn lint_empty(&mut self, empty_sky: bool) {
         if self.tells_why_empty() {
             return;
@@ -160,8 +160,7 @@ impl Lowering<'_, '_> {
         self.reporter.diagnostics.push(told);
     }
 
-    /// Says so where there is nothing of a shape of this word, or nothing to be seen; `false` where that it is
-    /// nothing is proven.
+    /// Reports a shape that is empty or invisible, under its keyword; returns `false` if it is proven empty.
     pub(super) fn is_somewhere(&mut self, body: &Body, word: &str, site: Site) -> bool {
         let nothing = format!("there is nothing of this {word}");
         let (message, label, is_proven) = match body {
@@ -203,7 +202,7 @@ impl Lowering<'_, '_> {
         !is_proven
     }
 
-    /// The last object of a scene that places none but lights.
+    /// Returns the last object of a scene that places only lights.
     fn only_declared(&self) -> Option<&Object> {
         let is_light = |object: &Object| matches!(object.kind, ObjectKind::LightSource(_));
         let objects = &self.scene.objects;
@@ -214,7 +213,7 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// Whether it was told that an object is never placed, or a macro never called: the scene is empty by that.
+    /// Returns whether an unplaced object or an uncalled macro was reported, which explains an empty scene.
     fn tells_why_empty(&self) -> bool {
         let macros = self.scene.unused.iter().filter(|one| one.directive == "macro");
         let macros: Vec<_> = macros.map(|one| one.site.span).collect();
@@ -227,7 +226,7 @@ impl Lowering<'_, '_> {
         })
     }
 
-    /// Objects that are black because nothing gives them a colour.
+    /// Lints objects that are black because nothing gives them a colour.
     fn lint_pigment(&mut self) {
         let mut sites = std::mem::take(&mut self.unpainted);
         sites.sort_by_key(|site| site.span);
@@ -247,7 +246,7 @@ impl Lowering<'_, '_> {
         self.reporter.diagnostics.push(diagnostic.traced(first, self.reporter.expansions));
     }
 
-    /// A picture of another shape than the camera sees is squashed.
+    /// Lints a picture whose proportions differ from the camera's, so that it looks squashed.
     fn lint_picture_shape(&mut self) {
         let (Some((width, height)), Some(camera)) =
             (self.options.picture, self.scene.cameras.last())
@@ -256,9 +255,9 @@ impl Lowering<'_, '_> {
         };
         let (width, height) = (f64::from(width), f64::from(height));
         let seen = self.world.camera.right.length() / self.world.camera.up.length();
-        // A whole number of pixels is off by half of one at most.
+        // Rounding to whole pixels is off by half a pixel at most.
         let off = (width - seen * height).abs();
-        // Sides too long for a number are no proportion to speak of: NaN is not off.
+        // Infinite sides have no proportion: NaN is not reported.
         let is_off = off > NEARLY_SQUARE * width && off > seen.max(1.0);
         if !is_off {
             return;
@@ -274,7 +273,7 @@ impl Lowering<'_, '_> {
         self.reporter.diagnostics.push(diagnostic);
     }
 
-    /// Colours that let through more than comes in, and fresnel without the number it lives by.
+    /// Lints colours that let through more light than enters, and `fresnel` without an index of refraction.
     fn lint_clear(&mut self) {
         let (world, origins) = (&self.world, &self.origins);
         let origin = |i: usize| origins.materials.get(i);
@@ -311,7 +310,7 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// Whether a part of what makes the pigment at `site` clear was told to be a percentage.
+    /// Returns whether part of what makes the pigment at `site` clear was already reported as a percentage.
     fn is_percentage(&self, site: Site) -> bool {
         let told = self.reporter.diagnostics.iter();
         let told = told.filter(|one| one.code == Code::SuspiciousUnit);
@@ -327,7 +326,7 @@ impl Lowering<'_, '_> {
         })
     }
 
-    /// Whether any surface is bright without a light, by more than the default ambient.
+    /// Returns whether any surface emits more than the default ambient without a light.
     pub(super) fn glows(&self) -> bool {
         self.world.materials.iter().any(|material| {
             let bright = |color: Rgb| (color * material.finish.glow).largest() > DEFAULT_AMBIENT;
@@ -336,7 +335,7 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// Width to height as people write it: `4:3`, `16:9`, `2.39:1`.
+/// Returns width to height in the usual notation: `4:3`, `16:9`, `2.39:1`.
 fn proportion(ratio: f64) -> String {
     let (long, wide) = if ratio >= 1.0 { (ratio, true) } else { (1.0 / ratio, false) };
     let near = |short: &f64| (long * short - (long * short).round()).abs() <= 0.003 * long * short;

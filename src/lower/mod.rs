@@ -1,8 +1,8 @@
-//! `lower`: from what the author meant to what is there.
+//! Lowers a parsed [`Scene`] to the canonical [`World`] that the renderer traces.
 //!
-//! **In:** a [`Scene`]. **Out:** the canonical [`World`] and where its parts came from.
-//! **Invariant:** always yields a World; what cannot be built is reported and left out. Every number
-//! of the World was computed in extended precision and rounded once. Specified in `docs/world.md`.
+//! **In:** a [`Scene`]. **Out:** the canonical [`World`] and the origins of its parts in the source.
+//! **Invariant:** always yields a World; a part that cannot be built is reported and left out. Every number
+//! of the World is computed in extended precision and rounded once. Specified in `docs/world.md`.
 
 pub mod alone;
 mod blob;
@@ -43,16 +43,16 @@ use crate::shape::Body;
 use crate::source::{Expansions, Site, Span};
 use crate::world::{Dropped, NearSingular, Origins, Pigment, Settings, World};
 
-/// What the caller sets.
+/// Options of [`lower`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LowerOptions {
-    /// The most objects, uses of one another counted each: shared unions can hold 2ⁿ in n lines.
+    /// The most objects, counting each use of a shared one: nested unions can hold 2ⁿ objects in n lines.
     pub objects: u64,
-    /// Width and height in pixels of the picture that will be made, where it is known.
+    /// Width and height in pixels of the output picture, if known.
     pub picture: Option<(u32, u32)>,
-    /// Coinciding faces are looked for, though nobody may be told.
+    /// Search for coinciding faces even if no diagnostic would report them.
     pub coinciding: bool,
-    /// Though the scene was read with mistakes, no light of it is missing.
+    /// No light is missing, although the scene was read with errors.
     pub lights_known: bool,
 }
 
@@ -62,7 +62,7 @@ impl Default for LowerOptions {
     }
 }
 
-/// Lowers a Scene; see the module.
+/// Lowers `scene` to a [`World`]; see the module.
 pub fn lower(
     scene: Scene,
     options: &LowerOptions,
@@ -112,51 +112,51 @@ pub fn lower(
     (world, origins)
 }
 
-/// A lowering under way: what is read, what is written, what is remembered.
+/// The state of one lowering: its input, its output and its caches.
 struct Lowering<'s, 'd> {
     scene: &'s Scene,
     options: LowerOptions,
-    /// It was read without a mistake: what is not in the Scene was not written.
+    /// The scene was read without an error, so that nothing written is missing from it.
     is_sound: bool,
     /// The camera could not be built.
     is_blind: bool,
-    /// The camera's rays meet no object.
+    /// The camera's rays hit no object.
     sees_nothing: bool,
     world: World,
     origins: Origins,
     reporter: Reporter<'s, 'd>,
     materials: texture::Materials,
     transforms: transform::Transforms<'s>,
-    /// Of the last texture that was set where nothing moves it.
+    /// The last texture that was set without a transform.
     last_surface: Option<(TextureId, texture::Surface)>,
-    /// What was left out so far, and where that is noted: a place says it once, however often it is gone
-    /// through.
+    /// Parts left out so far, and the index of each in the origins: a source location is listed once, however
+    /// often it is visited.
     dropped: HashMap<(&'static str, String, Span), usize>,
-    /// Of each object that has an interior, in order.
+    /// Interior and finish of each object that has an interior, in order.
     fillings: Vec<interior::Filling>,
-    /// Where each index of refraction, by its bits, stands in the World.
+    /// The World's index of each index of refraction, keyed by its bits.
     known_interiors: HashMap<u64, u32>,
-    /// Where solids stand that have no pigment and do not mirror.
+    /// Sites of solids that have no pigment and do not reflect.
     unpainted: Vec<Site>,
-    /// The word of each light.
+    /// The site of each light's keyword.
     lamps: Vec<Site>,
-    /// The colour of the first light that is black.
+    /// The colour of the first black light.
     black: Option<Site>,
-    /// Of each operation of which nothing may be left, by its place: what is to be said, if nothing is of any.
+    /// Pending `nothing-left` diagnostics, keyed by operation span; `None` where something is left of one of
+    /// them.
     emptied: BTreeMap<(Span, bool), Option<(Diagnostic, Site)>>,
-    /// Likewise, of each part of a difference that may take nothing away.
+    /// Likewise, for each part of a difference that may take nothing away.
     idle: BTreeMap<Span, Option<(Diagnostic, Site)>>,
-    /// The solid made of others that is under way.
+    /// The CSG solid under construction.
     building: Option<csg::Building>,
-    /// What each mesh and blob became, stored once however often it is used; `None` where nothing is left of
-    /// it.
+    /// The body of each mesh and blob, stored once however often it is used; `None` where it is empty.
     shared: BTreeMap<ObjectId, Option<(Arc<Body>, transform::Affine)>>,
-    /// The first object of those that have the same triangles.
+    /// The first object of those that share the same triangles.
     meshes: HashMap<*const Triangles, ObjectId>,
 }
 
 impl Lowering<'_, '_> {
-    /// Notes that a part cannot change the picture, and so is not in the World.
+    /// Records that a part cannot change the picture, and is therefore not in the World.
     fn drop_part(&mut self, site: Site, what: &'static str, why: &str) {
         let next = self.origins.dropped.len();
         let place = *self.dropped.entry((what, why.to_owned(), site.span)).or_insert(next);
@@ -164,13 +164,13 @@ impl Lowering<'_, '_> {
             let (what, why) = (what.to_owned(), why.to_owned());
             self.origins.dropped.push(Dropped { site, what, why, calls: Vec::new() });
         }
-        // Of what stands in a macro each call says it once.
+        // A part inside a macro is listed once for each call.
         let call = self.scene.expansions.get(site.expansion).map(|expansion| expansion.call);
         let part = &mut self.origins.dropped[place];
         part.calls.extend(call.filter(|call| !part.calls.contains(call)));
     }
 
-    /// The transforms that nearly flatten space; of those of one place the worst.
+    /// Reports the transforms that nearly flatten space: the worst one at each source location.
     fn near_singular(&mut self) {
         let sites = self.scene.transform_sites.iter().enumerate();
         let found = sites.filter_map(|(i, &site)| {
@@ -183,7 +183,7 @@ impl Lowering<'_, '_> {
         all.dedup_by_key(|near| near.site.span);
     }
 
-    /// What the scene declares or says and nothing uses.
+    /// Reports what the scene declares or sets without using it.
     fn unused(&mut self) {
         let scene = self.scene;
         if let [ignored @ .., _] = scene.cameras.as_slice() {
@@ -221,8 +221,8 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// Clear colours are those of old versions only where a colour has a `filter` to tell the two kinds
-    /// apart, or one part of the sky is seen through another.
+    /// Keeps the scene's rule for clear colours only if it changes the picture: if a colour has a `filter`,
+    /// or one part of the sky is seen through another.
     fn clearness(&mut self) {
         let world = &self.world;
         let filters = world.materials.iter().flat_map(|material| material.pigment.colors());
@@ -235,17 +235,17 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// Why what is too small is dropped.
+/// The reason for dropping a part that is too small.
 const NO_SIZE: &str = "it has no size";
 
-/// Why a part of the Scene cannot be built; whoever knows the place adds it.
+/// The reason why a part of the Scene cannot be built, without its location, which the caller adds.
 #[derive(Debug, Clone, PartialEq)]
 struct Fault {
     code: Code,
     message: String,
     label: String,
     help: Option<&'static str>,
-    /// POV-Ray 3.7 renders nothing either.
+    /// POV-Ray 3.7 refuses to render it too.
     is_refused: bool,
 }
 
@@ -266,7 +266,7 @@ impl Fault {
         Self { is_refused: true, ..self }
     }
 
-    /// Whether POV-Ray 3.7 renders the scene all the same, without this part.
+    /// Returns whether POV-Ray 3.7 renders the scene without this part.
     fn is_rendered(&self) -> bool {
         let of_numbers = matches!(
             self.code,
@@ -279,20 +279,20 @@ impl Fault {
         of_numbers && !self.is_refused
     }
 
-    /// Of `what` nothing is left that points anywhere: it was too short for what it went through.
+    /// Returns the fault of a vector `what` that became zero, and so has no direction.
     fn no_direction(what: &str) -> Self {
         Self::new(Code::ZeroVector, format!("{what} is the zero vector"))
             .label("too short to point anywhere")
     }
 
-    /// `what` has a number that is infinite or not a number.
+    /// Returns the fault of a number of `what` that is infinite or NaN.
     fn not_finite(what: &str) -> Self {
         Self::new(Code::NotANumber, format!("a number of {what} is not finite"))
             .label("too large for a number, or not a number at all")
     }
 }
 
-/// The sink, and what it takes to say how evaluation came to a place.
+/// The diagnostics, with what is needed to trace a location through macro expansions.
 struct Reporter<'s, 'd> {
     diagnostics: &'d mut Diagnostics,
     expansions: &'s Expansions,
@@ -304,7 +304,8 @@ impl<'s, 'd> Reporter<'s, 'd> {
         Self { diagnostics, expansions: &scene.expansions, dialect: scene.dialect }
     }
 
-    /// In a `.pov` a warning where POV-Ray 3.7 leaves the part out and renders the rest.
+    /// Reports a fault at `site`: in a `.pov` a warning if POV-Ray 3.7 leaves the part out and renders the
+    /// rest.
     fn fault(&mut self, fault: Fault, site: Site) {
         let is_warning = self.dialect == Dialect::Pov && fault.is_rendered();
         let mut diagnostic = Diagnostic::new(fault.code, fault.message)
@@ -316,12 +317,12 @@ impl<'s, 'd> Reporter<'s, 'd> {
         self.diagnostics.push(if is_warning { diagnostic.as_warning() } else { diagnostic });
     }
 
-    /// What was made, or `None` and a message.
+    /// Returns the value, or reports the fault and returns `None`.
     fn made<T>(&mut self, result: Result<T, Fault>, site: Site) -> Option<T> {
         result.map_err(|fault| self.fault(fault, site)).ok()
     }
 
-    /// As [`Self::made`], for faults that bring their place along.
+    /// As [`Self::made`], for faults that carry their own location.
     fn made_there<T>(&mut self, result: Result<T, (Fault, Site)>) -> Option<T> {
         result.map_err(|(fault, site)| self.fault(fault, site)).ok()
     }

@@ -1,7 +1,7 @@
-//! What an object's modifiers come to, in written order.
+//! Applies an object's modifiers, in written order.
 //!
-//! **Invariant:** a transform moves what precedes it: the solid, whichever texture it already has, and what
-//! clips it.
+//! **Invariant:** a transform moves what precedes it: the solid, any texture it already has, and its clipping
+//! objects.
 
 use super::Lowering;
 use super::texture::Surface;
@@ -10,24 +10,24 @@ use crate::scene::{InteriorId, ModifierKind, ObjectId, TextureId};
 use crate::source::Site;
 use crate::vocabulary::Word;
 
-/// An object's modifiers come to this.
+/// The result of an object's modifiers.
 #[derive(Default)]
 pub(super) struct Modified {
-    /// From the space the object was written in to that of its parent; `None` where they are the same.
+    /// The map from the object's own space to its parent's; `None` if they are the same.
     pub map: Option<Affine>,
-    /// Its place is in the parent's space.
+    /// Placed in the parent's space.
     pub surface: Option<Surface>,
     pub interior: Option<InteriorId>,
     pub flags: Flags,
-    /// The use whose flags, with those of what it uses, hide it from everything.
+    /// The use whose flags, with those of the object it uses, hide it from every ray.
     pub hidden_by: Option<ObjectId>,
     pub strained: bool,
     pub calls: Calls,
-    /// What clips it, and the map to the parent's space.
+    /// The clipping objects, each with the map to the parent's space.
     pub clips: Vec<(ObjectId, Affine)>,
 }
 
-/// What an object is that most are not.
+/// Flags of an object, all unset by default.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Flags {
     pub no_shadow: bool,
@@ -38,7 +38,7 @@ pub(super) struct Flags {
 }
 
 impl Flags {
-    /// Those of an object inside another.
+    /// Returns the flags of an object inside another.
     pub fn under(self, above: Self) -> Self {
         Self {
             no_shadow: self.no_shadow || above.no_shadow,
@@ -49,14 +49,14 @@ impl Flags {
         }
     }
 
-    /// No ray meets the object.
+    /// Returns whether no ray hits the object.
     pub fn hide(self) -> bool {
         self.no_shadow && self.no_image && self.no_reflection
     }
 }
 
-/// Which modifiers call for an effect, if there is a solid that they hold for: without all of one word it has
-/// none.
+/// The modifiers that enable an effect if a solid has them: the effect is absent when all sites of its
+/// keyword are removed.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Calls(Vec<(Word, Site)>);
 
@@ -65,7 +65,8 @@ impl Calls {
         self.0.is_empty()
     }
 
-    /// What was undone calls for nothing, even where it is done again: then only that does.
+    /// Records a keyword. Turning it off discards the earlier sites; turning it on again records only the new
+    /// one.
     fn note(&mut self, word: Word, on: bool, site: Site) {
         match on {
             true => self.0.push((word, site)),
@@ -77,15 +78,15 @@ impl Calls {
         self.0.retain(|(noted, _)| *noted != word);
     }
 
-    /// Where a word stands.
+    /// Returns the sites of a keyword.
     pub fn of(&self, word: Word) -> impl Iterator<Item = Site> {
         self.0.iter().filter(move |(noted, _)| *noted == word).map(|(_, site)| *site)
     }
 }
 
 impl Lowering<'_, '_> {
-    /// The modifiers of an object, or of a use of it, which come after its own. `None`, and a message, where
-    /// a transform cannot be spent.
+    /// Applies the modifiers of an object, or of a use, which follow the object's own. Reports a fault and
+    /// returns `None` if a transform cannot be applied.
     pub(super) fn modify(
         &mut self,
         modified: &mut Modified,
@@ -144,7 +145,7 @@ impl Lowering<'_, '_> {
         Some(())
     }
 
-    /// The object's own surface; the default texture where it has none yet.
+    /// Returns the object's own surface; the default texture if it has none yet.
     fn textured(
         &mut self,
         own: Option<Surface>,
@@ -154,9 +155,10 @@ impl Lowering<'_, '_> {
         own.or_else(|| self.set_surface(default, map))
     }
 
-    /// A surface of a texture, set where `map` leads; `None`, and a message, where a transform cannot be spent.
+    /// Returns the surface of a texture set under `map`; reports a fault and returns `None` if a transform
+    /// cannot be applied.
     pub(super) fn set_surface(&mut self, texture: TextureId, map: Affine) -> Option<Surface> {
-        // Mostly it is the one before: the default, under a pigment.
+        // Usually the same as before: the default texture, under a pigment.
         let unmoved = map.moves_nothing();
         if unmoved
             && let Some((known, surface)) = &self.last_surface

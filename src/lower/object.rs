@@ -1,6 +1,6 @@
-//! The walk down the objects: unions flatten, operations become wholes, leaves are spent.
+//! Traverses the objects: flattens unions, opens CSG solids for the other operations, and emits leaves.
 //!
-//! **Invariant:** an explicit stack, in written order; a hundred thousand levels overflow nothing.
+//! **Invariant:** uses an explicit stack, in written order; a hundred thousand levels do not overflow it.
 
 use std::sync::Arc;
 
@@ -17,27 +17,27 @@ use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, S
 use crate::shape::Shape;
 use crate::source::Site;
 
-/// What a child takes from above.
+/// What an object inherits from those around it.
 #[derive(Debug, Clone)]
 pub(super) struct Inherited {
     pub world_from_here: Affine,
-    /// For whatever has no texture of its own. Its place is in the world.
+    /// The texture of objects that have none; its placement is in world space.
     pub surface: Surface,
-    /// For whatever has no interior of its own.
+    /// The interior of objects that have none.
     pub interior: Option<InteriorId>,
     pub flags: Flags,
-    /// The outermost object whose flags hide it from everything.
+    /// The outermost object whose flags hide this one from every ray.
     pub hidden_by: Option<ObjectId>,
-    /// The innermost of those above that could be taken out of the text.
+    /// The innermost enclosing item that could be removed from the source.
     pub item: Option<Site>,
     /// One of the transforms is near-singular by itself.
     pub strained: bool,
-    /// No ray meets the whole that this belongs to.
+    /// No ray hits the CSG solid that this object belongs to.
     pub unseen: bool,
 }
 
 impl Inherited {
-    /// What a root takes from the scene, whose default is `surface`.
+    /// Returns what a root object inherits; `surface` is the scene's default.
     fn root(surface: Surface) -> Self {
         Self {
             world_from_here: Affine::IDENTITY,
@@ -52,24 +52,24 @@ impl Inherited {
     }
 }
 
-/// Objects that are still to be gone through.
+/// Objects that remain to be visited.
 struct Frame<'s> {
-    /// The operation that makes one solid of them.
+    /// The operation that combines them into one solid.
     open: Option<Open>,
-    /// The others are taken from the first.
+    /// The others are subtracted from the first.
     difference: bool,
     is_first: bool,
-    /// Of the union that is gone through, and how many solids there were before it.
+    /// The effects that the enclosing union calls for, and the number of solids before it.
     calls: Calls,
     before: usize,
     children: Children<'s>,
     inherited: Inherited,
 }
 
-/// What a frame goes through.
+/// The source of a frame's objects.
 enum Children<'s> {
     Listed(std::slice::Iter<'s, ObjectId>),
-    /// What clips an object, and the map to the object's parent.
+    /// The objects that clip another, each with the map to the parent of the clipped object.
     Clips(std::vec::IntoIter<(ObjectId, Affine)>),
 }
 
@@ -110,7 +110,7 @@ impl<'s> Lowering<'s, '_> {
         }
     }
 
-    /// Counts one object more; says so where that is one too many.
+    /// Counts one more object; reports when the limit is exceeded.
     fn may_visit(&mut self, id: ObjectId, visits: &mut u64) -> bool {
         let limit = self.options.objects;
         *visits += 1;
@@ -124,7 +124,7 @@ impl<'s> Lowering<'s, '_> {
         false
     }
 
-    /// Spends a leaf, or puts what an object holds on the stack.
+    /// Emits a leaf, or pushes an object's children onto the stack.
     fn visit(
         &mut self,
         id: ObjectId,
@@ -133,7 +133,7 @@ impl<'s> Lowering<'s, '_> {
         stack: &mut Vec<Frame<'s>>,
     ) {
         let scene = self.scene;
-        // A use goes on where the object it names left off: its texture replaces that one's.
+        // A use continues where the object that it names ended: its texture replaces that object's.
         let (mut uses, mut target) = (Vec::new(), id);
         while let ObjectKind::Use(next) = scene.objects[target.index()].kind {
             uses.push(target);
@@ -193,7 +193,7 @@ impl<'s> Lowering<'s, '_> {
         if !modified.clips.is_empty() {
             let open = self.open(Making::Clip, inverse, object.site);
             let region = Inherited {
-                // Of its surface nothing is seen.
+                // Its surface is not visible.
                 hidden_by: Some(id),
                 flags: Flags { inverse: false, ..here.flags },
                 unseen: here.unseen,
@@ -242,10 +242,11 @@ impl<'s> Lowering<'s, '_> {
         }
     }
 
-    /// What cannot be built is nothing in a `.pov`, as in POV-Ray 3.7 (measured); elsewhere it is a mistake.
+    /// Handles an object that cannot be built: empty in a `.pov`, as in POV-Ray 3.7 (measured), and an error
+    /// elsewhere.
     fn leave_out(&mut self, site: Site) {
         if self.scene.dialect == Dialect::Pov {
-            // No place is in it, nor in what it is taken from.
+            // No point is inside it, nor inside what it is subtracted from.
             self.nothing(false, site);
         }
     }
@@ -264,7 +265,7 @@ impl<'s> Lowering<'s, '_> {
         if here.unseen {
             return Ok(());
         }
-        // Told where it is written, and left out; a blank need not be told.
+        // Reported where it is written, and left out; a blank text needs no report.
         let may_be_nothing =
             self.scene.dialect == Dialect::Pov || matches!(solid, Solid::Text { .. });
         if may_be_nothing && solid.is_sizeless() {
@@ -301,7 +302,7 @@ impl<'s> Lowering<'s, '_> {
                 self.place_made(body::cylinder(ends, radius, open)?, here, site)
             }
             Solid::Triangles { ref triangles, .. } => {
-                // Those of a file may be named in many places.
+                // Triangles of one file may be used in many objects.
                 let id = *self.meshes.entry(Arc::as_ptr(triangles)).or_insert(id);
                 let here = &here.of_faces(self.scene, triangles);
                 self.place_stored(id, || body::mesh(triangles), here, site)
@@ -334,7 +335,7 @@ impl<'s> Lowering<'s, '_> {
             Solid::Disc { centre, normal, radius, hole } => {
                 self.place_made(body::disc(centre, normal, radius, hole)?, here, site)
             }
-            // The greater ball holds the other.
+            // The larger sphere contains the other.
             Solid::Ovus { bottom, top } if top == 0.0 || top * 0.5 >= bottom => {
                 let centre = if top == 0.0 { Vector::ZERO } else { Vector::Y * bottom };
                 let ball = Solid::Sphere { centre, radius: bottom.max(top) };
@@ -365,7 +366,7 @@ impl<'s> Lowering<'s, '_> {
                 let nowhere = ("parametric", "all of it is outside of its container");
                 self.place_if_somewhere(id, make, here, site, nowhere)
             }
-            // A tube about a point is a ball.
+            // A torus with a major radius of 0 is a sphere.
             Solid::Torus { major: 0.0, minor } => {
                 let ball = Solid::Sphere { centre: Vector::ZERO, radius: minor };
                 self.solid(id, &ball, here, site)
@@ -391,7 +392,7 @@ impl<'s> Lowering<'s, '_> {
 }
 
 impl Frame<'_> {
-    /// The next object, and what it takes from above.
+    /// Returns the next object, and what it inherits.
     fn next(&mut self) -> Option<(ObjectId, Inherited)> {
         let mut inherited = self.inherited.clone();
         let id = match &mut self.children {

@@ -1,7 +1,7 @@
-//! Solids made of a curve in a plane: their points become polynomial pieces of size about 1, around the middle
-//! where that may move.
+//! Lowers solids made of a plane curve: converts points to polynomial pieces of size about 1, about their
+//! centre where the solid may be translated.
 //!
-//! Sizes are powers of two and the middle is rounded, so that of most numbers no digit is lost.
+//! Sizes are powers of two and the centre is rounded, so that most numbers lose no digit.
 
 use super::Fault;
 use super::transform::Affine;
@@ -11,7 +11,7 @@ use crate::shape::curve::{Outline, Piece};
 use crate::shape::sor::Segment;
 use crate::shape::{Body, Lathe, Prism, Sor};
 
-/// The y axis becomes the local z axis, and z the local y axis.
+/// Returns the map that takes the y axis to the local z axis, and z to the local y axis.
 fn frame(width: f64, height: Double, middle: [Double; 3]) -> Affine {
     let width = Double::from(width);
     let [x, y, z] = [0, 1, 2].map(DoubleVector::axis);
@@ -20,32 +20,32 @@ fn frame(width: f64, height: Double, middle: [Double; 3]) -> Affine {
     Affine::from_columns(columns, DoubleVector::new(x, y, z))
 }
 
-/// As [`frame`], of what is round about the y axis.
+/// As [`frame`], for a solid of revolution about the y axis.
 fn about_axis(width: f64, height: f64, middle: f64) -> Affine {
     let zero = Double::from(0.0);
     frame(width, Double::from(height), [zero, Double::from(middle), zero])
 }
 
-/// A power of two more than a size, and no more than twice as much; ∞ where it is no number.
+/// Returns a power of two greater than `size` and at most twice it; ∞ if `size` is not finite.
 fn size_over(size: f64) -> f64 {
     if size.is_finite() { 2.0 * power_of_two_near(size) } else { f64::INFINITY }
 }
 
-/// The least and the greatest of some numbers.
+/// Returns the minimum and the maximum of some numbers.
 fn range(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
     numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), n| (a.min(n), b.max(n)))
 }
 
-/// About the middle of a range, in few digits.
+/// Returns the approximate middle of a range, rounded to few digits.
 fn middle((low, high): (f64, f64)) -> f64 {
     let step = size_over(high - low) / 512.0;
     let middle = ((0.5 * low + 0.5 * high) / step).round() * step;
     if middle.is_finite() { middle } else { 0.5 * low + 0.5 * high }
 }
 
-/// The pieces of a curve through points, those that only tell slopes among them.
+/// Returns the pieces of a curve through points, some of which only define slopes.
 ///
-/// **Source:** manual, section 3.4.5.1.8 ("Lathe"); the slopes are POV-Ray 3.7's, asked by `trace`.
+/// **Source:** manual, section 3.4.5.1.8 ("Lathe"); the slopes are POV-Ray 3.7's, measured with `trace`.
 fn pieces(spline: Spline, points: &[Point]) -> Vec<Piece> {
     let toward = |from: Point, [a, b]: [Point; 2], share: f64| {
         [0, 1].map(|axis| from[axis] + share * (b[axis] - a[axis]))
@@ -71,7 +71,7 @@ fn pieces(spline: Spline, points: &[Point]) -> Vec<Piece> {
     made.into_iter().flatten().collect()
 }
 
-/// How far Bézier points go from the origin along an axis.
+/// Returns the largest distance of Bézier points from the origin along an axis.
 fn widest(curves: &[Vec<Piece>], axis: usize) -> f64 {
     let points = curves.iter().flatten().flat_map(Piece::points);
     points.map(|point| point[axis].abs()).fold(0.0, |most, size| {
@@ -94,8 +94,8 @@ fn scaled(curves: Vec<Vec<Piece>>, by: [f64; 2]) -> Vec<Vec<Piece>> {
     curves.into_iter().map(|curve| curve.into_iter().filter_map(scale).collect()).collect()
 }
 
-/// A prism between the heights −1 and 1; a conic one has its tip in the local origin. `None` where there is
-/// nothing of any size.
+/// Returns a prism between the heights −1 and 1; a conic one has its tip at the local origin. `None` if it is
+/// empty.
 pub fn prism(
     spline: Spline,
     conic: bool,
@@ -123,7 +123,7 @@ pub fn prism(
         }
         curves.push(pieces(spline, &curve.iter().map(local).collect::<Vec<_>>()));
     }
-    // Of both axes, so that the walls keep their angles; with room for the diagonal.
+    // One width for both axes keeps the angles of the walls; it leaves room for the diagonal.
     let width = 2.0 * size_over(widest(&curves, 0).max(widest(&curves, 1)));
     if !width.is_finite() {
         return Err(Fault::not_finite("this prism"));
@@ -150,7 +150,7 @@ pub fn prism(
     Ok(Some((Body::Prism(Prism { outline, conic, heights, open }), frame)))
 }
 
-/// A lathe about the z axis. `None` where there is nothing of any size.
+/// Returns a lathe about the z axis. `None` if it is empty.
 pub fn lathe(spline: Spline, points: &[Point]) -> Result<Option<(Body, Affine)>, Fault> {
     let same = sameness(points);
     let height = exact_middle(range(points.iter().map(|point| point[1])));
@@ -187,7 +187,7 @@ pub fn lathe(spline: Spline, points: &[Point]) -> Result<Option<(Body, Affine)>,
     Ok(lathe.map(|lathe| (Body::Lathe(lathe), frame)))
 }
 
-/// A sor about the z axis, between heights within −1 … 1. `None` where there is nothing of any size.
+/// Returns a sor about the z axis, between heights within −1 … 1. `None` if it is empty.
 pub fn sor(points: &[Point], open: bool) -> Result<Option<(Body, Affine)>, Fault> {
     let on_curve = &points[1..points.len() - 1];
     let heights = range(on_curve.iter().map(|point| point[1]));
@@ -197,7 +197,7 @@ pub fn sor(points: &[Point], open: bool) -> Result<Option<(Body, Affine)>, Fault
     let size = size_over(widest);
     let radius = |i: usize| points[i][0] / size;
     let height = |i: usize| (points[i][1] - centre) / tall;
-    // Twice r·r′ where the curve goes through a point.
+    // Twice r·r′ where the curve passes through a point.
     let slope = |i: usize| {
         2.0 * radius(i) * (radius(i + 1) - radius(i - 1)) / (height(i + 1) - height(i - 1))
     };
@@ -210,7 +210,7 @@ pub fn sor(points: &[Point], open: bool) -> Result<Option<(Body, Affine)>, Fault
     };
     let mut segments: Vec<Segment> = (1..points.len() - 2).map(segment).collect();
     segments.retain(|segment| segment.low < segment.high);
-    // It may swell between its points.
+    // The curve may bulge between its points.
     let (_, greatest) = range(segments.iter().flat_map(|segment| segment.squares));
     let swell = size_over(greatest.max(0.0).sqrt()).max(1.0);
     for segment in &mut segments {

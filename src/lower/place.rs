@@ -1,4 +1,4 @@
-//! Placing a canonical solid: its material, where its texture stands, what it is filled with.
+//! Places canonical solids: their materials, the placement of their textures, their interiors.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::vocabulary::Word;
 use crate::world::{NearSingular, Object};
 
 impl Lowering<'_, '_> {
-    /// A solid of which there is nothing, and why.
+    /// Drops a solid that is empty, for the reason given.
     pub(super) fn place_nowhere(
         &mut self,
         here: &Inherited,
@@ -27,7 +27,7 @@ impl Lowering<'_, '_> {
         Ok(())
     }
 
-    /// A body that is made once, however often it is used; of none, nothing is placed.
+    /// Places a body that is built once, however often it is used; places nothing if there is none.
     pub(super) fn place_stored(
         &mut self,
         id: ObjectId,
@@ -41,7 +41,7 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// Likewise, of what may be nowhere, which is told.
+    /// Likewise, for a body that may be empty, which is reported.
     pub(super) fn place_if_somewhere(
         &mut self,
         id: ObjectId,
@@ -60,7 +60,7 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// What a solid became when it was first used, or becomes now.
+    /// Returns the body that a solid was lowered to on its first use, or lowers it now.
     pub(super) fn shared(
         &mut self,
         id: ObjectId,
@@ -73,7 +73,7 @@ impl Lowering<'_, '_> {
         Ok(self.shared.entry(id).or_insert(made).clone())
     }
 
-    /// A body that nothing else shares, and the map to it from its own space.
+    /// Places a body that is not shared, with the map from its own space.
     pub(super) fn place_made(
         &mut self,
         (body, frame): (Body, Affine),
@@ -83,7 +83,7 @@ impl Lowering<'_, '_> {
         self.place_body(Arc::new(body), &frame, here, site)
     }
 
-    /// A body and the map to it from its own space.
+    /// Places a body with the map from its own space.
     pub(super) fn place_body(
         &mut self,
         body: Arc<Body>,
@@ -146,23 +146,23 @@ impl Lowering<'_, '_> {
         Ok(())
     }
 
-    /// The material of an object that something may see.
+    /// Returns the material of an object that may be visible.
     pub(super) fn seen_material(&mut self, surface: &Surface, site: Site) -> Result<u32, Fault> {
         let material = match &surface.faces {
             None => self.material(surface.pigment, surface.finish, site),
             Some(_) => self.material_of_faces(surface)?,
         };
         let unpainted = self.scene.pigments[surface.pigment.index()].written().is_none();
-        // What mirrors is seen by what it mirrors.
+        // A mirror is visible by its reflections.
         if unpainted && self.world.materials[material as usize].finish.reflection.is_none() {
-            // In a loop it is the same place time and again.
+            // A loop visits the same site repeatedly.
             let known = self.unpainted.last().is_some_and(|last| last.span == site.span);
             self.unpainted.extend((!known).then_some(site));
         }
         Ok(material)
     }
 
-    /// A part is seen and casts shadows as the whole does, whatever it says itself.
+    /// Drops the visibility flags of a part: it is visible and casts shadows as its CSG solid does.
     ///
     /// **Source:** measured on POV-Ray 3.7, in `intersection`, `difference` and `merge`.
     pub(super) fn drop_flags_of_part(&mut self, modified: &mut Modified, site: Site) {
@@ -182,14 +182,15 @@ impl Lowering<'_, '_> {
         *hidden_by = None;
     }
 
-    /// As of a single object; all of its parts are left out. Where light is bent it stays.
+    /// Drops a CSG solid that no ray hits, as one object, with all of its parts. It stays if the scene
+    /// refracts light.
     pub(super) fn drop_unseen_whole(&mut self, here: &Inherited) -> bool {
         let Some(by) = here.hidden_by.filter(|_| !self.bends_light()) else { return false };
         self.drop_hidden(by);
         true
     }
 
-    /// Notes modifiers that hold for solids made since there were `before`.
+    /// Records modifiers that apply to solids if any were placed since there were `before`.
     pub(super) fn note_calls(&mut self, calls: &Calls, before: usize) {
         if calls.is_empty() || self.world.objects.len() == before {
             return;
@@ -200,7 +201,7 @@ impl Lowering<'_, '_> {
         self.origins.double_illuminate.extend(calls.of(Word::DoubleIlluminate));
     }
 
-    /// Notes an object whose transforms together nearly flatten space, while none alone does.
+    /// Records an object whose transforms together nearly flatten space, while none alone does.
     pub(super) fn note_near_singular(&mut self, here: &Inherited, site: Site) {
         if !here.strained
             && let Some(condition) = here.world_from_here.near_singular()
@@ -210,7 +211,7 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// Appends and returns the new entry's index.
+/// Appends `item` and returns its index.
 pub(super) fn next<T>(list: &mut Vec<T>, item: T) -> u32 {
     list.push(item);
     list.len() as u32 - 1

@@ -1,8 +1,7 @@
-//! Bodies by their points: polygons, Bézier patches, letters and landscapes, each about its own middle and of
-//! size about 1.
+//! Lowers polygons, Bézier patches, text and height fields from their points, each about its own centre and
+//! of size about 1.
 //!
-//! **In:** a solid as written. **Out:** a body and the map to it from its own space; `None` where nothing is
-//! left of it.
+//! **In:** a solid as written. **Out:** a body and the map to it from its own space; `None` if it is empty.
 
 use super::Fault;
 use super::transform::{Affine, exact};
@@ -17,8 +16,8 @@ use crate::shape::{self, BicubicPatch, Body};
 /// A body and the map to it from its own space.
 pub type Made = Option<(Body, Affine)>;
 
-/// The middle of the box that holds points, and its size. The middle is rounded to 1/256 of the size, and
-/// the size to a power of two, so that of most numbers no digit is lost.
+/// The centre of the points' bounding box, and its size. The centre is rounded to 1/256 of the size, and the
+/// size to a power of two, so that most numbers lose no digit.
 struct Middle {
     middle: Vector,
     inverse_size: f64,
@@ -50,19 +49,19 @@ impl Middle {
     }
 }
 
-/// A surface of 16 points.
+/// Returns a patch of 16 control points.
 pub fn bicubic_patch(points: &[Vector; 16]) -> Result<(Body, Affine), Fault> {
     let middle = Middle::of(points.iter(), "this patch")?;
     let patch = BicubicPatch::new(points.map(|point| middle.local(point)));
     Ok((Body::BicubicPatch(patch), middle.frame([0, 1, 2].map(DoubleVector::axis))))
 }
 
-/// A figure in the plane of its corners, with z along the normal.
+/// Returns a polygon in the plane of its corners, with z along the normal.
 pub fn polygon(polygon: &Polygon) -> Result<Made, Fault> {
     let Some(plane) = polygon.plane() else { return Ok(None) };
     let middle = Middle::of(polygon.lines.iter().flatten(), "this polygon")?;
     let size = Double::from(1.0 / middle.inverse_size);
-    // Beside the plane by what rounding it cost.
+    // Moved back by the centre's distance from the plane, which comes from rounding.
     let off = (plane.corner - exact(middle.middle)).dot(plane.normal);
     let foot = exact(middle.middle) + plane.normal * off;
     let Some(columns) = across(plane.normal) else { return Ok(None) };
@@ -76,17 +75,16 @@ pub fn polygon(polygon: &Polygon) -> Result<Made, Fault> {
     Ok(shape::Polygon::new(&lines).map(|polygon| (Body::Polygon(polygon), frame)))
 }
 
-/// Three vectors of length 1 at right angles, of which the last is `normal`; coordinate axes where that is
-/// one.
+/// Returns three orthonormal vectors, the last of which is `normal`; coordinate axes if `normal` is one.
 fn across(normal: DoubleVector) -> Option<[DoubleVector; 3]> {
     let sizes = normal.round().abs();
-    // The first of the coordinate axes that are farthest from it.
+    // The first of the coordinate axes farthest from it.
     let away = (0..3).min_by(|&i, &j| sizes[i].total_cmp(&sizes[j]))?;
     let aside = normal.cross(DoubleVector::axis(away)).normalized()?;
     Some([aside, normal.cross(aside), normal])
 }
 
-/// Letters between the heights −1 and 1.
+/// Returns text between the heights −1 and 1.
 pub fn text(text: &Text) -> Result<Made, Fault> {
     let points = || text.letters.iter().flat_map(|letter| &letter.contours);
     let points: Vec<Vector> =
@@ -94,7 +92,7 @@ pub fn text(text: &Text) -> Result<Made, Fault> {
     let what = "this text";
     let middle = Middle::of(points.iter(), what)?;
     let place = |&[x, y]: &[f64; 2]| {
-        // With room for the diagonal.
+        // Leaves room for the diagonal.
         let local = middle.local(Vector::new(x, y, 0.0)) * 0.5;
         [local.x, local.y]
     };
@@ -129,7 +127,7 @@ pub fn text(text: &Text) -> Result<Made, Fault> {
     Ok(shape::Text::new(outlines, is_flat).map(|text| (Body::Text(text), frame)))
 }
 
-/// The unit cube about the origin.
+/// Returns a height field in the unit cube about the origin.
 pub fn height_field(field: &HeightField) -> Made {
     let heights = field.heights.iter().map(|height| height - 0.5).collect();
     let HeightField { width, water, smooth, .. } = *field;

@@ -1,22 +1,22 @@
-//! Quadrics that are cones, about their tips.
+//! Recentres quadrics that are cones at their tips.
 //!
-//! Far from its tip, the few digits that tell the two crossings near it apart are lost in the sums that a line's
-//! polynomial is made of; about the tip they are all that there is.
+//! Far from the tip, a line's polynomial is a sum that cancels the few digits which separate two crossings
+//! near the tip; about the tip nothing cancels.
 
 use crate::math::double::{Double, DoubleVector};
 use crate::math::singular::singular_values;
 use crate::math::{Matrix, Vector};
 
-/// Of its squares, how many times as large one may be as another: with more, the tip is not known.
+/// The largest ratio of two squares for which the tip is considered known.
 const MOST_STRETCHED: f64 = 4_294_967_296.0;
-/// How often what is 0 at the tip may have been rounded, on the way to the terms that the author wrote.
+/// Roundings assumed in the author's terms, each of which may move the value at the tip from 0.
 const ROUNDINGS: f64 = 4.0;
 
-/// The terms x², xy, xz, x, y², yz, y, z², z, 1 about the tip of a cone, and the tip; `None` where that is the
-/// origin already, or there is none.
+/// Returns the terms x², xy, xz, x, y², yz, y, z², z, 1 about the tip of a cone, and the tip; `None` if the
+/// tip is the origin already, or there is none.
 ///
-/// The gradient is 0 at c = −½·A⁻¹·l, with A the matrix of the squares and l the terms of degree 1. There the value is
-/// l·c/2 + the constant: of a cone 0, to within what rounding the terms comes to.
+/// The gradient is 0 at c = −½·A⁻¹·l, where A is the matrix of the squares and l the terms of degree 1. There
+/// the value is l·c/2 + the constant, which for a cone is 0 up to the rounding of the terms.
 pub fn about_tip(terms: &[f64]) -> Option<(Vec<f64>, DoubleVector)> {
     let &[xx, xy, xz, x, yy, yz, y, zz, z, constant] = terms else { return None };
     let linear = Vector::new(x, y, z);
@@ -26,14 +26,14 @@ pub fn about_tip(terms: &[f64]) -> Option<(Vec<f64>, DoubleVector)> {
     // Twice A.
     let rows = [[2.0 * xx, xy, xz], [xy, 2.0 * yy, yz], [xz, yz, 2.0 * zz]].map(Vector::from_array);
     let [greatest, _, least] = singular_values(Matrix::from_cols(rows[0], rows[1], rows[2]));
-    // Also where it is no number.
+    // True also for NaN.
     if !(greatest <= least * MOST_STRETCHED && least > 0.0) {
         return None;
     }
     let [a, b, c] = rows.map(DoubleVector::from);
     let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
     let determinant = a.dot(bc);
-    // An ellipsoid has no cone about its centre: there it is a point.
+    // An ellipsoid that is a cone about its centre is a single point.
     if xx * determinant.round() > 0.0 && 4.0 * xx * yy > xy * xy {
         return None;
     }

@@ -1,7 +1,7 @@
-//! Spending an affine map on a solid: the simplest canonical form that holds it exactly.
+//! Applies an affine map to a solid: returns the simplest canonical form that holds the result exactly.
 //!
-//! **In:** a solid as written, and the map its transforms come to. **Out:** a canonical solid.
-//! **Invariant:** the form depends on the solid that results, not on how it was spelt.
+//! **In:** a solid as written, and the product of its transforms. **Out:** a canonical solid. **Invariant:**
+//! the form depends on the resulting solid, not on its spelling.
 
 use super::Fault;
 use super::transform::{Affine, Cofactors, exact};
@@ -11,7 +11,7 @@ use crate::math::placement::Placement;
 use crate::math::{Matrix, UnitVector, Vector};
 use crate::shape::{Box_, Ellipsoid, Plane, Sphere};
 
-/// What a sphere becomes.
+/// The canonical form of a sphere.
 pub enum Round {
     Sphere(Sphere),
     Ellipsoid(Ellipsoid),
@@ -24,7 +24,7 @@ pub struct LocalFace {
     pub distance: Double,
 }
 
-/// A sphere under translations, rotations and uniform scales stays one; else it is an ellipsoid.
+/// Returns a sphere if the map consists of translations, rotations and uniform scales, else an ellipsoid.
 pub fn sphere(centre: Vector, radius: f64, map: &Affine) -> Result<Round, Fault> {
     let radius = Double::from(radius).abs();
     let centre = map.point(exact(centre)).round();
@@ -48,8 +48,8 @@ pub fn sphere(centre: Vector, radius: f64, map: &Affine) -> Result<Round, Fault>
     Ok(Round::Ellipsoid(Ellipsoid { placement }))
 }
 
-/// A placement of which the squares of all lengths are numbers, with room for sums of them and for what lies
-/// around: what a ray is compared with in a solid's own space.
+/// Returns the placement, or a fault if the squares of its lengths, with room for their sums and for the
+/// surroundings, are not finite: rays are intersected in the solid's own space.
 pub fn traceable(placement: Placement, what: &str) -> Result<Placement, Fault> {
     let Placement { centre, world_from_local, local_from_world } = placement;
     let maps = [world_from_local, local_from_world];
@@ -70,11 +70,11 @@ pub fn traceable(placement: Placement, what: &str) -> Result<Placement, Fault> {
     }
 }
 
-/// 2⁴⁸⁰: its square, times any number of lengths that one can write down, is a number, and so is that of its
+/// 2⁴⁸⁰: its square, times any number of lengths that can be written, is finite, and so is that of its
 /// reciprocal.
 const LARGEST: f64 = 3.1217485503159922e+144;
 
-/// The plane `normal · p = distance · |normal|`; inside out when `inverse`.
+/// Returns the plane `normal · p = distance · |normal|`, inside out if `inverse`.
 pub fn plane(
     normal: Vector,
     distance: f64,
@@ -85,7 +85,7 @@ pub fn plane(
         exact(normal).normalized().ok_or_else(|| Fault::no_direction("this plane's normal"))?;
     let local = LocalFace { normal: local_normal, distance: Double::from(distance) };
     let Cofactors { rows, determinant } = map.cofactors().ok_or_else(|| no_size(FLAT))?;
-    // The normal goes by the inverse transpose, here times |determinant|.
+    // The normal transforms by the inverse transpose, here times |determinant|.
     let n = local.normal;
     let towards = rows[0] * n.x + rows[1] * n.y + rows[2] * n.z;
     let towards = if determinant.round() < 0.0 { -towards } else { towards };
@@ -100,11 +100,10 @@ pub fn plane(
     Ok((plane, local))
 }
 
-/// The box between two corners, and its six faces before the map, in the order of the canonical
-/// box.
+/// Returns the box between two corners, and its six faces before the map, in the order of the canonical box.
 ///
-/// Each normal is named after the axis it is nearest to and points that way, so that a box turned
-/// by 90° is the box with its sides exchanged.
+/// Each normal is named after its nearest axis and points along it, so that a box rotated by 90° is the box
+/// with its sides exchanged.
 pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6]), Fault> {
     let [a, b] = corners.map(exact);
     let half = Double::from(0.5);
@@ -146,10 +145,10 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
     Ok((solid, [x[0], x[1], y[0], y[1], z[0], z[1]]))
 }
 
-/// A box's pair of faces under way.
+/// One of a box's three pairs of opposite faces.
 #[derive(Debug, Clone, Copy)]
 struct Side {
-    /// The local axis it came from.
+    /// The local axis of the pair.
     axis: usize,
     normal: DoubleVector,
     half_width: Double,
@@ -157,9 +156,8 @@ struct Side {
     turned: bool,
 }
 
-/// The sides so that the first is nearest to x, the second, of the others, nearest to y; each
-/// pointing along its axis. Components closer than `bound` count as equal, and then the next axis
-/// decides.
+/// Orders the sides so that the first is nearest to x, and the second, of the others, nearest to y, each
+/// pointing along its axis. Components closer than `bound` count as equal, and the next axis decides.
 fn in_canonical_order(mut sides: Vec<Side>, bound: f64) -> [Side; 3] {
     let near = |a: f64, b: f64| (a - b).abs() <= bound;
     std::array::from_fn(|axis| {

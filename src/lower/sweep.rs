@@ -1,4 +1,4 @@
-//! Sphere sweeps: a polynomial for each stretch from sphere to sphere, around the middle of all.
+//! Lowers sphere sweeps to one polynomial for each segment between spheres, about their common centre.
 
 use super::Fault;
 use super::transform::{Affine, exact};
@@ -8,23 +8,24 @@ use crate::scene::sweep::{Kind, Sweep};
 use crate::shape::sphere_sweep::Segment;
 use crate::shape::{Body, SphereSweep};
 
-/// What each of the control points adds to each coefficient.
+/// The contribution of each control point to each coefficient.
 type Basis = [[f64; 4]; 4];
 
 const LINEAR: Basis = [[1.0, 0.0, 0.0, 0.0], [-1.0, 1.0, 0.0, 0.0], [0.0; 4], [0.0; 4]];
 
-/// Over 6. **Source:** C. de Boor, *A Practical Guide to Splines* (1978), ch. IX.
+/// Divided by 6. **Source:** C. de Boor, *A Practical Guide to Splines* (1978), ch. IX.
 const B_SPLINE: Basis =
     [[1.0, 4.0, 1.0, 0.0], [-3.0, 0.0, 3.0, 0.0], [3.0, -6.0, 3.0, 0.0], [-1.0, 3.0, -3.0, 1.0]];
 
-/// Over 2; it goes through the middle two, each time along the line between their neighbours.
-/// **Source:** E. Catmull, R. Rom, "A class of local interpolating splines" (1974); that it is this one, by
-/// POV-Ray's behaviour, asked by `trace`.
+/// Divided by 2; passes through the middle two points, at each one parallel to the line between its
+/// neighbours.
+/// **Source:** E. Catmull, R. Rom, "A class of local interpolating splines" (1974); that POV-Ray uses this
+/// spline was measured with `trace`.
 const CATMULL_ROM: Basis =
     [[0.0, 2.0, 0.0, 0.0], [-1.0, 0.0, 1.0, 0.0], [2.0, -5.0, 4.0, -1.0], [-1.0, 3.0, -3.0, 1.0]];
 
-/// Of size about 1, around the middle of the box that holds all spheres as written; the middle is rounded to
-/// 1/256 of the size, and that to a power of two. `None` where every radius is 0.
+/// Returns the sweep at size about 1, about the centre of the box that holds all spheres as written. The
+/// centre is rounded to 1/256 of the size, and the size to a power of two. `None` where every radius is 0.
 pub fn sphere_sweep(sweep: &Sweep) -> Result<Option<(Body, Affine)>, Fault> {
     if sweep.is_sizeless() {
         return Ok(None);

@@ -1,9 +1,9 @@
-//! Textures: from pigments and finishes with transforms to shared materials and maps.
+//! Lowers textures: turns pigments and finishes with transforms into shared materials and maps.
 //!
-//! **In:** a pigment, a finish and where the pattern stands. **Out:** indices into the World's lists.
-//! **Invariant:** equal materials and equal maps are one entry, in the order of first use. An
-//! object's texture space is the space of its pattern, so that all transforms of a pigment are in
-//! the object's map and a coordinate that is constant over a flat face is one of the pattern's own.
+//! **In:** a pigment, a finish and the placement of the pattern. **Out:** indices into the World's lists.
+//! **Invariant:** equal materials, and equal maps, share one entry, in the order of first use. An object's
+//! texture space is the space of its pattern, so that all transforms of a pigment are in the object's map,
+//! and a coordinate that is constant over a flat face is one of the pattern's own.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -27,19 +27,19 @@ use crate::world::{
     FaceCoordinates, Finish, Material, MaterialOrigin, Pigment, Sky, SkyOrigin, World,
 };
 
-/// What has been put into the World's lists of materials and maps.
+/// The entries of the World's lists of materials and maps so far.
 #[derive(Default)]
 pub struct Materials {
-    /// Of each pigment, the finish that it had last, and the material of both.
+    /// For each pigment, the finish that it had last, and the material of both.
     of_pigments: Vec<Option<(FinishId, u32)>>,
-    /// Materials that share the numbers in which most differ; equality decides among them.
+    /// Materials that share the numbers in which most differ, to be compared for equality.
     alike: FxHashMap<[u64; 6], SmallVec<[u32; 1]>>,
     maps: FxHashMap<[u64; 12], u32>,
-    /// Which places a material's origin has.
+    /// The sites already listed in each material's origin.
     noted: FxHashSet<(u32, Part, Span)>,
 }
 
-/// A part of a material, for the list of its places.
+/// A part of a material whose sites are listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Part {
     Pattern,
@@ -49,32 +49,32 @@ enum Part {
     Filter,
 }
 
-/// A surface on its way down the tree.
+/// A texture that is inherited down the object tree.
 ///
-/// In POV-Ray (measured) a pigment that replaces another keeps where the other stood: its own
-/// transforms come after all that the pigment before it went through.
+/// In POV-Ray (measured) a pigment that replaces another keeps the other's placement: its own transforms come
+/// after all those that moved the pigment before it.
 #[derive(Debug, Clone)]
 pub struct Surface {
     pub pigment: PigmentId,
     pub finish: FinishId,
-    /// Shared by all that take the surface as it is.
+    /// Shared by all objects that inherit the surface unchanged.
     pub(super) places: Rc<Places>,
-    /// The mesh whose faces have textures themselves.
+    /// The mesh whose faces have textures of their own.
     pub faces: Option<Arc<Triangles>>,
 }
 
 #[derive(Debug, Clone)]
 pub(super) struct Places {
-    /// Where the pattern stands, in the space of whoever holds the surface.
+    /// The pattern's placement, in the space of the surface's current holder.
     place: Affine,
-    /// Where it stood when the pigment was set, and the way there from the space of the solid:
-    /// the shortest way from solid to pattern, free of whatever moved both.
+    /// The pattern's placement when the pigment was set, and the map there from the solid's space: the
+    /// shortest chain from solid to pattern, without the transforms that moved both.
     set_place: Affine,
     set_from_solid: Affine,
 }
 
 impl Surface {
-    /// The texture `id`, set where `set_from_solid` leads.
+    /// Returns the texture `id`, set in the space that `set_from_solid` maps to.
     pub fn set(
         scene: &scene::Scene,
         transforms: &mut Transforms,
@@ -92,7 +92,7 @@ impl Surface {
         Ok(Self { pigment: texture.pigment, finish: texture.finish, places, faces: None })
     }
 
-    /// Another pigment instead.
+    /// Replaces the pigment.
     pub fn repaint(
         &mut self,
         scene: &scene::Scene,
@@ -113,19 +113,19 @@ impl Surface {
         Ok(())
     }
 
-    /// Another finish instead.
+    /// Replaces the finish.
     pub fn polished(self, finish: FinishId) -> Self {
         Self { finish, ..self }
     }
 
-    /// The same surface held by a child whose own transforms come to `child`.
+    /// Returns the same surface for a child whose own transforms compose to `child`.
     pub fn under(mut self, child: &Affine) -> Self {
         let places = Rc::make_mut(&mut self.places);
         places.set_from_solid = places.set_from_solid.after(child);
         self
     }
 
-    /// The same surface seen from outside of `outer`.
+    /// Returns the same surface in the space outside `outer`.
     pub fn within(mut self, outer: &Affine) -> Self {
         if !outer.moves_nothing() {
             let places = Rc::make_mut(&mut self.places);
@@ -136,7 +136,7 @@ impl Surface {
 }
 
 impl Lowering<'_, '_> {
-    /// The World's index of a material; `site` is the object's, for faults of its finish.
+    /// Returns the World's index of a material; `site` is the object's, for faults of its finish.
     pub(super) fn material(&mut self, pigment: PigmentId, finish: FinishId, site: Site) -> u32 {
         if let Some(&Some((last, index))) = self.materials.of_pigments.get(pigment.index())
             && last == finish
@@ -160,20 +160,20 @@ impl Lowering<'_, '_> {
         index
     }
 
-    /// Of a material that is called for by these.
+    /// Returns the origin of a material with this pigment and finish.
     pub(super) fn origin(&self, pigment: PigmentId, finish: FinishId) -> MaterialOrigin {
         let pigment = self.scene.pigments[pigment.index()].written();
         let finish = self.scene.finish_origins.get(finish.index()).and_then(|origin| origin.site);
         MaterialOrigin { pigment, finish, ..Default::default() }
     }
 
-    /// Of what no ray meets.
+    /// Returns the material of an object that no ray hits.
     pub(super) fn bare_material(&mut self) -> u32 {
         let material = Material { pigment: Pigment::Color(Color::BLACK), finish: BARE };
         self.index(material, MaterialOrigin::default())
     }
 
-    /// The World's index of a material; a new one comes from `origin`.
+    /// Returns the World's index of a material; `origin` is recorded with a new one.
     pub(super) fn index(&mut self, material: Material, origin: MaterialOrigin) -> u32 {
         let materials = &mut self.world.materials;
         let alike = self.materials.alike.entry(telling_numbers(&material)).or_default();
@@ -187,8 +187,8 @@ impl Lowering<'_, '_> {
         })
     }
 
-    /// Another pigment and finish that come to the material `index`: each place is listed once,
-    /// however many loops and macros went through it.
+    /// Records another pigment and finish that lower to the material `index`: each site is listed once,
+    /// however many loops and macros visit it.
     pub(super) fn note_material(&mut self, index: u32, pigment: &scene::Pigment, finish: FinishId) {
         let origin = &mut self.origins.materials[index as usize];
         let noted = &mut self.materials.noted;
@@ -206,7 +206,7 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// An object of the material `index` casts a shadow, into which its `pigment` may let light.
+    /// Records that an object of the material `index` casts a shadow into which its `pigment` may let light.
     pub(super) fn note_filter(&mut self, index: u32, pigment: PigmentId) {
         let noted = &mut self.materials.noted;
         let clear = self.scene.pigments[pigment.index()].clear.iter();
@@ -214,7 +214,7 @@ impl Lowering<'_, '_> {
         self.origins.materials[index as usize].filter.extend(new);
     }
 
-    /// A pattern whose colours are all the same is none.
+    /// Records that a pattern whose colours are all the same is dropped.
     fn note_folded(&mut self, pigment: &scene::Pigment) {
         let PigmentKind::Patterned { pattern, map } = &pigment.kind else { return };
         if map.lone_color().is_none() {
@@ -228,8 +228,8 @@ impl Lowering<'_, '_> {
         self.drop_part(site, what, "its colours are all the same");
     }
 
-    /// The World's index of the map into a surface's pattern; `None` where there is no pattern or
-    /// the map is the identity.
+    /// Returns the World's index of the map into a surface's pattern; `None` if there is no pattern or the
+    /// map is the identity.
     pub(super) fn texture_map(
         &mut self,
         surface: &Surface,
@@ -251,8 +251,8 @@ impl Lowering<'_, '_> {
         })))
     }
 
-    /// The pattern coordinates that are constant over each of a solid's flat faces, as the World's
-    /// index of the first.
+    /// Returns the World's index of the first entry of the pattern coordinates that are constant over each of
+    /// a solid's flat faces.
     pub(super) fn faces(
         &mut self,
         surface: &Surface,
@@ -293,7 +293,7 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// What is not called for is absent.
+/// Returns a material without the settings that have no effect in it.
 pub(super) fn material(pigment: Pigment, mut finish: Finish) -> Material {
     if !pigment.is_clear() || finish.reflection.is_none() {
         finish.conserve_energy = false;
@@ -301,7 +301,7 @@ pub(super) fn material(pigment: Pigment, mut finish: Finish) -> Material {
     Material { pigment, finish }
 }
 
-/// Whether more than one colour is written.
+/// Returns whether the pigment has more than one colour.
 fn is_pattern(kind: &PigmentKind) -> bool {
     matches!(kind, PigmentKind::Patterned { map, .. } if map.lone_color().is_none())
 }
@@ -310,7 +310,7 @@ fn is_patterned(world: &World, material: u32) -> bool {
     matches!(world.materials[material as usize].pigment, Pigment::Patterned { .. })
 }
 
-/// From `place` in the world back to the pattern.
+/// Returns the map from the world back to a pattern placed by `place`.
 pub(super) fn inverse_map(place: &Affine) -> Result<Map, Fault> {
     let map = Map { centre: place.offset().round(), matrix: place.checked()?.matrix(Double::ONE) };
     if map.centre.is_finite() && map.matrix.is_finite() {
@@ -320,8 +320,8 @@ pub(super) fn inverse_map(place: &Affine) -> Result<Map, Fault> {
     }
 }
 
-/// A coordinate is constant over a face exactly when its row is parallel to the face's normal, here
-/// within the map's bound.
+/// A coordinate is constant over a face exactly if its row is parallel to the face's normal, here within the
+/// map's bound.
 fn coordinates(face: &LocalFace, pattern_from_solid: &Affine) -> FaceCoordinates {
     let offset = pattern_from_solid.offset().components();
     let rows = pattern_from_solid.rows();
@@ -333,7 +333,8 @@ fn coordinates(face: &LocalFace, pattern_from_solid: &Affine) -> FaceCoordinates
     }))
 }
 
-/// A gradient's direction has no length (checked on POV-Ray 3.7: `gradient 2*x` is `gradient x`).
+/// Only the direction of a gradient matters, not its length (checked on POV-Ray 3.7: `gradient 2*x` is
+/// `gradient x`).
 fn lower_pattern(pattern: Pattern) -> Pattern {
     match pattern {
         Pattern::Checker => Pattern::Checker,
@@ -343,7 +344,7 @@ fn lower_pattern(pattern: Pattern) -> Pattern {
     }
 }
 
-/// A pigment all of one colour has no pattern.
+/// Returns the pigment; one of a single colour has no pattern.
 pub(super) fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fault> {
     let pigment = match kind {
         PigmentKind::Color(color) => Pigment::Color(color.of_numbers()),
@@ -376,12 +377,12 @@ pub(super) fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fau
     Ok(pigment)
 }
 
-/// Bits that are the same for equal numbers: both zeros are one.
+/// Returns bits that are the same for equal numbers: both zeros give the same.
 fn bits(number: f64) -> u64 {
     (number + 0.0).to_bits()
 }
 
-/// The numbers in which most materials differ.
+/// Returns the numbers in which most materials differ.
 fn telling_numbers(material: &Material) -> [u64; 6] {
     let color = match &material.pigment {
         Pigment::Color(color) => *color,

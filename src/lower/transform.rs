@@ -1,10 +1,9 @@
-//! Affine maps in extended precision: what a list of transforms comes to.
+//! Composes lists of transforms into affine maps in extended precision.
 //!
-//! **In:** steps as written. **Out:** one map, whose numbers are rounded to `f64` only by whoever
-//! spends it.
+//! **In:** steps as written. **Out:** one map; its numbers are rounded to `f64` only where they are used.
 //! **Invariant:** dyadic numbers and multiples of 90° are exact; elsewhere each step adds at most
-//! [`Affine::STEP_ROUNDING`] to the map's own bound, so that 100,000 rotations stay six digits
-//! below what an `f64` can tell.
+//! [`Affine::STEP_ROUNDING`] to the map's own bound, so that the error of 100,000 rotations stays six digits
+//! below the resolution of an `f64`.
 
 mod stretch;
 
@@ -20,7 +19,7 @@ use crate::math::transform::Step;
 use crate::math::{Matrix, Vector};
 use crate::scene::TransformId;
 
-/// Maps of a larger condition number are told: they cost more than half of the 53 bits of an `f64`.
+/// Maps with a larger condition number are reported: they lose more than half of the 53 bits of an `f64`.
 pub const NEAR_SINGULAR: f64 = (1u64 << 26) as f64;
 
 /// `p ↦ linear · p + offset`.
@@ -29,13 +28,13 @@ pub struct Affine {
     /// The rows of the linear part.
     rows: [DoubleVector; 3],
     offset: DoubleVector,
-    /// How far rounding may have moved the linear part, relative to its size.
+    /// Bound on the rounding error of the linear part, relative to its size.
     rounding: f64,
-    /// The linear part is the identity, as of most maps.
+    /// The linear part is the identity, as in most maps.
     is_translation: bool,
 }
 
-/// The inverse of the linear part, as yet undivided: row i over `determinant`.
+/// The inverse of the linear part before division: row i over `determinant`.
 #[derive(Debug, Clone, Copy)]
 pub struct Cofactors {
     pub rows: [DoubleVector; 3],
@@ -58,20 +57,20 @@ impl Affine {
         Self { rows, offset, rounding, is_translation: rows == Self::IDENTITY.rows }
     }
 
-    /// The map that takes x, y and z to these, and the origin to `offset`.
+    /// Returns the map that takes x, y and z to these columns, and the origin to `offset`.
     pub fn from_columns([x, y, z]: [DoubleVector; 3], offset: DoubleVector) -> Self {
         let [x, y, z] = [x, y, z].map(DoubleVector::components);
         let row = |i: usize| DoubleVector::new(x[i], y[i], z[i]);
         Self::new([row(0), row(1), row(2)], offset, Self::STEP_ROUNDING)
     }
 
-    /// 2⁻⁹⁶: a rotation is a dozen roundings of 2⁻¹⁰² each.
+    /// 2⁻⁹⁶: a rotation rounds a dozen times by 2⁻¹⁰² each.
     pub const STEP_ROUNDING: f64 = 1.0 / (1u128 << 96) as f64;
 
-    /// This map, then one step; or, `undone`, what undoes the step. `part` says what other lists come to.
+    /// Returns this map followed by one step, or, if `undone`, by the step's inverse. `part` returns the map
+    /// of another list.
     ///
-    /// Fails with `zero-scale` when it flattens space, and with `not-a-number` when a number is
-    /// not finite or becomes so.
+    /// Fails with `zero-scale` if the step flattens space, and with `not-a-number` if a number is not finite.
     fn then(
         mut self,
         step: &Step,
@@ -117,7 +116,7 @@ impl Affine {
         self.rounding += Self::STEP_ROUNDING;
     }
 
-    /// Turns axis `a` toward axis `b`.
+    /// Rotates axis `a` toward axis `b`.
     fn turn(&mut self, a: usize, b: usize, degrees: f64) {
         if degrees == 0.0 {
             return;
@@ -134,7 +133,7 @@ impl Affine {
         self.rounding += Self::STEP_ROUNDING;
     }
 
-    /// The map that first does `inner`, then this one.
+    /// Returns the map that applies `inner`, then this one.
     pub fn after(&self, inner: &Self) -> Self {
         if inner.moves_nothing() {
             return *self;
@@ -144,7 +143,7 @@ impl Affine {
         }
         let rounding = self.rounding + inner.rounding;
         let offset = self.point(inner.offset);
-        // Most maps only translate: nothing is rounded then, and little is computed.
+        // Most maps only translate: then nothing is rounded, and little is computed.
         if inner.is_translation {
             return Self { offset, rounding, ..*self };
         }
@@ -158,7 +157,7 @@ impl Affine {
         Self::new(self.rows.map(row), offset, rounding + Self::STEP_ROUNDING)
     }
 
-    /// As most things are moved.
+    /// Returns whether this is exactly the identity, as most maps are.
     pub fn moves_nothing(&self) -> bool {
         self.rounding == 0.0 && self.is_identity()
     }
@@ -203,13 +202,13 @@ impl Affine {
         ]
     }
 
-    /// Relative differences below this are rounding.
+    /// Returns the relative difference below which two numbers are equal up to rounding.
     pub fn bound(&self) -> f64 {
         16.0 * (self.rounding + Self::STEP_ROUNDING)
     }
 
-    /// A vector of length 1 that has gone through the map: what of it may be rounding is 0. So what was
-    /// turned and turned back is level again, and a line along it stays beside it.
+    /// Returns a unit vector that has gone through the map with each component that may be rounding set to 0.
+    /// A vector that is turned and turned back is exactly axis-aligned again.
     pub fn without_rounding(&self, unit: DoubleVector) -> DoubleVector {
         unit.map(|c| if c.abs().round() <= 16.0 * self.rounding { Double::ZERO } else { c })
     }
@@ -219,9 +218,10 @@ impl Affine {
         power_of_two_near(self.rows.iter().map(|row| row.largest()).fold(0.0, f64::max))
     }
 
-    /// `None` when the map flattens space: when its determinant is zero within the map's bound.
+    /// Returns the cofactors; `None` when the map flattens space, that is, when its determinant is zero
+    /// within the map's bound.
     pub fn cofactors(&self) -> Option<Cofactors> {
-        // Brought near 1 first, so that the determinant of a huge or tiny map is a number.
+        // Scaled near 1 first, so that the determinant of a huge or tiny map is finite and not 0.
         let size = self.size();
         if size == 0.0 {
             return None;
@@ -229,7 +229,7 @@ impl Affine {
         let near_one = |v: DoubleVector| v.map(|c| c.times_power_of_two(1.0 / size));
         let [x, y, z] = self.columns().map(near_one);
         let determinant = x.dot(y.cross(z));
-        // What the determinant would be if nothing in it cancelled.
+        // The size of the determinant without any cancellation.
         let [a, b, c] = [x, y, z].map(|v| v.round().abs());
         let uncancelled = a.x * (b.y * c.z + b.z * c.y)
             + a.y * (b.z * c.x + b.x * c.z)
@@ -241,19 +241,19 @@ impl Affine {
         Some(Cofactors { rows, determinant: determinant.times_power_of_two(size) })
     }
 
-    /// The condition number of the linear part: the largest factor by which it stretches a
-    /// direction over the smallest. Infinite where it flattens space.
+    /// Returns the condition number of the linear part: the largest factor by which it stretches a direction
+    /// over the smallest. Infinite if the map flattens space.
     pub fn condition(&self) -> f64 {
         let size = self.size();
         let Some(Cofactors { determinant, .. }) = self.cofactors() else { return f64::INFINITY };
         let volume = determinant.times_power_of_two(1.0 / size).abs().round();
         let near_one = self.matrix(Double::from(1.0 / size));
         let [largest, middle, _] = singular_values(near_one);
-        // The determinant knows the smallest factor to the last digit, the columns may not.
+        // The determinant holds the smallest factor to the last digit; the columns may not.
         largest / (volume / (largest * middle))
     }
 
-    /// What the inverse is made of; `None` where it but moves back. Or why there is no inverse.
+    /// Returns the cofactors of the inverse, `None` for a translation; or why there is no inverse.
     fn checked_cofactors(&self) -> Result<Option<Cofactors>, Fault> {
         if !self.is_finite() {
             return Err(Fault::not_finite("this transform"));
@@ -265,13 +265,13 @@ impl Affine {
         self.cofactors().map(Some).ok_or_else(flat)
     }
 
-    /// The condition number, where it is [`NEAR_SINGULAR`].
+    /// Returns the condition number, if it is at least [`NEAR_SINGULAR`].
     pub fn near_singular(&self) -> Option<f64> {
         if self.is_translation {
             return None;
         }
-        // The largest factor, squared, times the middle one, over the volume: of most maps it is plain from
-        // the sum of their squares that this is little.
+        // The largest factor, squared, times the middle one, over the volume: for most maps the sum of their
+        // squares already shows that this is small.
         let size = self.size();
         let near_one = self.rows.map(|row| row.map(|c| c.times_power_of_two(1.0 / size)).round());
         let squares: f64 = near_one.into_iter().map(Vector::length_squared).sum();
@@ -282,7 +282,7 @@ impl Affine {
         Some(self.condition()).filter(|&condition| condition >= NEAR_SINGULAR)
     }
 
-    /// The inverse, or why there is none.
+    /// Returns the inverse, or the reason why there is none.
     pub fn checked(&self) -> Result<Self, Fault> {
         let Some(Cofactors { rows, determinant }) = self.checked_cofactors()? else {
             return Ok(Self { offset: -self.offset, ..*self });
@@ -292,13 +292,13 @@ impl Affine {
         Ok(Self { offset: -linear.direction(self.offset), ..linear })
     }
 
-    /// The factor by which lengths grow, if it is the same in all directions: when the rows are as
-    /// long as each other and at right angles, within the map's bound (which is far below `f64`).
+    /// Returns the factor by which lengths grow, if it is the same in all directions: when the rows are
+    /// equally long and at right angles, within the map's bound (which is far below the resolution of `f64`).
     pub fn uniform_scale(&self) -> Option<Double> {
         if self.is_translation {
             return Some(Double::ONE);
         }
-        // Brought near 1 first, so that the square of a huge or tiny map is a number.
+        // Scaled near 1 first, so that the square of a huge or tiny map is finite and not 0.
         let size = self.size();
         let [x, y, z] = self.rows.map(|row| row.map(|c| c.times_power_of_two(1.0 / size)));
         let squared = x.dot(x);
@@ -310,21 +310,21 @@ impl Affine {
         (same && square && !squared.is_zero()).then(|| x.length().times_power_of_two(size))
     }
 
-    /// The linear part times `factor`, each number rounded once.
+    /// Returns the linear part times `factor`, each number rounded once.
     pub fn matrix(&self, factor: Double) -> Matrix {
         let [x, y, z] = self.columns().map(|column| (column * factor).round());
         Matrix::from_cols(x, y, z)
     }
 }
 
-/// Each transform of the Scene, spent once: forward, and backward where it is undone. What undoes a list
-/// undoes its steps from the last to the first, so nothing is lost however often an inverse is
-/// inverted.
+/// The maps of the Scene's transforms, each computed once: forward, and backward where it is inverted. The
+/// inverse of a list inverts its steps from the last to the first, so that inverting an inverse loses
+/// nothing.
 pub struct Transforms<'s> {
     steps: &'s [Vec<Step>],
-    /// What lists come to, or undone. A step by itself is not kept: it is as soon spent again.
+    /// The maps of lists and of their inverses. A single step is not kept: recomputing it is as fast.
     spent: FxHashMap<(TransformId, bool), Result<Affine, Fault>>,
-    /// Condition numbers of [`NEAR_SINGULAR`] and more.
+    /// Condition numbers of at least [`NEAR_SINGULAR`].
     near_singular: BTreeMap<TransformId, f64>,
 }
 
@@ -333,7 +333,7 @@ impl<'s> Transforms<'s> {
         Self { steps, spent: FxHashMap::default(), near_singular: BTreeMap::new() }
     }
 
-    /// The map that a list comes to.
+    /// Returns the map of a list of transforms.
     pub fn get(&mut self, id: TransformId) -> Result<Affine, Fault> {
         if let [Step::Translate(_) | Step::Scale(_) | Step::Rotate(_) | Step::Matrix(_)] =
             self.steps[id.index()][..]
@@ -342,7 +342,7 @@ impl<'s> Transforms<'s> {
             self.note_condition(id, map.as_ref().ok());
             return map;
         }
-        // Lists refer to lists: an explicit stack holds what is under way.
+        // Lists refer to lists: an explicit stack holds the unfinished ones.
         let mut open = vec![(id, false)];
         while let Some(&(id, undone)) = open.last() {
             if self.known(id, undone).is_some() {
@@ -369,7 +369,7 @@ impl<'s> Transforms<'s> {
         self.spent.get(&(id, undone))
     }
 
-    /// A list whose parts are known.
+    /// Returns the map of a list whose parts are known.
     fn spend(&self, id: TransformId, undone: bool) -> Result<Affine, Fault> {
         let steps = &self.steps[id.index()];
         let part = |id, undone| self.known(id, undone).cloned().unwrap_or(Ok(Affine::IDENTITY));
@@ -384,7 +384,7 @@ impl<'s> Transforms<'s> {
         }
     }
 
-    /// Notes a list that nearly flattens space, if it does so by itself: not by a list in it.
+    /// Records a list that nearly flattens space, unless a list inside it already does.
     fn note_condition(&mut self, id: TransformId, map: Option<&Affine>) {
         let strained = |step: &Step| match step {
             Step::Transform(part) | Step::InverseOf(part) => self.near_singular.contains_key(part),
@@ -399,18 +399,18 @@ impl<'s> Transforms<'s> {
         }
     }
 
-    /// The condition number of a transform that was spent, where it is [`NEAR_SINGULAR`].
+    /// Returns the condition number of a computed transform, if it is at least [`NEAR_SINGULAR`].
     pub fn near_singular(&self, id: TransformId) -> Option<f64> {
         self.near_singular.get(&id).copied()
     }
 
-    /// All of `ids`, in order.
+    /// Returns the composition of all of `ids`, in order.
     pub fn product(&mut self, ids: &[TransformId]) -> Result<Affine, Fault> {
         ids.iter().try_fold(Affine::IDENTITY, |map, &id| Ok(self.get(id)?.after(&map)))
     }
 }
 
-/// Whether it flattens nothing by itself.
+/// Returns whether a step by itself keeps all lengths.
 fn is_rigid(step: &Step) -> bool {
     matches!(step, Step::Translate(_) | Step::Rotate(_))
 }
@@ -423,7 +423,7 @@ impl Fault {
     }
 }
 
-/// A vector of `f64`, exactly.
+/// Converts a vector of `f64` exactly.
 pub fn exact(v: Vector) -> DoubleVector {
     DoubleVector::from(v)
 }

@@ -1,6 +1,6 @@
-//! That nothing gives light, told at the light that might: one that is black, or that is never placed.
+//! Reports that a scene has no light, at the light that is black or never placed.
 //!
-//! **Invariant:** one message; that such a light is never placed is not told beside it.
+//! **Invariant:** one message; that such a light is never placed is not reported as well.
 
 use super::Lowering;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
@@ -27,7 +27,7 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// Of a scene that places no light, and has these names that nothing uses.
+/// Reports a scene that places no light, given the names that nothing uses.
 pub fn tell_unlit(unused: &[Unused], diagnostics: &mut Diagnostics) {
     let lights: Vec<&Unused> = unused.iter().filter(|one| one.is_light).collect();
     let [first, others @ ..] = lights.as_slice() else {

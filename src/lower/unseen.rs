@@ -1,9 +1,9 @@
-//! Objects that their own flags hide: nothing can see them, so they are not in the World.
+//! Drops objects that their own flags hide from every ray.
 //!
-//! **Invariant:** pruning is exact. With `no_image`, `no_reflection` and `no_shadow` no ray meets the
-//! object: not the camera's, straight or through others, nor one that was mirrored (totally, too), nor one
-//! toward a light. It stays only where what it is filled with may show all the same: the camera may be
-//! in it, and the scene bends light.
+//! **Invariant:** pruning is exact. With `no_image`, `no_reflection` and `no_shadow` no ray hits the object:
+//! no camera ray, direct or transmitted, no reflected ray (total reflection included), and no shadow ray. It
+//! stays only where its interior may be visible all the same: the camera may be inside, and the scene
+//! refracts light.
 //!
 //! **Source:** POV-Ray manual, sections 3.4.5.5.6 to 3.4.5.5.8; the exception and total reflection
 //! measured on POV-Ray 3.7.
@@ -14,11 +14,11 @@ use crate::shape::Shape;
 use crate::world::{CameraKind, Object};
 
 impl Lowering<'_, '_> {
-    /// Takes back the shape that was made last, and tells so, unless the camera may be in it. `by` is what
-    /// the flags of `object` were written on.
+    /// Removes the object made last, and records that, unless the camera may be inside. `by` is the object on
+    /// which the flags were written.
     pub(super) fn drop_unseen(&mut self, object: &Object, by: ObjectId) -> bool {
         let world = &self.world;
-        // Which points are an orthographic camera's is not asked.
+        // The ray origins of an orthographic camera are not checked.
         let may_hold_camera = world.camera.kind == CameraKind::Orthographic
             || world.contains(object, world.camera.location);
         if may_hold_camera && self.bends_light() {
@@ -36,18 +36,18 @@ impl Lowering<'_, '_> {
         true
     }
 
-    /// Tells that what is hidden by the flags of `by` is left out.
+    /// Records that an object hidden by the flags of `by` is left out.
     pub(super) fn drop_hidden(&mut self, by: ObjectId) {
         let why = "`no_image`, `no_reflection` and `no_shadow` hide it";
         self.drop_part(self.scene.objects[by.index()].site, self.word(by), why);
     }
 
-    /// Whether anything at all, placed or not, has an index of refraction.
+    /// Returns whether anything in the Scene, placed or not, has an index of refraction.
     pub(super) fn bends_light(&self) -> bool {
         bends_light(self.scene)
     }
 
-    /// What kind of object it is, or uses.
+    /// Returns the keyword of an object, or of the object that it uses.
     pub(super) fn word(&self, mut id: ObjectId) -> &'static str {
         loop {
             return match self.scene.objects[id.index()].kind {

@@ -1,8 +1,8 @@
-//! Whether the camera sees anything at all, or only a speck of what is there.
+//! Lints a camera that sees nothing, or only a tiny part of the scene.
 //!
-//! **In:** the World. **Out:** a lint, when every object lies outside of the view, or the view is that of a
-//! telescope that fits nothing. **Invariant:** told only when boxes around the objects prove it; what
-//! reaches everywhere is always in view.
+//! **In:** the World. **Out:** a lint, when every object lies outside the view, or the angle is so small that
+//! no object fits it. **Invariant:** reported only when boxes around the objects prove it; an unbounded
+//! object is always in view.
 
 use super::Lowering;
 use crate::diagnostic::{Code, Diagnostic};
@@ -12,24 +12,24 @@ use crate::scene::CameraItemKind;
 use crate::shape::Bounds;
 use crate::world::{Camera, CameraKind};
 
-/// Where objects are that are not in view.
+/// Where the objects outside the view are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outside {
     Behind,
     Beside,
 }
 
-/// How far outside a corner has to be, relative to its place: 2⁻³⁰, far more than was rounded on the way.
+/// Relative distance by which a corner has to be outside: 2⁻³⁰, far more than the accumulated rounding.
 pub(super) const CLEARLY: f64 = 1.0 / (1u64 << 30) as f64;
 
-/// Angles that may be meant in radians: of less than a degree or two up to about π.
+/// Angles in degrees that may be meant in radians: from a degree or two up to about π radians.
 const LIKE_RADIANS: std::ops::Range<f64> = 0.2..3.2;
-/// What a telescope looks at is smaller than this many of its pictures.
+/// An object larger than this many pictures is too large for the view.
 const TOO_LARGE: f64 = 4.0;
 
 impl Lowering<'_, '_> {
-    /// An angle that is rather one in radians: by it no object with an end is in view but such as are far
-    /// larger than the picture. Whether it is told.
+    /// Lints an angle that may be meant in radians, if every bounded object in view is far larger than the
+    /// picture. Returns whether it was reported.
     pub(super) fn lint_angle(&mut self) -> bool {
         let items = self.scene.cameras.last().map_or(&[][..], |camera| &camera.items);
         let angle = items.iter().rev().find_map(|item| match item.kind {
@@ -101,13 +101,14 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// Of a half width: what places may be rounded by before it shows.
+/// The share of a half width by which rounding of positions becomes visible.
 const SHOWS: f64 = 1e-3;
-/// Of a picture's width: what is seen.
+/// The smallest visible share of a picture's width.
 const SEEN: f64 = 1e-3;
 
 impl Lowering<'_, '_> {
-    /// What is in view, and so far away for its size that places there are not known to a thousandth of it.
+    /// Lints objects in view that are so far away for their size that positions there are not known to a
+    /// thousandth of it.
     pub(super) fn lint_far(&mut self) {
         if !self.reporter.diagnostics.tells(Code::FarAway) {
             return;
@@ -144,8 +145,8 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// What the camera sees, in coordinates of its own: right and up in widths and heights of the screen,
-/// forward in its distance.
+/// The view in the camera's own coordinates: right and up in widths and heights of the screen, forward in its
+/// distance.
 struct View {
     kind: CameraKind,
     location: Vector,
@@ -158,7 +159,7 @@ impl View {
         Self { kind, location, view_from_world: Matrix::from_cols(right, up, forward).inverse() }
     }
 
-    /// The corners of a box, in the camera's coordinates.
+    /// Returns the corners of a box in the camera's coordinates.
     fn corners(&self, &Bounds { low, high }: &Bounds) -> [Vector; 8] {
         std::array::from_fn(|i| {
             let side = |bit: usize, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
@@ -168,7 +169,8 @@ impl View {
         })
     }
 
-    /// How many pictures wide or high a box is seen; without end where the camera stands beside it.
+    /// Returns the apparent size of a box in picture widths or heights; infinite if part of it lies beside or
+    /// behind the camera.
     fn pictures(&self, bounds: &Bounds) -> f64 {
         let corners = self.corners(bounds).map(|at| match self.kind {
             CameraKind::Perspective if at.z <= 0.0 => None,
@@ -186,10 +188,10 @@ impl View {
         wide(0).max(wide(1))
     }
 
-    /// Where a box is, if surely no part of it is in view.
+    /// Returns where a box is, if certainly no part of it is in view.
     fn outside(&self, bounds: &Bounds) -> Option<Outside> {
         let corners = self.corners(bounds);
-        // Numbers too large to tell are not beyond anything.
+        // Numbers too large to compare are not beyond anything.
         let all = |beyond: fn(Vector, f64) -> f64| {
             corners.iter().all(|&at| {
                 let distance = if self.kind == CameraKind::Perspective { at.z } else { 1.0 };
@@ -208,7 +210,7 @@ impl View {
     }
 }
 
-/// A coordinate with three digits: it says about where.
+/// Rounds a coordinate to three significant digits for display.
 fn shown(x: f64) -> f64 {
     format!("{x:.2e}").parse().unwrap_or(x)
 }

@@ -1,9 +1,9 @@
-//! A second reading, for braces that pair only as they are run.
+//! Evaluates a file a second time if its braces pair only at run time.
 //!
-//! POV-Ray 3.7 reads word by word: a block may be opened in one file or branch and closed in another (measured).
-//! **In:** a `.pov` that is refused for its braces. **Out:** the same scene, where each brace that has no partner
-//! in its own text or branch pairs as it is run (`evaluate/enclosure.rs`).
-//! **Invariant:** a scene that is wrong either way is judged as it is written.
+//! POV-Ray 3.7 reads word by word: a block may be opened in one file or branch and closed in another
+//! (measured). **In:** a `.pov` that is rejected for its braces. **Out:** the same scene, where each brace
+//! without a partner in its own text or branch is paired when it is run (`evaluate/enclosure.rs`).
+//! **Invariant:** a scene that is invalid either way is reported as written.
 
 use super::Road;
 use crate::diagnostic::{Code, Diagnostic};
@@ -11,7 +11,8 @@ use crate::scene::{Dialect, Scene};
 use crate::source::FileId;
 
 impl Road<'_> {
-    /// The scene with loose braces, where that is no error; what was said of the first reading is dropped then.
+    /// Returns the scene evaluated with loose braces if that succeeds, and drops the diagnostics of the first
+    /// attempt.
     pub(super) fn with_loose_braces(&mut self) -> Option<Scene> {
         let evaluate = &self.options.evaluate;
         let may_be_right = evaluate.dialect == Dialect::Pov && !evaluate.loose;

@@ -1,8 +1,8 @@
-//! What is certain of a whole scene though it has mistakes: that nothing in it is written to give light, that
-//! it is seen by no camera, or that no object is in it.
+//! Reports what certainly holds for a whole scene despite its errors: that it has no light, no camera, or no
+//! object.
 //!
-//! **Invariant:** a scene whose text, or an include of it, has any word of light is said nothing of, and so is
-//! one that is not whole; likewise of a camera.
+//! **Invariant:** no report if the scene or one of its includes contains any word related to light, or if the
+//! scene is incomplete; likewise for the camera.
 
 use std::collections::{BTreeSet, HashSet};
 use std::ops::Range;
@@ -15,7 +15,7 @@ use crate::scene::{Dialect, ObjectKind, Scene, Unused};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{Family, Word, is_standard_source, standard_include_of};
 
-/// Parts of the words by which a scene, or its author's macros, give light.
+/// Substrings of words by which a scene, or its author's macros, give light.
 const OF_LIGHT: &[&str] = &[
     "light",
     "lamp",
@@ -28,12 +28,12 @@ const OF_LIGHT: &[&str] = &[
     "radiosity",
 ];
 
-/// Whether a text is a scene: without these it is rather a part of one.
+/// Returns whether a text is a complete scene: without these words it is probably a part of one.
 pub(super) fn is_whole(main: &str) -> bool {
     main.contains("camera") && (main.contains("global_settings") || main.contains("#version"))
 }
 
-/// What a scene holds though it has mistakes.
+/// What a scene with errors contains.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Holds {
     camera: bool,
@@ -54,7 +54,7 @@ impl Holds {
     }
 }
 
-/// From a word to the end of its block, about: a brace in a comment counts.
+/// Returns approximately the range from a word to the end of its block: braces in comments are counted.
 fn block_behind(text: &str, word: Span) -> Range<u32> {
     let mut depth = 0;
     let behind = text.get(word.end as usize..).unwrap_or("");
@@ -69,7 +69,7 @@ fn block_behind(text: &str, word: Span) -> Range<u32> {
     word.start..end.map_or(text.len() as u32, |(at, _)| word.end + at as u32)
 }
 
-/// A light that is commented out gives none.
+/// Returns the text without comments: a light that is commented out gives none.
 fn without_comments(text: &str) -> String {
     let lines = text.lines().map(|line| line.split("//").next().unwrap_or(""));
     lines.collect::<Vec<_>>().join("\n")
@@ -83,7 +83,7 @@ const NO_OBJECT: &str = "the scene has no object: its lights shine on nothing";
 
 const AMBIENT: &str = "ambient";
 
-/// Whether each `ambient` of a text is the default, or less: by that alone a picture is dark.
+/// Returns whether each `ambient` of a text is at most the default, so that it does not brighten the picture.
 fn has_dim_ambient(text: &str) -> bool {
     let is_dim = |(at, _): (usize, &str)| {
         let value = text[at + AMBIENT.len()..].trim_start();
@@ -93,8 +93,8 @@ fn has_dim_ambient(text: &str) -> bool {
     text.match_indices(AMBIENT).all(is_dim)
 }
 
-/// `#declare Sun = light_source { … }` of a text that has no other light, and names this one nowhere else: its
-/// name, and the word.
+/// Returns the name and the keyword of `#declare Sun = light_source { … }`, if the text has no other light
+/// and does not use this name elsewhere.
 fn unplaced_lights(text: &str) -> Vec<&str> {
     const LIGHT: &str = "light_source";
     let names: Option<Vec<&str>> = text
@@ -108,7 +108,7 @@ fn unplaced_lights(text: &str) -> Vec<&str> {
     names.map_or(Vec::new(), |names| names.into_iter().chain([LIGHT]).collect())
 }
 
-/// Whether a word of a text gives light, or may: `LightBlue` and `P_Sunset` are colours.
+/// Returns whether a word gives or may give light: `LightBlue` and `P_Sunset` are colours.
 fn is_of_light(word: &str) -> bool {
     let lower = word.to_ascii_lowercase();
     let of_light = OF_LIGHT.iter().any(|part| lower.contains(part));
@@ -117,7 +117,7 @@ fn is_of_light(word: &str) -> bool {
 }
 
 impl Road<'_> {
-    /// Whether what is not there may have come behind the end: a file that is whole ends with an item.
+    /// Returns whether the missing part may follow the end of the file: a complete file ends with an item.
     fn is_cut_off(&self, told: &Diagnostic) -> bool {
         let main = self.sources.iter().next().map_or("", |(_, source)| source.text.trim_end());
         match told.code {
@@ -127,15 +127,15 @@ impl Road<'_> {
         }
     }
 
-    /// The main file's text and those of the author's own includes.
+    /// Returns the texts of the main file and of the author's own includes.
     fn own_texts(&self) -> Vec<String> {
         let own = self.sources.iter().enumerate();
         let own = own.filter(|(at, (_, source))| *at == 0 || !is_standard_source(&source.name));
         own.map(|(_, (_, source))| source.text.to_string()).collect()
     }
 
-    /// Whether of a scene with mistakes each light was read: as many as its text has, which has no other word
-    /// of a light.
+    /// Returns whether each light of a scene with errors was read: as many as its text has, without any other
+    /// word related to light.
     pub(super) fn are_lights_known(&self, scene: &Scene) -> bool {
         let may_hold = |one: &Diagnostic| {
             matches!(one.code, Code::MissingInclude | Code::ForbiddenFile | Code::ForeignFile)
@@ -145,7 +145,7 @@ impl Road<'_> {
             return false;
         }
         let (light, texts) = (Word::LightSource.name(), self.own_texts());
-        // A surface that glows lights nothing else.
+        // An emitting surface does not light others.
         let is_other = |word: &&str| {
             let glows = ["ambient", "emission", "background", "sky_sphere"].contains(word);
             *word != light && !glows && is_of_light(word)
@@ -158,8 +158,8 @@ impl Road<'_> {
         written.count() == scene.objects.iter().filter(|object| is_light(&object.kind)).count()
     }
 
-    /// Takes back that a camera is in the dark where a mistake in its block, or in the object's, was read over: it
-    /// may stand elsewhere.
+    /// Drops `nothing-in-view` diagnostics if an error in the camera's block, or in the object's, was
+    /// skipped: its position may be another.
     pub(super) fn drop_doubtful(&mut self, before: usize) {
         let is_error = |one: &&Diagnostic| one.is_error();
         let faults = self.diagnostics.iter().filter(is_error);
@@ -168,7 +168,7 @@ impl Road<'_> {
             return;
         }
         let sources = &self.sources;
-        // A name on the line of a fault may stand for another value.
+        // A name on the line of a fault may have another value.
         let lines: BTreeSet<(FileId, usize)> = faults
             .iter()
             .map(|fault| (fault.file, sources.get(fault.file).position(fault.start as usize).line))
@@ -193,12 +193,13 @@ impl Road<'_> {
         });
     }
 
-    /// Whether a scene is ours, and what `holds` says was read of it.
+    /// Returns whether the scene is in the native dialect and `holds`.
     fn is_scene(&self, holds: bool) -> bool {
         holds && self.options.evaluate.dialect == Dialect::Scene
     }
 
-    /// That a scene with lights, `global_settings` and mistakes has no camera; of one without mistakes `lower` tells it.
+    /// Reports that a scene with lights, `global_settings` and errors has no camera; without errors, `lower`
+    /// does.
     pub(super) fn tell_blind(&mut self, holds: Holds) {
         let lacking = |one: &Diagnostic| {
             matches!(
@@ -228,7 +229,7 @@ impl Road<'_> {
         }
     }
 
-    /// That a scene with lights, of which something is not built yet, has no object, nor any call that might
+    /// Reports that a scene with lights and an unsupported feature has no object, nor any call that might
     /// place one.
     pub(super) fn tell_empty(&mut self) {
         let is_built_later =
@@ -253,7 +254,7 @@ impl Road<'_> {
         }
     }
 
-    /// That a scene with mistakes has no light; `unused` are the names that nothing uses.
+    /// Reports that a scene with errors has no light; `unused` are the names that are never used.
     pub(super) fn tell_dark(&mut self, unused: &[Unused], holds: Holds) {
         let lacking = |one: &Diagnostic| {
             matches!(one.code, Code::MissingInclude | Code::ForbiddenFile | Code::NoLight)

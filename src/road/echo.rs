@@ -1,10 +1,10 @@
-//! Drops what evaluation says again of a fault that the parser has told.
+//! Drops diagnostics of evaluation that repeat a fault reported by the parser.
 //!
-//! A bracket without its partner shifts what follows it: what evaluation then finds out of place is
-//! the same mistake once more, up to where the text is certainly read as its author meant it. So is what
-//! it misses on the line of any other fault, but for the statements behind the block that holds that.
-//! **In:** a file's tree, and what was said of it. **Out:** the messages that are mistakes of their own.
-//! **Invariant:** a name that is no word of the language is wrong wherever it stands, and stays told.
+//! A bracket without its partner shifts what follows it: errors that evaluation then finds are consequences
+//! of it, up to where the text is certainly parsed as its author meant it. So are parts that it finds missing
+//! on the line of any other fault, except in the statements after the block that contains the fault.
+//! **In:** a file's tree, and the diagnostics about it. **Out:** the diagnostics of independent mistakes.
+//! **Invariant:** an unknown name is wrong anywhere, and its diagnostic is kept.
 
 use std::ops::Range;
 
@@ -13,23 +13,23 @@ use crate::source::{Sources, Span};
 use crate::syntax::ast::{Ast, Body, DirectiveKind, Item, ItemKind, Items};
 use crate::vocabulary::{Family, Role, Word};
 
-/// Behind so many faults nothing is certain any more.
+/// After this many faults nothing is certain any more.
 const MOST_FAULTS: usize = 100;
 
-/// A mistake of form.
+/// A syntax error.
 struct Fault {
     code: Code,
     span: Span,
     line: usize,
-    /// Where what stands out of place may be its consequence.
+    /// The range in which misplaced items may be its consequence.
     doubt: Range<u32>,
-    /// Behind the `#end` before which it was closed: what stands before the `}` that was its own.
+    /// After the `#end` before which it was closed: the items before the `}` that was its own.
     behind: Range<u32>,
-    /// From where on its line holds other statements.
+    /// The offset from which its line contains other statements.
     others: u32,
 }
 
-/// Drops the echoes of the first `parsed` messages, which are about `ast`, from those behind them.
+/// Drops, from the diagnostics after the first `parsed`, the echoes of the first ones, which are about `ast`.
 pub(super) fn drop_echoes(
     ast: &Ast,
     sources: &Sources,
@@ -57,7 +57,7 @@ pub(super) fn drop_echoes(
     if faults.is_empty() {
         return;
     }
-    // Words that were declared as names: what is then missing after one was not meant as the word.
+    // Keywords that were declared as names: a part missing after one was not meant for the keyword.
     let declared: Vec<&str> = diagnostics
         .iter()
         .take(parsed)
@@ -86,7 +86,7 @@ pub(super) fn drop_echoes(
             && Word::from_name(sources.text(place)).is_none()
             // A file that ends in the middle of a block may end in the middle of a word.
             && !rest.trim().is_empty();
-        // How many numbers a vector has does not depend on what is around it.
+        // The number of a vector's components does not depend on its surroundings.
         let in_vector = |span: Span| {
             let text = sources.text(span);
             text.starts_with('<') && text.ends_with('>')
@@ -116,7 +116,8 @@ pub(super) fn drop_echoes(
     diagnostics.retain_after(parsed, keep);
 }
 
-/// `union { … #end pigment { … } }`: from the `#end` before which a block was closed, up to its own `}`.
+/// `union { … #end pigment { … } }`: the range from the `#end` before which a block was closed, to the
+/// block's own `}`.
 fn behind_end(sources: &Sources, fault: &Diagnostic) -> Range<u32> {
     let of_block = fault.code == Code::UnclosedBlock;
     let ends =
@@ -135,7 +136,7 @@ fn behind_end(sources: &Sources, fault: &Diagnostic) -> Range<u32> {
     own.map_or(0..0, |own| end.end..end.end + own as u32)
 }
 
-/// Where the block that begins at `at` ends, as far as its line shows it.
+/// Returns the end of the block that begins at `at`, as far as its line shows it.
 fn reach(sources: &Sources, at: Span) -> u32 {
     let text = &sources.get(at.file).text;
     let line = text.get(at.start as usize..).and_then(|rest| rest.lines().next());
@@ -151,11 +152,11 @@ fn reach(sources: &Sources, at: Span) -> u32 {
     at.start + end.unwrap_or(line.len()) as u32
 }
 
-/// What stands at the top level of a file, in the bodies of its directives too.
+/// The items at the top level of a file, and in the bodies of its directives.
 struct Statements<'a> {
     ast: &'a Ast,
     sources: &'a Sources,
-    /// In the order of the text, without the directives that have a body.
+    /// In source order, without the directives that have a body.
     items: Vec<Item>,
 }
 
@@ -175,7 +176,7 @@ impl<'a> Statements<'a> {
         Self { ast, sources, items }
     }
 
-    /// Where the first word behind `fault` that begins an item stands.
+    /// Returns the offset of the first word after `fault` that begins an item.
     fn word_after(&self, fault: Span) -> Option<u32> {
         let text = &self.sources.get(fault.file).text;
         let behind = text.get(fault.range().end..)?;
@@ -192,7 +193,7 @@ impl<'a> Statements<'a> {
         None
     }
 
-    /// From a fault, or from before it, to where the text is certainly read as it was meant.
+    /// Returns the range from a fault, or from before it, to where the text is certainly parsed as meant.
     fn doubt(&self, code: Code, fault: Span) -> Range<u32> {
         let nowhere = fault.start..fault.start;
         match code {
@@ -201,7 +202,7 @@ impl<'a> Statements<'a> {
             _ if matches!(self.sources.text(fault), "<" | ">" | "(" | ")" | "[" | "]")
                 && let Some(end) = self.block_around(fault) =>
             {
-                // No vector holds a word that begins an item: from there on it is left.
+                // No vector contains a word that begins an item: the vector ends before it.
                 let left = self.word_after(fault).filter(|_| self.sources.text(fault) == "<");
                 fault.start..left.map_or(end, |left| end.min(left + 1))
             }
@@ -209,7 +210,7 @@ impl<'a> Statements<'a> {
         }
     }
 
-    /// From where on statements have nothing to do with a fault within a block.
+    /// Returns the offset from which statements are independent of a fault within a block.
     fn others(&self, code: Code, fault: Span) -> u32 {
         match self.block_around(fault) {
             Some(_) if !code.shifts_what_follows() => {
@@ -219,7 +220,8 @@ impl<'a> Statements<'a> {
         }
     }
 
-    /// Where the innermost object, light or camera around a place ends: in a union another may follow.
+    /// Returns the end of the innermost object, light or camera around `place`: in a union another may
+    /// follow.
     fn statement_around(&self, place: Span) -> Option<u32> {
         let holds = |pair: &&[Item]| {
             let (ItemKind::Word(word), ItemKind::Block(_)) = (pair[0].kind, pair[1].kind) else {
@@ -233,7 +235,7 @@ impl<'a> Statements<'a> {
         self.ast.items.windows(2).filter(holds).map(|pair| pair[1].span.end).min()
     }
 
-    /// Where the innermost block around a place ends.
+    /// Returns the end of the innermost block around `place`.
     fn block_around(&self, place: Span) -> Option<u32> {
         let holds = |item: &&Item| {
             matches!(item.kind, ItemKind::Block(_))
@@ -243,7 +245,7 @@ impl<'a> Statements<'a> {
         self.ast.items.iter().filter(holds).map(|item| item.span.end).min()
     }
 
-    /// Where the first statement begins that a fault has not touched.
+    /// Returns the start of the first statement that a fault does not affect.
     fn certain_after(&self, fault: Span) -> u32 {
         let behind = self.items.partition_point(|item| item.span.start <= fault.start);
         let touched = self.items[..behind].last().map_or(0, |item| item.span.end);
@@ -255,8 +257,8 @@ impl<'a> Statements<'a> {
         (0..rest.len()).find(begins).map_or(u32::MAX, |at| rest[at].span.start)
     }
 
-    /// A `}` too many, alone at the start of its line: what is further in than it, right before it, was
-    /// meant to stand in the block that it was to close.
+    /// Returns the start of the affected range. Items right before an extra `}`, alone at the start of its
+    /// line, and indented more than it, were meant for the block that it was to close.
     fn start(&self, code: Code, fault: Span) -> u32 {
         let alone = self.indent(fault.start).filter(|_| code == Code::StrayCloser);
         let Some(own) = alone else { return fault.start };
@@ -265,12 +267,12 @@ impl<'a> Statements<'a> {
             .iter()
             .rev()
             .take_while(|item| self.indent(item.span.start).is_none_or(|indent| indent > own));
-        // A block belongs to the word before it, however far in that is.
+        // A block belongs to the word before it, whatever its indentation.
         let begins = |item: &&Item| self.indent(item.span.start).is_some();
         inner.filter(begins).last().map_or(fault.start, |item| item.span.start)
     }
 
-    /// How far in a place stands that begins its line.
+    /// Returns the indentation of a position that begins its line.
     fn indent(&self, place: u32) -> Option<usize> {
         let text = self.sources.get(self.ast.file).text.get(..place as usize)?;
         let line = text.rsplit(['\n', '\r']).next().unwrap_or(text);
@@ -278,7 +280,8 @@ impl<'a> Statements<'a> {
     }
 }
 
-/// A directive, or a word or an unknown name and its block; what only changes an object begins none.
+/// Returns whether an item begins a statement: a directive, or a keyword or an unknown name with its block.
+/// Modifiers begin none.
 fn begins_statement(item: Item, next: Option<&Item>) -> bool {
     let opens = next.is_some_and(|next| matches!(next.kind, ItemKind::Block(_)));
     match item.kind {
@@ -293,7 +296,7 @@ fn begins_statement(item: Item, next: Option<&Item>) -> bool {
     }
 }
 
-/// What stands between a directive's head and its `#end`.
+/// Returns the items between a directive's head and its `#end`.
 fn bodies(ast: &Ast, item: Item) -> Vec<Items> {
     let ItemKind::Directive(id) = item.kind else { return Vec::new() };
     match &ast.directive(id).kind {

@@ -1,13 +1,14 @@
-//! Mistakes of form in branches that were not run: a warning for each branch.
+//! Reduces syntax errors in branches that were not run to one warning for each branch.
 //!
-//! **In:** the branches, and what was told of the text. **Out:** the same without the errors in them, which
-//! POV-Ray 3.7 passes over word by word (measured). **Invariant:** what may reach beyond its branch, a
-//! directive or a quote without its end, stays an error.
+//! **In:** the branches, and the diagnostics about the text. **Out:** the same without the errors in the
+//! branches, which POV-Ray 3.7 skips word by word (measured). **Invariant:** an error that may reach beyond
+//! its branch, such as an unclosed directive or quote, stays an error.
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::Span;
 
-/// Replaces the errors in `branches` of the first `parsed` messages; returns how many of those are left.
+/// Replaces the errors in `branches` among the first `parsed` diagnostics; returns how many of those are
+/// left.
 pub(super) fn tell_unread(
     branches: &[Span],
     parsed: usize,
@@ -51,7 +52,7 @@ fn stays_inside(told: &Diagnostic) -> bool {
         | Code::UnclosedBlock
         | Code::MalformedNumber
         | Code::ExpectedExpression => true,
-        // `#elif` is rather the next branch.
+        // `#elif` probably starts the next branch.
         Code::UnknownDirective => {
             told.help.is_empty() || told.message.starts_with("a comment begins")
         }

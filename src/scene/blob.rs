@@ -1,4 +1,4 @@
-//! Blobs as they were written.
+//! Blobs as written.
 
 use crate::math::Vector;
 use crate::scene::TransformId;
@@ -6,7 +6,7 @@ use crate::scene::TransformId;
 /// The parts of a `blob`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blob {
-    /// More than 0.
+    /// The field's threshold, more than 0.
     pub threshold: f64,
     pub components: Vec<Component>,
 }
@@ -14,7 +14,7 @@ pub struct Blob {
 /// A `sphere` or a `cylinder` of a blob.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Component {
-    /// The middles of a cylinder's ends; of a sphere, twice its centre.
+    /// The centres of a cylinder's ends; for a sphere, its centre twice.
     pub ends: [Vector; 2],
     /// Not 0.
     pub radius: f64,
@@ -24,12 +24,12 @@ pub struct Component {
     pub transforms: Vec<TransformId>,
 }
 
-/// Of more components, none is held against each other.
+/// Above this many components, pairs are not compared.
 const MOST: usize = 1000;
 
 impl Blob {
-    /// Nowhere could its field be as strong as the threshold: where a component is, there are those that
-    /// reach into it.
+    /// Returns whether the field certainly stays below the threshold everywhere, judged by the strengths of
+    /// the components that overlap each one.
     pub fn is_weak(&self) -> bool {
         let sum = |reaching: &dyn Fn(&Component) -> bool| {
             let all = self.components.iter().filter(|other| reaching(other));
@@ -42,12 +42,12 @@ impl Blob {
 }
 
 impl Component {
-    /// How many bytes it holds.
+    /// Returns its size in bytes.
     pub fn bytes(&self) -> u64 {
         (size_of::<Self>() + size_of_val(&self.transforms[..])) as u64
     }
 
-    /// Whether the balls around two of them meet; whatever was transformed may.
+    /// Returns whether the bounding spheres of two components overlap; always true if one is transformed.
     fn reaches(&self, other: &Self) -> bool {
         if !(self.transforms.is_empty() && other.transforms.is_empty()) {
             return true;

@@ -1,22 +1,22 @@
-//! A camera as it is written: its words in order, without the defaults.
+//! Cameras as written: the keywords in order, without defaults.
 
 use super::TransformId;
 use crate::math::Vector;
 use crate::source::Site;
 
-/// The camera's words in written order, without the defaults. As in POV-Ray 3.7 (measured) the order
-/// only matters among equal words, where the last counts, and among transforms, unless `is_in_order`.
+/// The camera's keywords in written order, without defaults. As in POV-Ray 3.7 (measured) the order matters
+/// only among equal keywords, where the last counts, and among transforms, unless `is_in_order`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     pub kind: CameraKind,
     pub items: Vec<CameraItem>,
-    /// Each word changes what those before it came to, as in scenes for POV-Ray 3.1 and older.
+    /// Each keyword changes the result of those before it, as in scenes for POV-Ray 3.1 and older.
     pub is_in_order: bool,
     pub site: Site,
 }
 
 impl Camera {
-    /// Whether its words in written order may come to another camera than the same words sorted.
+    /// Returns whether the written order may give another camera than the sorted order.
     pub fn order_matters(&self) -> bool {
         let step = |item: &CameraItem| match item.kind {
             CameraItemKind::Angle(_) | CameraItemKind::LookAt(_) => 1,
@@ -51,13 +51,13 @@ pub enum CameraItemKind {
     Direction(Vector),
     /// Horizontal field of view in degrees.
     Angle(f64),
-    /// The seed's lens shift, in widths and heights of the screen.
+    /// The native lens shift, in widths and heights of the screen.
     Shift {
         x: f64,
         y: f64,
     },
     Transform(TransformId),
-    /// Where a camera whose words act in order becomes orthographic: it goes on to see what it would see
-    /// there, at `look_at`.
+    /// The point where a camera with keywords in order becomes orthographic: it then keeps the view that it
+    /// has of `look_at` there.
     Orthographic,
 }

@@ -1,22 +1,22 @@
-//! Landscapes as they were read: heights in rows.
+//! Height fields as read: rows of heights.
 
 /// Heights over the unit square.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightField {
-    /// What it came from, for people to read.
+    /// The name of its source, for display.
     pub from: String,
-    /// From 0 to 1, along x; rows of them along z.
+    /// Heights from 0 to 1, along x, in rows along z.
     pub heights: Vec<f32>,
-    /// How many there are in a row: 2 or more, as of rows.
+    /// The number of heights in a row; at least 2 heights and 2 rows.
     pub width: usize,
-    /// What is lower is not seen.
+    /// Heights below this are invisible.
     pub water: f64,
-    /// It is lit as if it were round.
+    /// Shaded with interpolated normals.
     pub smooth: bool,
 }
 
 impl HeightField {
-    /// Nothing of it is above the water.
+    /// Returns whether no height reaches the water level.
     pub fn is_nothing(&self) -> bool {
         !self.heights.iter().any(|height| f64::from(*height) >= self.water)
     }

@@ -1,30 +1,30 @@
-//! Fractals of four dimensions as they were written.
+//! Four-dimensional Julia fractals as written.
 
 use std::fmt;
 
 use crate::vocabulary::Word;
 
-/// Where a map, done again and again, leads nowhere far.
+/// The points that stay bounded under an iterated map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JuliaFractal {
-    /// What the map adds.
+    /// The constant that the map adds.
     pub parameter: [f64; 4],
-    /// Of hypercomplex numbers, or else of quaternions.
+    /// Uses hypercomplex numbers instead of quaternions.
     pub hypercomplex: bool,
-    /// The word of the function: `sqr`, `exp` …
+    /// The keyword of the function: `sqr`, `exp` …
     pub function: Word,
-    /// Of `pwr`: real and imaginary.
+    /// The exponent of `pwr`: real and imaginary part.
     pub power: [f64; 2],
-    /// 1 or more.
+    /// At least 1.
     pub iterations: u32,
-    /// Of the three dimensions that are seen; its last component is not 0.
+    /// The normal of the visible three-dimensional slice; its last component is not 0.
     pub normal: [f64; 4],
-    /// Of those from the origin, along the normal at length 1.
+    /// Distance of the slice from the origin, along the normal at length 1.
     pub distance: f64,
 }
 
 impl Default for JuliaFractal {
-    /// As POV-Ray has it (manual, 2.4.1.6).
+    /// POV-Ray's defaults (manual, 2.4.1.6).
     fn default() -> Self {
         Self {
             parameter: [0.0; 4],

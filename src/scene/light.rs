@@ -1,4 +1,4 @@
-//! Lights as they were written.
+//! Lights as written.
 
 use super::TransformId;
 use crate::color::Rgb;
@@ -10,26 +10,26 @@ use crate::vocabulary::Word;
 pub struct LightSource {
     /// Linear intensity; may exceed 1.
     pub color: Rgb,
-    /// All of that, where it is written.
+    /// The source range of the colour, if written.
     pub color_site: Option<Site>,
     pub kind: LightKind,
-    /// The transforms that stand before its `point_at`: they move the light, and not what it points at
-    /// (measured on POV-Ray 3.7).
+    /// The transforms before its `point_at`: they move the light, and not the target (measured on POV-Ray
+    /// 3.7).
     pub aimed_after: Vec<TransformId>,
     pub shadowless: bool,
-    /// `None`: as bright at any distance.
+    /// `None`: equally bright at any distance.
     pub fade: Option<Fade>,
-    /// Parts of its colour without which it is black; none where it takes all of the light.
+    /// The removable pieces of its colour without which it is black; empty if only removing the whole light
+    /// does that.
     pub color_sites: Vec<Site>,
-    /// Each word that makes a beam of it (`spotlight`, `cylinder`), as a piece that can be taken out of the
-    /// text.
+    /// Each keyword that gives it a beam (`spotlight`, `cylinder`), as a removable source piece.
     pub beam_sites: Vec<(Word, Site)>,
-    /// Each `fade_distance`, without which it does not fade, likewise.
+    /// Each `fade_distance`, likewise; without them it does not fade.
     pub fade_sites: Vec<Site>,
 }
 
 impl LightSource {
-    /// Without further words.
+    /// Returns a light of this kind and colour, without other settings.
     pub fn new(kind: LightKind, color: Rgb) -> Self {
         let (color_sites, beam_sites, fade_sites) = (Vec::new(), Vec::new(), Vec::new());
         let (shadowless, fade, color_site, aimed_after) = (false, None, None, Vec::new());
@@ -47,10 +47,10 @@ impl LightSource {
     }
 }
 
-/// How light loses strength with the distance d: it is 2/(1 + (d/distance)^power) of its colour.
+/// Attenuation with the distance d: the colour is multiplied by 2/(1 + (d/distance)^power).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fade {
-    /// Where it is all of its colour: more than 0. No transform changes it (measured on POV-Ray 3.7).
+    /// The distance of the full colour: more than 0. No transform changes it (measured on POV-Ray 3.7).
     pub distance: f64,
     /// More than 0.
     pub power: f64,
@@ -66,7 +66,7 @@ pub enum LightKind {
         location: Vector,
         point_at: Vector,
     },
-    /// Light from infinitely far: `to_light` points to it, any length but zero.
+    /// Light from infinitely far away: `to_light` is the direction to it, of any length but zero.
     Direction {
         to_light: Vector,
     },
@@ -76,7 +76,7 @@ pub enum LightKind {
         point_at: Vector,
         beam: Beam,
     },
-    /// Parallel rays, only near the line from `location` through `point_at`.
+    /// Parallel rays, limited to the neighbourhood of the line from `location` through `point_at`.
     Cylinder {
         location: Vector,
         point_at: Vector,
@@ -84,14 +84,14 @@ pub enum LightKind {
     },
 }
 
-/// How a light falls off around its axis: in degrees for a spotlight, in units, which no transform
-/// changes (measured on POV-Ray 3.7), for a cylinder of light.
+/// The falloff of a light around its axis: in degrees for a spotlight; for a cylinder of light in units,
+/// which no transform changes (measured on POV-Ray 3.7).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beam {
-    /// The bright middle.
+    /// The edge of the fully bright core.
     pub radius: f64,
-    /// The edge, where it is dark.
+    /// The outer edge, where the light ends.
     pub falloff: f64,
-    /// How fast it fades already in the middle.
+    /// How fast the light fades inside the core already.
     pub tightness: f64,
 }

@@ -1,38 +1,38 @@
-//! Triangles as they were written.
+//! Triangles as written.
 
 use super::TextureId;
 use crate::math::Vector;
 
-/// The parts of a `mesh`, a `mesh2` or a lone triangle.
+/// The parts of a `mesh`, a `mesh2` or a single triangle.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Triangles {
     pub vertices: Vec<Vector>,
     /// Of any length.
     pub normals: Vec<Vector>,
-    /// Places in a texture.
+    /// Texture coordinates.
     pub uvs: Vec<[f64; 2]>,
-    /// Their indices are those of entries.
+    /// Faces, which index the lists above.
     pub faces: Vec<Face>,
-    /// Those that faces have themselves.
+    /// Textures of single faces.
     pub textures: Vec<TextureId>,
-    /// `inside_vector`: it has an inside. Any length but zero.
+    /// `inside_vector`: gives the mesh an inside. Any length but zero.
     pub inside: Option<Vector>,
 }
 
-/// A triangle, by indices.
+/// A triangle, as indices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
     pub vertices: [u32; 3],
-    /// `None` where it is flat.
+    /// `None` if flat-shaded.
     pub normals: Option<[u32; 3]>,
-    /// What each corner is painted with: of the mesh's textures, or where it has none, of a list that its
-    /// pigment is; `None` where that is not said.
+    /// The paint of each corner: an index into the mesh's textures, or without any, into the pigment's list
+    /// of colours; `None` if not given.
     pub paint: Option<[u32; 3]>,
     pub uvs: Option<[u32; 3]>,
 }
 
 impl Triangles {
-    /// How many bytes it holds.
+    /// Returns its size in bytes.
     pub fn bytes(&self) -> u64 {
         let Self { vertices, normals, uvs, faces, textures, .. } = self;
         let points = size_of_val(&vertices[..]) + size_of_val(&normals[..]);

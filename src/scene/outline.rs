@@ -1,21 +1,21 @@
-//! Outlines as they were written: points in a plane, and how curves go through them.
+//! Outlines as written: points in a plane, and the spline through them.
 
 use std::ops::Range;
 
 use crate::vocabulary::Word;
 
-/// A place in the plane of an outline.
+/// A point in the plane of an outline.
 pub type Point = [f64; 2];
 
-/// How curves go through points.
+/// The kind of spline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spline {
     Linear,
-    /// The first point is none of the curve: it tells the slope at the second.
+    /// The first point is not on the curve: it defines the slope at the second.
     Quadratic,
-    /// The first point and the last are none of the curve: they tell the slopes at its ends.
+    /// The first and the last point are not on the curve: they define the slopes at its ends.
     Cubic,
-    /// Four points for each piece: its ends, and what it leans to.
+    /// Four points for each piece: its ends, and two control points.
     Bezier,
 }
 
@@ -39,7 +39,7 @@ impl Spline {
         }
     }
 
-    /// How many points stand before the first of the curve, and behind its last.
+    /// Returns the number of control points before the first point of the curve, and after its last.
     pub fn controls(self) -> (usize, usize) {
         match self {
             Self::Linear | Self::Bezier => (0, 0),
@@ -48,9 +48,9 @@ impl Spline {
         }
     }
 
-    /// The closed curves of a prism, each with its control points: a curve ends where its first point stands
-    /// again. The last of a linear spline may lack that point. An error is where the points begin of a curve
-    /// that never ends.
+    /// Returns the closed curves of a prism, each with its control points: a curve ends where its first point
+    /// recurs. The last curve of a linear spline may omit that point. On error, returns the start of a curve
+    /// that never closes.
     ///
     /// **Source:** manual, section 3.4.5.1.11 ("Prism").
     pub fn contours(self, points: &[Point]) -> Result<Vec<Range<usize>>, usize> {
@@ -78,18 +78,19 @@ impl Spline {
     }
 }
 
-/// Points of one outline that are as near as this, of its size, are one: the rounding of the calculations that
-/// they may come from.
+/// Relative distance within which points of one outline are equal: the rounding of the calculations that may
+/// have produced them.
 pub const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
-/// Whether two of these points are one, as far as the rounding tells of the calculations they may come from.
+/// Returns a predicate for equality of two of these points, up to the rounding of the calculations that may
+/// have produced them.
 pub fn sameness(points: &[Point]) -> impl Fn(Point, Point) -> bool {
     let size = |axis: usize| points.iter().map(|p| p[axis].abs()).fold(0.0, f64::max);
     let off = size(0).max(size(1)) * ROUNDED;
     move |a, b| (a[0] - b[0]).abs() <= off && (a[1] - b[1]).abs() <= off
 }
 
-/// Whether points lie in a line, or in one place, as far as rounding tells.
+/// Returns whether the points are collinear or equal, up to rounding.
 pub fn are_in_line(points: &[Point]) -> bool {
     let Some(&first) = points.first() else { return true };
     let ways = || points.iter().map(|point| [point[0] - first[0], point[1] - first[1]]);

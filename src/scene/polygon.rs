@@ -1,27 +1,27 @@
-//! Polygons as they were written: closed lines in one plane.
+//! Polygons as written: closed lines in one plane.
 
 use crate::math::Vector;
 use crate::math::double::{Double, DoubleVector};
 
-/// A figure of one or more closed lines.
+/// One or more closed lines.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Polygon {
-    /// Each goes on from its last corner to its first.
+    /// Each continues from its last corner to its first.
     pub lines: Vec<Vec<Vector>>,
 }
 
-/// Where a polygon lies.
+/// The plane of a polygon.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flat {
     pub corner: DoubleVector,
-    /// Of length 1. The polygon faces along it: the first corners that turn, turn left about it.
+    /// Of length 1. The polygon faces along it: its first turn is to the left about it.
     pub normal: DoubleVector,
-    /// The distance from the corner to the farthest.
+    /// The distance from the corner to the farthest point.
     pub size: Double,
 }
 
 impl Polygon {
-    /// By the points that tell it best; `None` where they lie in a line.
+    /// Returns the plane through the points that define it best; `None` if they are collinear.
     pub fn plane(&self) -> Option<Flat> {
         let points = || self.lines.iter().flatten().map(|point| DoubleVector::from(*point));
         let corner = points().next()?;
@@ -48,7 +48,7 @@ impl Polygon {
 }
 
 impl Flat {
-    /// How far a point is from the plane, over the polygon's size.
+    /// Returns the distance of a point from the plane, relative to the polygon's size.
     pub fn off(&self, point: Vector) -> f64 {
         ((DoubleVector::from(point) - self.corner).dot(self.normal) / self.size).round().abs()
     }

@@ -1,8 +1,8 @@
-//! A Scene for people to read: `lucarne show --stage scene`.
+//! Prints a Scene in readable form, for `lucarne show --stage scene`.
 //!
-//! **Invariant:** objects as written, children indented under their parents, modifiers in written
-//! order. A shared child is shown in full once and named after that, so the text is never longer than the
-//! Scene by more than its indentation. No call stack: the depth of nesting does not matter.
+//! **Invariant:** objects as written, children indented under their parents, modifiers in written order. A
+//! shared child is shown in full once and by name afterwards, so the text exceeds the Scene only by its
+//! indentation. The printer does not recurse: the nesting depth is unlimited.
 
 use std::fmt::{self, Write};
 
@@ -16,13 +16,13 @@ use crate::math::vector::written as vector;
 use crate::pattern::Pattern;
 use crate::source::Sources;
 
-/// Deeper levels are not indented further.
+/// Levels deeper than this are not indented further.
 const DEEPEST_INDENT: usize = 20;
 
-/// Steps of one transform that are written.
+/// The most steps printed of one transform.
 const MOST_STEPS: usize = 1_000;
 
-/// The Scene, a word a line.
+/// Returns the Scene as text, one item a line.
 pub fn dump(scene: &Scene, sources: &Sources) -> String {
     let mut out = String::new();
     let mut printer = Printer { scene, sources, seen: vec![false; scene.objects.len()] };
@@ -100,7 +100,7 @@ impl Printer<'_> {
         Ok(())
     }
 
-    /// An object and all that it holds, with an explicit stack.
+    /// Prints an object and its descendants, with an explicit stack.
     fn object(&mut self, out: &mut String, root: ObjectId) -> fmt::Result {
         enum Task {
             Open(ObjectId, usize),
@@ -242,7 +242,7 @@ impl Printer<'_> {
     }
 
     fn transform(&self, out: &mut String, id: TransformId, indent: &str) -> fmt::Result {
-        // A list that another holds twice is written twice, and so on.
+        // A list contained twice in another is printed twice, and so on.
         let mut left = MOST_STEPS;
         let steps = |id: TransformId, depth| {
             self.scene.transforms[id.index()].iter().rev().map(move |step| (Some(*step), depth))
@@ -282,7 +282,7 @@ impl Printer<'_> {
     }
 }
 
-/// What follows a flag that is not set.
+/// Returns the text after a flag that is not set.
 fn off(on: bool) -> &'static str {
     if on { "" } else { " off" }
 }

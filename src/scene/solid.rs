@@ -1,4 +1,4 @@
-//! Solids as they were written: their own numbers, before any transform.
+//! Solids as written: their own numbers, before any transform.
 
 use std::fmt;
 use std::sync::Arc;
@@ -18,12 +18,12 @@ use crate::vocabulary::Word;
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
-    /// A Bézier surface of degree 3 both ways.
+    /// A bicubic Bézier surface.
     BicubicPatch {
         /// Four rows of four.
         points: Box<[Vector; 16]>,
     },
-    /// A landscape. Stored once, however often it is used.
+    /// Stored once, however often it is used.
     HeightField {
         field: Arc<HeightField>,
     },
@@ -31,8 +31,8 @@ pub enum Solid {
         centre: Vector,
         radius: f64,
     },
-    /// The half space `normal · p ≤ distance · |normal|`; `distance` in POV-Ray's sense, along
-    /// the normalised normal.
+    /// The half space `normal · p ≤ distance · |normal|`; as in POV-Ray, `distance` is along the normalised
+    /// normal.
     Plane {
         normal: Vector,
         distance: f64,
@@ -43,30 +43,30 @@ pub enum Solid {
     /// Stored once, however often it is used.
     Blob(Arc<Blob>),
     Cylinder {
-        /// The middles of its two ends.
+        /// The centres of its ends.
         ends: [Vector; 2],
         radius: f64,
-        /// Its ends are not seen.
+        /// Without end caps.
         open: bool,
     },
     Cone {
-        /// The middles of its two ends.
+        /// The centres of its ends.
         ends: [Vector; 2],
-        /// The radius at each. Where their signs differ, two cones stand tip to tip.
+        /// The radius at each end. If their signs differ, two cones touch at their tips.
         radii: [f64; 2],
-        /// Its ends are not seen.
+        /// Without end caps.
         open: bool,
     },
     Disc {
         centre: Vector,
         normal: Vector,
         radius: f64,
-        /// The radius of the hole in its middle.
+        /// The radius of its central hole.
         hole: f64,
     },
-    /// On the y axis, the bottom ball around the origin.
+    /// On the y axis, with the bottom sphere about the origin.
     Ovus {
-        /// The radii of the two balls, 0 or more.
+        /// The radii of the two spheres, 0 or more.
         bottom: f64,
         top: f64,
     },
@@ -77,63 +77,63 @@ pub enum Solid {
         /// East-west and north-south, more than 0.
         exponents: [f64; 2],
     },
-    /// The points that three functions of u and v give, within a container.
+    /// A surface of points given by three functions of u and v, within a container.
     Parametric {
         functions: [Arc<Closed>; 3],
-        /// Two corners of what u and v range over.
+        /// Two corners of the range of u and v.
         corners: [[f64; 2]; 2],
         container: Box<Container>,
     },
-    /// Where a function is less than a threshold, within a container.
+    /// The set where a function is less than a threshold, within a container.
     Isosurface {
         function: Arc<Closed>,
         container: Box<Container>,
         threshold: f64,
         /// A length.
         accuracy: f64,
-        /// Where the container cuts it, nothing is seen.
+        /// Without caps where the container cuts it.
         open: bool,
     },
-    /// A fractal of four dimensions.
+    /// A four-dimensional fractal.
     JuliaFractal(Box<JuliaFractal>),
     /// About the y axis.
     Torus {
-        /// From the axis to the middle of the tube.
+        /// The distance from the axis to the centre of the tube.
         major: f64,
-        /// Of the tube.
+        /// The radius of the tube.
         minor: f64,
     },
-    /// A curve turned about the y axis.
+    /// A curve revolved about the y axis.
     Lathe {
         spline: Spline,
         /// Distance from the axis, and height. Stored once, however often it is used.
         points: Arc<[Point]>,
     },
-    /// An outline in the xz plane, drawn up along y.
+    /// An outline in the xz plane, extruded along y.
     Prism {
         spline: Spline,
-        /// Its width is the outline's times y.
+        /// The outline is scaled by y.
         conic: bool,
         heights: [f64; 2],
-        /// Of all closed curves, in a row. Stored once, however often it is used.
+        /// The points of all closed curves, in sequence. Stored once, however often it is used.
         points: Arc<[Point]>,
-        /// Its ends are not seen.
+        /// Without end caps.
         open: bool,
     },
-    /// A round bar whose width is a function of the height.
+    /// A solid of revolution whose squared radius is a function of the height.
     Sor {
         /// Radius and height. Stored once, however often it is used.
         points: Arc<[Point]>,
-        /// Its ends are not seen.
+        /// Without end caps.
         open: bool,
     },
-    /// A flat figure.
+    /// A flat polygon.
     Polygon {
         polygon: Polygon,
     },
-    /// Where a polynomial in x, y and z is 0 or less.
+    /// The set where a polynomial in x, y and z is 0 or less.
     Polynomial {
-        /// The word it is written with.
+        /// Its keyword.
         form: Word,
         /// 2 … 15.
         degree: usize,
@@ -144,15 +144,15 @@ pub enum Solid {
     Text {
         text: Arc<Text>,
     },
-    /// A lone triangle or a mesh. Stored once, however often it is used.
+    /// A single triangle or a mesh. Stored once, however often it is used.
     Triangles {
-        /// The word that opens it.
+        /// The keyword that opens it.
         word: Word,
         triangles: Arc<Triangles>,
     },
 }
 
-/// What the surface of a function is looked for in.
+/// The region in which the surface of a function is searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Container {
     Box { corners: [Vector; 2] },
@@ -180,7 +180,7 @@ impl fmt::Display for Container {
 }
 
 impl Solid {
-    /// The word that opens it.
+    /// Returns the keyword that opens it.
     pub fn word(&self) -> Word {
         match self {
             Self::BicubicPatch { .. } => Word::BicubicPatch,
@@ -209,11 +209,11 @@ impl Solid {
         }
     }
 
-    /// Nothing: a ball of radius 0, a box that is a line or a point, a round bar or a cone
-    /// without length or width, a disc that is all hole, an egg of two points, a ring of no thickness, a
-    /// prism without height or whose outline is a line, a curve that is a point or lies in its axis,
-    /// a polynomial that is a number, points in a line, a text that shows nothing, a
-    /// landscape under water.
+    /// Returns whether the solid is empty: a sphere of radius 0, a box that is a line or a point, a cylinder
+    /// or a cone without length or width, a disc that is all hole, an ovus of two points, a torus of no
+    /// thickness, a prism without height or with a collinear outline, a curve that is a point or lies in its
+    /// axis, a constant polynomial, collinear points, a text without visible letters, a height field under
+    /// water.
     pub fn is_sizeless(&self) -> bool {
         match self {
             Self::BicubicPatch { points } => {
@@ -244,7 +244,7 @@ impl Solid {
             }
             Self::Prism { heights: [low, high], points, .. } => low == high || are_in_line(points),
             Self::Sor { points, .. } => {
-                // The first and the last tell slopes.
+                // The first and the last define slopes.
                 points[1..points.len() - 1].iter().all(|[radius, _]| *radius == 0.0)
             }
             Self::Polynomial { terms, .. } => {
@@ -255,7 +255,7 @@ impl Solid {
     }
 }
 
-/// Its word and its numbers.
+/// Prints its keyword and its numbers.
 impl fmt::Display for Solid {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}", self.word().name())?;

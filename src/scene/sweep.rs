@@ -1,4 +1,4 @@
-//! Sphere sweeps as they were written.
+//! Sphere sweeps as written.
 
 use crate::math::Vector;
 use crate::vocabulary::Word;
@@ -7,18 +7,18 @@ use crate::vocabulary::Word;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
     pub kind: Kind,
-    /// Centre and radius of each; as many as the kind needs, or more.
+    /// The centre and radius of each; at least as many as the kind requires.
     pub spheres: Vec<(Vector, f64)>,
 }
 
-/// How it goes from sphere to sphere.
+/// The interpolation from sphere to sphere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Straight.
+    /// Linear.
     Linear,
-    /// Smoothly, near all of them.
+    /// Smooth, near all spheres.
     BSpline,
-    /// Smoothly, through all but the first and the last.
+    /// Smooth, through all spheres but the first and the last.
     Cubic,
 }
 
@@ -33,7 +33,7 @@ impl Kind {
         }
     }
 
-    /// How many spheres it needs.
+    /// Returns the least number of spheres.
     pub fn least(self) -> usize {
         match self {
             Self::Linear => 2,
@@ -43,7 +43,7 @@ impl Kind {
 }
 
 impl Sweep {
-    /// How many bytes it holds.
+    /// Returns its size in bytes.
     pub fn bytes(&self) -> u64 {
         size_of_val(&self.spheres[..]) as u64
     }

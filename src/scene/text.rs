@@ -1,19 +1,19 @@
-//! Letters as they were set: closed curves in the plane z = 0, in units of the letters' size.
+//! Typeset letters: closed curves in the plane z = 0, in units of the font size.
 
-/// A place in the plane.
+/// A point in the plane.
 pub type Point = [f64; 2];
 
-/// A closed curve of lines and Bézier curves; a line leads from its last point to its first.
+/// A closed curve of lines and Bézier curves; a line closes it from its last point to its first.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Contour {
-    /// The Bézier points of all pieces in a row; the last of a piece is the first of the next.
+    /// The Bézier points of all pieces in sequence; the last of a piece is the first of the next.
     pub points: Vec<Point>,
     /// The degree of each piece: 1, 2 or 3.
     pub degrees: Vec<u8>,
 }
 
 impl Contour {
-    /// The Bézier points of each piece.
+    /// Returns the Bézier points of each piece.
     pub fn pieces(&self) -> impl Iterator<Item = &[Point]> {
         let mut at = 0;
         self.degrees.iter().filter_map(move |degree| {
@@ -24,14 +24,14 @@ impl Contour {
     }
 }
 
-/// What its contours go around an odd number of times.
+/// A glyph outline, filled by the even-odd rule.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Letter {
     pub contours: Vec<Contour>,
 }
 
 impl Letter {
-    /// How many bytes it holds.
+    /// Returns its size in bytes.
     pub fn bytes(&self) -> u64 {
         let sizes = self.contours.iter().map(|contour| {
             size_of::<Contour>() + size_of_val(&contour.points[..]) + contour.degrees.len()
@@ -40,12 +40,12 @@ impl Letter {
     }
 }
 
-/// Letters from z = 0 to `thickness`; of thickness 0 they are a sheet.
+/// Letters from z = 0 to `thickness`; with thickness 0 they are a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Text {
-    /// What was written.
+    /// The text as written.
     pub string: String,
-    /// Those that show something.
+    /// Only the visible letters.
     pub letters: Vec<Letter>,
     pub thickness: f64,
 }

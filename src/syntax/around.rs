@@ -1,16 +1,16 @@
-//! Which items of a tree hold a piece of the text whole.
+//! Finds the items of a tree that contain a piece of the text.
 
 use super::ast::{Ast, Body, Case, DirectiveKind, ItemKind, Items};
 use crate::source::Span;
 
 impl Ast {
-    /// From the first to the last of the fewest items side by side that hold all of `piece`: those of
-    /// the innermost block or branch around it.
+    /// Returns the span from the first to the last of the fewest adjacent items that contain all of `piece`:
+    /// items of the innermost block or branch around it.
     pub fn around(&self, piece: Span) -> Option<Span> {
         let (mut list, mut found) = (self.root, None);
         loop {
             let items = self.items(list);
-            // They stand in written order.
+            // The items are in source order.
             let first = items.partition_point(|item| item.span.end <= piece.start);
             let behind = items.partition_point(|item| item.span.start < piece.end);
             let held = items.get(first..behind)?;
@@ -31,7 +31,7 @@ impl Ast {
         }
     }
 
-    /// The items right inside an item, a list for each branch.
+    /// Returns the lists of items directly inside an item, one for each branch.
     fn lists(&self, item: ItemKind) -> Vec<Items> {
         let directive = match item {
             ItemKind::Block(items) | ItemKind::Entry(items) => return vec![items],

@@ -1,41 +1,41 @@
-//! What was typed, as a tree of items and expressions.
+//! The syntax tree: items and expressions as typed.
 //!
-//! **Invariant:** flat arenas; a child stands before its parent, so nothing here needs the call stack.
-//! Every byte of the source is in a node, a comment or a blank.
+//! **Invariant:** flat arenas; a child precedes its parent, so nothing here recurses. Every byte of the
+//! source is in a node, a comment or a blank.
 
 use std::ops::Range;
 
 use crate::source::{FileId, Span};
 use crate::vocabulary::Word;
 
-/// One parsed file. Always whole: what could not be understood is [`ExpressionKind::Missing`], and
-/// has been reported.
+/// The tree of one parsed file. Always complete: a part that could not be parsed is
+/// [`ExpressionKind::Missing`], and has been reported.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ast {
     pub file: FileId,
-    /// The items of one block are contiguous; the file's own stand last.
+    /// The items of one block are contiguous; those of the file itself come last.
     pub items: Vec<Item>,
     pub expressions: Vec<Expression>,
     /// The heads and bodies of directives.
     pub directives: Vec<Directive>,
-    /// Names that are not words of the language, each once.
+    /// Names that are not keywords, each once.
     pub names: Vec<String>,
-    /// Arguments of calls, components of vectors, indices of targets: lists that nodes point into.
+    /// Lists that nodes index: arguments of calls, components of vectors, indices of targets.
     pub arguments: Vec<Argument>,
-    /// The literals of every number run, decoded.
+    /// The decoded literals of every number run.
     pub numbers: Vec<f64>,
     pub comments: Vec<Span>,
     pub root: Items,
 }
 
-/// Some consecutive items.
+/// A range of consecutive items.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Items {
     pub start: u32,
     pub end: u32,
 }
 
-/// Some consecutive arguments.
+/// A range of consecutive arguments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Arguments {
     pub start: u32,
@@ -75,13 +75,13 @@ pub struct Item {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ItemKind {
-    /// A word of the language that is not a value: `sphere`, `rotate`, `color`, `rgb`.
+    /// A keyword that is not a value: `sphere`, `rotate`, `color`, `rgb`.
     Word(Word),
     /// A value: a sum, or (inside parentheses and in function bodies) a full expression.
     Expression(ExpressionId),
     /// `{ … }`.
     Block(Items),
-    /// `[ … ]` where it is not an index: an entry of a map, the size of an array.
+    /// `[ … ]` that is not an index: an entry of a map, the size of an array.
     Entry(Items),
     /// A `{` that pairs only after expansion: `#macro Open() union { #end`.
     Open,
@@ -90,8 +90,8 @@ pub enum ItemKind {
     Comma,
     Semicolon,
     Directive(DirectiveId),
-    /// A long run of literals, each followed by a comma: `numbers[start .. start + count · width]`.
-    /// `width` 1: plain numbers; else vectors of that many.
+    /// A long run of literals, each followed by a comma: `numbers[start .. start + count · width]`. Plain
+    /// numbers if `width` is 1, else vectors of that many components.
     Numbers {
         start: u32,
         count: u32,
@@ -108,11 +108,11 @@ pub struct Expression {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ExpressionKind {
     Number(f64),
-    /// The span with its quotes; escapes are decoded where it is used (paths are not).
+    /// The span with its quotes; escapes are decoded on use (not in paths).
     String,
     /// A declared name.
     Name(NameId),
-    /// A word of the language that is a value: `x`, `pi`, `clock`, `true`.
+    /// A keyword that is a value: `x`, `pi`, `clock`, `true`.
     Word(Word),
     Unary(UnaryOperator, ExpressionId),
     Binary(BinaryOperator, ExpressionId, ExpressionId),
@@ -124,15 +124,15 @@ pub enum ExpressionKind {
     Call(Callee, Arguments),
     /// `a[i]`.
     Index(ExpressionId, ExpressionId),
-    /// `a.x`, `c.red`. The component's name is a word when the language has it.
+    /// `a.x`, `c.red`. The component's name is a keyword if the language has it.
     Component(ExpressionId, Component),
     /// `( … )` around one expression.
     Group(ExpressionId),
     /// `( … )` around anything else: directives, several values.
     GroupItems(Items),
-    /// What stands on the other side of a directive: `(2 #if (A) * 3 #end)`, `(2 * #if (A) 3 #end)`.
+    /// The operand on the other side of a directive: `(2 #if (A) * 3 #end)`, `(2 * #if (A) 3 #end)`.
     Joint,
-    /// Something that was reported as not understood.
+    /// A part that could not be parsed and was reported.
     Missing,
 }
 
@@ -159,7 +159,7 @@ pub enum BinaryOperator {
     Or,
 }
 
-/// How tightly an operator binds its neighbours; a higher rank is taken first.
+/// The precedence of an operator; a higher rank binds first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rank {
     Conditional,
@@ -172,7 +172,7 @@ pub enum Rank {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Callee {
-    /// A built-in function and the span of its word.
+    /// A built-in function and the span of its keyword.
     Word(Word, Span),
     /// A macro or a function of the author's.
     Name(NameId, Span),
@@ -196,11 +196,11 @@ pub enum Argument {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Directive {
     pub kind: DirectiveKind,
-    /// The `#` and its word.
+    /// The `#` and its keyword.
     pub head: Span,
 }
 
-/// What a directive assigns to or tests: `Name[i][j]`.
+/// The name that a directive assigns to or tests: `Name[i][j]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Target {
     pub name: NameId,
@@ -210,7 +210,7 @@ pub struct Target {
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum DirectiveKind {
-    /// `#declare Name =` or `#local Name =`: the value is what the following items yield.
+    /// `#declare Name =` or `#local Name =`: the value is the result of the following items.
     Declare {
         local: bool,
         target: Target,
@@ -236,7 +236,7 @@ pub enum DirectiveKind {
     },
     Switch {
         value: ExpressionId,
-        /// What stands before the first case: it is read whatever the value is, as POV-Ray does.
+        /// Items before the first case: evaluated whatever the value is, as in POV-Ray.
         lead: Items,
         cases: Vec<Case>,
     },
@@ -254,7 +254,7 @@ pub enum DirectiveKind {
     Debug(ExpressionId),
     Warning(ExpressionId),
     Error(ExpressionId),
-    /// `#fopen Name "file" read`; the mode is `read`, `write` or `append`, or missing, which was told.
+    /// `#fopen Name "file" read`; the mode is `read`, `write` or `append`, or missing, which was reported.
     Fopen {
         name: NameId,
         name_span: Span,
@@ -275,16 +275,16 @@ pub enum DirectiveKind {
         name_span: Span,
         arguments: Arguments,
     },
-    /// `#render`, `#statistics`: said as by `#debug`, since their own streams are gone.
+    /// `#render`, `#statistics`: output as by `#debug`, since their own streams no longer exist.
     OldStream(ExpressionId),
-    /// The body of a directive that could not be read, in a `.pov`: it is read, and its mistakes reported, when
-    /// it is run.
+    /// The body of a directive that could not be parsed, in a `.pov`: it is parsed, and its errors are
+    /// reported, when it is run.
     Unread,
-    /// Not understood; reported.
+    /// Could not be parsed; reported.
     Malformed,
 }
 
-/// What `#if`, `#ifdef`, `#ifndef` and `#elseif` ask. An `#elseif` is an `If` alone in `otherwise`.
+/// The test of `#if`, `#ifdef`, `#ifndef` and `#elseif`. An `#elseif` is an `If` alone in `otherwise`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Test {
     Condition(ExpressionId),
@@ -295,7 +295,7 @@ pub enum Test {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
     pub kind: CaseKind,
-    /// Up to the next case; falls through into it unless `#break` stands in between.
+    /// Items up to the next case; control falls through into it unless a `#break` comes first.
     pub body: Items,
 }
 
@@ -317,13 +317,13 @@ pub struct Parameter {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Body {
     Items(Items),
-    /// Its parentheses pair only after expansion, as in one standard include: the bytes between head
-    /// and `#end`. (Braces that do so are [`ItemKind::Open`] and [`ItemKind::Close`].)
+    /// The bytes between head and `#end` of a macro whose parentheses pair only after expansion, as in one
+    /// standard include. (Such braces are [`ItemKind::Open`] and [`ItemKind::Close`].)
     Raw(Span),
 }
 
 impl Ast {
-    /// Whether every character of `text`, which it is the tree of, that is not ASCII stands in a comment.
+    /// Returns whether every non-ASCII character of `text`, the text of this tree, is in a comment.
     pub fn is_ascii_but_for_comments(&self, text: &str) -> bool {
         let in_comment = |at: usize| {
             let after = self.comments.partition_point(|span| span.start as usize <= at);
@@ -350,7 +350,7 @@ impl Ast {
 }
 
 impl UnaryOperator {
-    /// How it is written.
+    /// Returns its source symbol.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Plus => "+",
@@ -361,7 +361,7 @@ impl UnaryOperator {
 }
 
 impl BinaryOperator {
-    /// How tightly it binds.
+    /// Returns its precedence.
     pub fn rank(self) -> Rank {
         match self {
             Self::Multiply | Self::Divide => Rank::Product,
@@ -376,7 +376,7 @@ impl BinaryOperator {
         }
     }
 
-    /// How it is written.
+    /// Returns its source symbol.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Add => "+",

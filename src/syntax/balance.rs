@@ -1,9 +1,9 @@
-//! Makes brackets and directives pair before anything is nested.
+//! Pairs brackets and directives before anything is nested.
 //!
-//! **In:** the tokens of a text. **Out:** tokens in which every `{ [ (` has its closer and every
-//! directive its `#end`; whatever had to be added or left out has been reported, once.
-//! **Invariant:** a text that pairs comes back as it is. Indentation only chooses *which* bracket is to
-//! blame in a text that certainly does not pair. Vectors are not paired here: `<` may be a comparison.
+//! **In:** the tokens of a text. **Out:** tokens in which every `{ [ (` has its closer and every directive
+//! its `#end`; each token added or removed has been reported, once. **Invariant:** a text that pairs is
+//! returned unchanged. Indentation only decides *which* bracket to blame in a text that certainly does not
+//! pair. Vectors are not paired here: `<` may be a comparison.
 
 use super::ParseOptions;
 use super::loose;
@@ -12,23 +12,23 @@ use super::token::{Token, TokenKind};
 use crate::diagnostic::Diagnostics;
 use crate::source::{FileId, Span};
 
-/// Something that has to be closed.
+/// An opening token that needs a closer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Opener {
     Bracket(super::token::Bracket),
     Directive,
 }
 
-/// What a token does to the pairing.
+/// The effect of a token on the pairing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Turn {
     Open(Opener),
     Close(Opener),
-    /// `#else` and its like: everything opened since the directive has to be closed.
+    /// `#else` and the like: everything opened since the directive has to be closed.
     Divide,
 }
 
-/// What a token does to the pairing, if anything.
+/// Returns the effect of a token on the pairing, if any.
 pub(super) fn turn(kind: TokenKind) -> Option<Turn> {
     use super::token::{Head, Mark};
     match kind {
@@ -53,7 +53,7 @@ pub(super) fn turn(kind: TokenKind) -> Option<Turn> {
     }
 }
 
-/// Returns tokens that pair, and whether they end before the text does, which is as the author wrote it.
+/// Returns tokens that pair, and whether they end before the text as written does.
 pub(super) fn balance(
     mut tokens: Vec<Token>,
     text: &str,
@@ -64,7 +64,7 @@ pub(super) fn balance(
     if let Some((at, what)) = too_deep(&tokens, options.nesting_limit) {
         let span = Span::new(file, tokens[at].start as usize, tokens[at].end as usize);
         diagnostics.push(super::nesting_limit(span, what, options.nesting_limit));
-        // Nothing behind it can be understood.
+        // Nothing after it can be parsed.
         tokens.truncate(at);
         return (tokens, true);
     }
@@ -79,7 +79,7 @@ pub(super) fn balance(
     (repair::repair(tokens, text, file, diagnostics), false)
 }
 
-/// True if every opener has its closer, and branches close what they open.
+/// Returns whether every opener has its closer, and each branch closes what it opens.
 pub(super) fn pairs(tokens: &[Token]) -> bool {
     let mut open = Vec::new();
     for token in tokens {
@@ -94,10 +94,10 @@ pub(super) fn pairs(tokens: &[Token]) -> bool {
     open.is_empty()
 }
 
-/// Whether a `(` or a `[` is closed in another statement than its own.
+/// Returns whether a `(` or a `[` is closed in another statement than its own.
 fn holds_statements(tokens: &[Token], text: &str) -> bool {
     use super::token::{Bracket, Mark};
-    // What is open, and whether a directive begins inside, whose `;` it may be.
+    // The open brackets, and whether a directive begins inside, to which a `;` may belong.
     let mut open: Vec<(Opener, bool)> = Vec::new();
     tokens.iter().enumerate().any(|(at, token)| {
         match turn(token.kind) {
@@ -117,14 +117,14 @@ fn holds_statements(tokens: &[Token], text: &str) -> bool {
     })
 }
 
-/// Whether token `at` is the last of its line.
+/// Returns whether token `at` is the last of its line.
 pub(super) fn ends_line(tokens: &[Token], at: usize, text: &str) -> bool {
     let next = tokens.get(at + 1).map_or(text.len(), |next| next.start as usize);
     let between = text.get(tokens[at].end as usize..next).unwrap_or("");
     between.contains(['\n', '\r'])
 }
 
-/// The first token that opens more than `limit` levels, and what most of them are.
+/// Returns the first token that opens more than `limit` levels, and the most frequent kind of these levels.
 fn too_deep(tokens: &[Token], limit: usize) -> Option<(usize, &'static str)> {
     let (mut depth, mut directives) = (0_usize, 0_usize);
     let at = tokens.iter().position(|token| {

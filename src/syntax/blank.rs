@@ -1,9 +1,9 @@
-//! Blanks in the place of what is no part of a scene.
+//! Replaces parts of a text that are not scene source by blanks.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// The same text, with a blank for each byte of `ranges` but for line breaks.
+/// Returns the same text, with each byte of `ranges` except line breaks replaced by a blank.
 pub(super) fn blanked(
     text: Cow<'_, str>,
     ranges: impl IntoIterator<Item = Range<usize>>,

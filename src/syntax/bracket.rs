@@ -1,4 +1,4 @@
-//! Brackets open and close: blocks, entries, groups, calls, indices, vectors.
+//! Opens and closes brackets: blocks, entries, groups, calls, indices, vectors.
 
 use super::ast::{Argument, Callee, Expression, ExpressionId, ExpressionKind, Item, ItemKind};
 use super::nest::{Frame, FrameKind, Nest, State};
@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::Role;
 
-/// How many tokens of a vector are looked at, from a directive in it on.
+/// The most tokens of a vector that are searched, from a directive in it on.
 const LONGEST_VECTOR: usize = 64;
 
 impl<'a> Nest<'a> {
@@ -48,7 +48,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// Closes the innermost frame, which `balance` has made sure fits.
+    /// Closes the innermost frame; `balance` has ensured that it matches.
     pub(super) fn close_bracket(&mut self, bracket: Bracket, span: Span) {
         let fits = match &self.top().kind {
             FrameKind::Block | FrameKind::Default(_) => bracket == Bracket::Brace,
@@ -93,7 +93,7 @@ impl<'a> Nest<'a> {
             FrameKind::Index(of) => {
                 let index = self.one_expression(frame.items, span, "an index");
                 let whole = self.ast.expression(of).span.to(span);
-                // It takes the place of the operand before its `[`: an operator may wait for it.
+                // It replaces the operand before its `[`, for which an operator may be waiting.
                 let id = self.add(ExpressionKind::Index(of, index), whole);
                 self.stacks.operands.push(id);
                 self.top().state = State::Holding { indexable: true };
@@ -101,7 +101,7 @@ impl<'a> Nest<'a> {
             FrameKind::Call(callee @ Callee::Element(_)) => {
                 self.end_last_argument(&frame, span);
                 let arguments = self.take_arguments(frame.arguments);
-                // It takes the place of the element, as that did of the array.
+                // It replaces the element, as that replaced the array.
                 let id = self.add(ExpressionKind::Call(callee, arguments), whole);
                 self.stacks.operands.push(id);
                 self.top().state = State::Holding { indexable: false };
@@ -125,7 +125,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// The element of an array, `A[1]`, that the parenthesis at `span` touches.
+    /// Returns the array element, such as `A[1]`, directly before the parenthesis at `span`.
     fn element_before(&mut self, span: Span) -> Option<ExpressionId> {
         if self.top().state != (State::Holding { indexable: true }) {
             return None;
@@ -136,8 +136,8 @@ impl<'a> Nest<'a> {
         (touches && matches!(element.kind, ExpressionKind::Index(..))).then_some(id)
     }
 
-    /// Whether the brackets behind a name hold an entry of a map, as in `color_map { Tints [1 rgb 1] }`, and
-    /// no index: the pending items from `base` on are more than one, and stand where entries do.
+    /// Returns whether the brackets after a name contain a map entry, as in `color_map { Tints [1 rgb 1] }`,
+    /// and not an index: there is more than one pending item from `base` on, where entries are allowed.
     fn is_entry(&mut self, base: usize) -> bool {
         let in_map = self.top().block.is_some_and(|word| word.name().ends_with("_map"));
         let begins_value = |item: &Item| matches!(item.kind, ItemKind::Word(_));
@@ -146,7 +146,7 @@ impl<'a> Nest<'a> {
             && self.lists_items()
     }
 
-    /// A brace that pairs only after expansion: an item of its own.
+    /// Adds a brace that pairs only after expansion, as an item of its own.
     pub(super) fn loose(&mut self, kind: TokenKind, span: Span) {
         self.leave_vectors(span);
         self.finish_expression();
@@ -158,14 +158,14 @@ impl<'a> Nest<'a> {
         self.items.push(Item { kind, span });
     }
 
-    /// The pending items from `base` on as one expression.
+    /// Converts the pending items from `base` on to one expression.
     pub(super) fn one_expression(&mut self, base: usize, close: Span, what: &str) -> ExpressionId {
         match self.items[base..] {
             [Item { kind: ItemKind::Expression(id), .. }] => {
                 self.items.truncate(base);
                 id
             }
-            // What closes it was added, and that was told.
+            // Its closer was added, which was reported.
             [] if close.start == close.end => self.add(ExpressionKind::Missing, close),
             [] => {
                 let text = self.slice(close);
@@ -184,7 +184,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// Makes arguments of the items since the last comma.
+    /// Converts the items since the last comma to arguments.
     pub(super) fn end_argument(&mut self) {
         let base = self.top().items;
         self.arguments_from(base);
@@ -201,7 +201,7 @@ impl<'a> Nest<'a> {
                         .at(close, format!("`{text}` follows the comma")),
                 );
             }
-            // Who is called knows whether it may be left empty.
+            // Whether it may be empty depends on the function called.
             FrameKind::Call(Callee::Name(..)) if after_comma && !in_macro_head => {
                 let items = self.take_items(frame.items);
                 self.arguments.push(Argument::Items(items));
@@ -241,13 +241,13 @@ impl<'a> Nest<'a> {
         if !self.ends_early {
             self.report(super::nesting_limit(span, what, self.nesting_limit));
         }
-        // Nothing behind it can be understood: the text ends here.
+        // Nothing after it can be parsed: the text ends here.
         self.at = self.tokens.len();
         self.cut = true;
     }
 
-    /// Whether the directive reached stands among the components of a vector that goes on behind its end:
-    /// `<#if (A) 1 #else 2 #end, 0, 0>`, `<#local B = 3; B, 2, 1>`.
+    /// Returns whether the directive reached is among the components of a vector that continues after its
+    /// end: `<#if (A) 1 #else 2 #end, 0, 0>`, `<#local B = 3; B, 2, 1>`.
     pub(super) fn is_within_vector(&mut self) -> bool {
         if !self.in_vector() {
             return false;
@@ -291,7 +291,7 @@ impl<'a> Nest<'a> {
         false
     }
 
-    /// What directives leave among the components of a vector is read when they run.
+    /// Keeps the items that directives leave among the components of a vector, to be evaluated when they run.
     pub(super) fn end_directives_in_vector(&mut self) {
         let base = self.top().items;
         if self.items.len() > base {
@@ -300,7 +300,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// `<1 #if (A) + 2 #end, 0, 0>`: what stands before the directive without a comma is read with it.
+    /// `<1 #if (A) + 2 #end, 0, 0>`: the operand before the directive, without a comma, is evaluated with it.
     pub(super) fn directive_goes_on(&mut self) {
         let before = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
         let is_parted = before.is_none_or(|before| {
@@ -324,7 +324,7 @@ impl<'a> Nest<'a> {
     pub(super) fn close_vector(&mut self, span: Span) {
         let base = self.top().arguments;
         self.end_directives_in_vector();
-        // A comma may stand before the `>`.
+        // A comma may precede the `>`.
         if self.top().state == State::Idle && self.arguments.len() == base {
             self.missing_before(span, "a component");
         }
@@ -334,7 +334,7 @@ impl<'a> Nest<'a> {
         self.operand(ExpressionKind::Vector(components), frame.open.to(span), false);
     }
 
-    /// Takes the vectors at the end of the arguments from `base` on, which the first of them is not.
+    /// Removes and returns the vectors at the end of the arguments from `base` on, except the first argument.
     fn vectors_behind(&mut self, base: usize) -> Vec<Expression> {
         let mut behind = Vec::new();
         while self.arguments.len() > base + 1
@@ -349,7 +349,7 @@ impl<'a> Nest<'a> {
         behind
     }
 
-    /// Something that no vector can hold: the open ones are not closed. One message for all.
+    /// Reports, once, that open vectors are not closed before a token that no vector can contain.
     pub(super) fn leave_vectors(&mut self, before: Span) {
         let mut told = false;
         while self.in_vector() {
@@ -359,7 +359,7 @@ impl<'a> Nest<'a> {
             self.finish_expression();
             self.end_directives_in_vector();
             let Some(frame) = self.pop() else { return };
-            // `<-1, 0, -1, <1, 2, 1>`: those behind are no components of the first.
+            // `<-1, 0, -1, <1, 2, 1>`: the later vectors are not components of the first.
             let behind = match self.in_vector() {
                 true => Vec::new(),
                 false => self.vectors_behind(frame.arguments),
@@ -385,7 +385,7 @@ impl<'a> Nest<'a> {
                     .at(frame.open, "the vector opened here")
                     .also(before, found)
                     .fix(Span { end: end.start, ..end }, ">");
-                // In a text that was given up, what is open is no mistake of the author's.
+                // In a text that was abandoned, open brackets are not the author's error.
                 if !(self.cut || self.ends_early) {
                     self.report(diagnostic);
                 }
@@ -400,7 +400,8 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// `sphere { <0, 1, 0, 1 …`, `plane { <0, 1, 0, -1 …`: the fourth number, which is no component of the first vector.
+    /// `sphere { <0, 1, 0, 1 …`, `plane { <0, 1, 0, -1 …`: returns the fourth number, which is not a
+    /// component of the first vector.
     fn radius_within(&mut self, open: Span, first: usize) -> Option<Expression> {
         const POINT: usize = 3;
         let before = self.text.get(..open.start as usize)?.trim_end().strip_suffix('{')?.trim_end();

@@ -1,6 +1,6 @@
-//! A `:` that belongs to no `?`: of a type, of an argument's name, beside a comma or in the place of one.
+//! Reports a `:` without a `?`: after a type or an argument's name, beside a comma or in its place.
 //!
-//! **Invariant:** one message a sign, with what it was rather meant for.
+//! **Invariant:** one diagnostic for each sign, with its probable meaning.
 
 use super::ast::{BinaryOperator, Callee, DirectiveKind, ExpressionKind, Item, ItemKind};
 use super::expression::OperatorKind;
@@ -10,7 +10,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::Word;
 
-/// What other languages call the kinds of their parameters.
+/// Names of parameter types in other languages.
 const TYPES: &[&str] = &[
     "array", "bool", "boolean", "color", "colour", "double", "f32", "f64", "float", "float3",
     "int", "integer", "list", "num", "number", "object", "real", "scalar", "str", "string", "vec2",
@@ -59,11 +59,11 @@ impl<'a> Nest<'a> {
         }
         let told = told.at(span, "expected `condition ? one : other`");
         let told = match kind {
-            // `translate y: 2`: a direction, and how far.
+            // `translate y: 2`: a direction, and a distance.
             Some(ExpressionKind::Word(word @ (Word::X | Word::Y | Word::Z))) => {
                 self.times(told, word, span)
             }
-            // `right 16:9*x`: how wide for its height.
+            // `right 16:9*x`: an aspect ratio.
             Some(ExpressionKind::Number(wide)) if self.is_ratio(wide) => {
                 let told = told.help("a ratio is a quotient: write `/`").fix(span, "/");
                 self.report(told);
@@ -78,7 +78,7 @@ impl<'a> Nest<'a> {
         self.report(told);
     }
 
-    /// `16:9`: how wide and how high pictures are.
+    /// Returns whether the number and the one after the colon form an aspect ratio such as `16:9`.
     fn is_ratio(&self, wide: f64) -> bool {
         let next = self.tokens.get(self.at + 1).map(|next| self.span(*next));
         let high = next.and_then(|next| self.slice(next).parse::<f64>().ok());
@@ -86,7 +86,7 @@ impl<'a> Nest<'a> {
         high.is_some_and(|high| ratios.contains(&(wide, high)))
     }
 
-    /// `#declare A = 3:` before another line.
+    /// Returns whether the colon ends a line such as `#declare A = 3:`.
     fn ends_a_declaration(&self) -> bool {
         let Some(Item { kind: ItemKind::Directive(id), .. }) = self.items.last() else {
             return false;
@@ -97,7 +97,7 @@ impl<'a> Nest<'a> {
             && self.text.get(here.end as usize..next).is_none_or(|gap| gap.contains('\n'))
     }
 
-    /// `dictionary { ["sky"]: 1 }`: the word is the mistake, and is told.
+    /// `dictionary { ["sky"]: 1 }`: returns whether the error is the block's keyword, which is reported.
     fn is_in_unknown_block(&self) -> bool {
         let mut depth = 0;
         for at in (0..self.at).rev() {
@@ -125,7 +125,7 @@ impl<'a> Nest<'a> {
             .fix(Span { end: number.start, ..span }, "*")
     }
 
-    /// `f(a:, b)`, `<1, :2>`: beside a comma, or a bracket.
+    /// `f(a:, b)`, `<1, :2>`: returns whether the colon is beside a comma, or a bracket.
     fn parts_nothing(&self) -> bool {
         let before = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
         let behind = self.tokens.get(self.at + 1);
@@ -135,7 +135,7 @@ impl<'a> Nest<'a> {
             || behind.is_some_and(|behind| ends(behind.kind))
     }
 
-    /// Among the parameters of a `#macro`, or of a `function`.
+    /// Returns whether the colon is among the parameters of a `#macro`, or of a `function`.
     fn lists_parameters(&mut self) -> bool {
         let base = self.top().items;
         let before = base.checked_sub(1).and_then(|at| self.items.get(at)).map(|item| item.kind);
@@ -144,7 +144,7 @@ impl<'a> Nest<'a> {
                 && matches!(before, Some(ItemKind::Word(Word::Function)))
     }
 
-    /// `function(x: float)`, `function(x: y)`.
+    /// Reports `function(x: float)`, `function(x: y)`.
     fn colon_of_parameter(&mut self, span: Span) {
         let next = self.tokens.get(self.at + 1).map(|next| self.span(*next));
         let kind = next.filter(|next| {
@@ -170,7 +170,7 @@ impl<'a> Nest<'a> {
         self.comma(span);
     }
 
-    /// `Ball(Radius: 2)`.
+    /// Reports `Ball(Radius: 2)`.
     fn named_argument(&mut self, name: Span) {
         self.stacks.operands.pop();
         self.top().state = State::Idle;

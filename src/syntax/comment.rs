@@ -1,8 +1,8 @@
-//! Finds what is not code: comments, which become blanks, and strings without an end.
+//! Finds comments, which become blanks, and strings without an end.
 //!
-//! **In:** a text. **Out:** a copy of the same length (one byte longer at most) in which comments are
-//! spaces and every string is closed, and the spans of the comments.
-//! **Invariant:** comments nest, to any depth; a byte outside comments keeps its place and value.
+//! **In:** a text. **Out:** a copy of the same length (one byte longer at most) in which comments are spaces
+//! and every string is closed, and the spans of the comments. **Invariant:** comments nest to any depth; a
+//! byte outside comments keeps its position and value.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -10,7 +10,7 @@ use std::ops::Range;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 
-/// The text without its comments.
+/// A text with its comments blanked.
 pub(super) struct Quiet<'a> {
     pub text: Cow<'a, str>,
     pub comments: Vec<Span>,
@@ -20,8 +20,8 @@ pub(super) struct Quiet<'a> {
 pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnostics) -> Quiet<'a> {
     let scan = Scan::of(text, false);
     let (scan, unclosed) = match scan.unclosed_string {
-        // An odd quote turns the rest of the text inside out. Take strings to end with their line
-        // this time, and blame the first that does not.
+        // An odd quote inverts the rest of the text. Now assume that strings end with their line, and report
+        // the first that does not.
         Some(last) => {
             let again = Scan::of(text, true);
             let first = again.unclosed_string.unwrap_or(last);
@@ -113,8 +113,8 @@ pub(super) fn quiet<'a>(text: &'a str, file: FileId, diagnostics: &mut Diagnosti
     Quiet { text: Cow::Owned(String::from_utf8(bytes).unwrap_or_default()), comments }
 }
 
-/// `concat("Frame "", N, "")`: the quote that ends a string and touches the next, where one too many stands on the
-/// line of the quote without a partner.
+/// `concat("Frame "", N, "")`: returns the quote that ends a string and touches the next one, if an extra
+/// quote is on the line of the unpaired `quote`.
 fn quote_within(text: &str, quote: usize) -> Option<usize> {
     let line = text[..quote].rfind(['\n', '\r']).map_or(0, |end| end + 1);
     let strings = &text[line..quote];
@@ -126,12 +126,13 @@ fn quote_within(text: &str, quote: usize) -> Option<usize> {
         [open, close, next] => open + 1 < close && close + 1 == next,
         _ => false,
     };
-    // Each second one ends a string.
+    // Every second one ends a string.
     let ends = quotes.windows(3).step_by(2).find(touching)?;
     Some(line + ends[1])
 }
 
-/// `"a.ttf "POV" 1`: the string before the quote that has no partner, up to the blank where its own is missing.
+/// `"a.ttf "POV" 1`: returns the string before the unpaired quote, up to the blank where its closing quote is
+/// missing.
 fn string_run_together(text: &str, quote: usize) -> Option<Range<usize>> {
     let line = text[..quote].rfind(['\n', '\r']).map_or(0, |end| end + 1);
     let strings = &text[line..quote];
@@ -143,7 +144,8 @@ fn string_run_together(text: &str, quote: usize) -> Option<Range<usize>> {
     (runs_on && pairs && start + 1 < inside.len()).then(|| line + start..line + inside.len())
 }
 
-/// `"Hello, 0.3, 0 pigment { … }`: a string and what goes on behind it, up to the comma or the number that begins it.
+/// `"Hello, 0.3, 0 pigment { … }`: returns the end of a string before further parts, which begin with a comma
+/// or a number.
 fn string_before_parts(line: &str) -> Option<usize> {
     let block = line.find('{')?;
     let begins = |at: usize| {
@@ -154,8 +156,8 @@ fn string_before_parts(line: &str) -> Option<usize> {
     (2..block).filter(|at| line.is_char_boundary(*at)).find(|at| begins(*at))
 }
 
-/// `"Jan", "Feb, "Mar"`: of the strings of a list before the quote that has no partner, the first that begins like
-/// another's beginning ends, without its own quote.
+/// `"Jan", "Feb, "Mar"`: in a list before the unpaired quote, returns the first string that runs into the
+/// next because its closing quote is missing.
 fn string_run_over_a_comma(text: &str, quote: usize) -> Option<Range<usize>> {
     let line = text[..quote].rfind(['\n', '\r']).map_or(0, |end| end + 1);
     let strings = &text[line..quote];
@@ -163,7 +165,7 @@ fn string_run_over_a_comma(text: &str, quote: usize) -> Option<Range<usize>> {
         return None;
     }
     let quotes: Vec<usize> = strings.match_indices('"').map(|(at, _)| at).collect();
-    // Each second one should end a string; where a letter follows, it begins one.
+    // Every second one should end a string; if a letter follows, it begins one.
     quotes.chunks_exact(2).find_map(|pair| {
         let [open, close] = *pair else { return None };
         let runs_on =
@@ -173,9 +175,8 @@ fn string_run_over_a_comma(text: &str, quote: usize) -> Option<Range<usize>> {
     })
 }
 
-/// A string without its quote swallows the closers on its line, and a comment without its end all that
-/// follow: that what they would close is never closed is the same mistake. `found` is in the order of the
-/// text.
+/// Drops diagnostics caused by swallowed closers: an unclosed string swallows the closers on its line, and an
+/// unclosed comment all that follow. `found` is in source order.
 pub(super) fn drop_swallowed(found: &mut Vec<Diagnostic>, text: &str) {
     let place = |one: &Diagnostic| one.primary().map_or(0, |label| label.span.start as usize);
     if let Some(comment) = found.iter().find(|one| one.code == Code::UnclosedComment).map(place) {
@@ -207,9 +208,9 @@ struct Scan {
     unclosed_comment: Option<usize>,
     /// The first opening quote without an end.
     unclosed_string: Option<usize>,
-    /// Each `*/` outside of all comments.
+    /// Each `*/` outside all comments.
     stray_closers: Vec<usize>,
-    /// Where a closing quote has to stand in for a line break, or for the end of the text.
+    /// Positions where a closing quote replaces a line break, or is added at the end of the text.
     closers: Vec<usize>,
 }
 
@@ -239,14 +240,14 @@ impl Scan {
         scan
     }
 
-    /// From the quote at `start` to behind its end.
+    /// Returns the offset after the string whose quote is at `start`.
     fn string(&mut self, bytes: &[u8], start: usize, ends_with_line: bool) -> usize {
         let mut at = start + 1;
         while at < bytes.len() {
             match (bytes[at], bytes.get(at + 1)) {
                 (b'"', _) => return at + 1,
                 (b'\n' | b'\r', _) if ends_with_line => break,
-                // A backslash before the end would escape the quote that closes it.
+                // A backslash before the end would escape the closing quote.
                 (b'\\', Some(b'\n' | b'\r')) if ends_with_line => break,
                 (b'\\', None) => break,
                 (b'\\', _) => at += 2,
@@ -258,7 +259,7 @@ impl Scan {
         at + 1
     }
 
-    /// From the `/*` at `start` to behind its `*/`.
+    /// Returns the offset after the `*/` of the `/*` at `start`.
     fn block_comment(&mut self, bytes: &[u8], start: usize) -> usize {
         let mut at = start + 2;
         let mut depth = 1;

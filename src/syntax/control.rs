@@ -1,17 +1,17 @@
-//! Control characters: no form of the language has one, and nobody sees them.
+//! Blanks control characters, which are invisible and never valid in the language.
 //!
-//! **In:** a text without comments. **Out:** the same text with blanks in their place.
-//! **Invariant:** strings keep theirs; a text without any passes uncopied; one message of each kind.
+//! **In:** a text without comments. **Out:** the same text with blanks in their place. **Invariant:** strings
+//! keep theirs; a text without any is not copied; one diagnostic for each kind.
 
 use std::borrow::Cow;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Fix};
 use crate::source::{FileId, Span};
 
-/// What DOS ended a text with.
+/// The end-of-file character of DOS.
 const END_OF_FILE: u8 = 0x1a;
 
-/// Replaces control characters by blanks, and tells where they stand.
+/// Replaces control characters by blanks, and reports their positions.
 pub(super) fn blank<'a>(
     text: Cow<'a, str>,
     file: FileId,
@@ -30,18 +30,18 @@ pub(super) fn blank<'a>(
         } else if *byte == b'"' {
             in_string = true;
         } else if is_control(*byte) {
-            // POV-Ray takes these two for blanks (measured), and stops at the others.
+            // POV-Ray reads these two as blanks (measured), and stops at the others.
             let places = if matches!(*byte, 0 | END_OF_FILE) { &mut blanks } else { &mut wrong };
             places.push((at, std::mem::replace(byte, b' ')));
         }
     }
     tell(Code::ControlCharacter, &blanks, file, diagnostics);
     tell(Code::UnexpectedCharacter, &wrong, file, diagnostics);
-    // Single bytes took the place of single bytes: still UTF-8.
+    // Single bytes replaced single bytes: still UTF-8.
     Cow::Owned(String::from_utf8(bytes).unwrap_or_default())
 }
 
-/// One message for all `places`; removing them all is its fix.
+/// Reports one diagnostic for all `places`; its fix removes them all.
 fn tell(code: Code, places: &[(usize, u8)], file: FileId, diagnostics: &mut Diagnostics) {
     let Some(&(first, byte)) = places.first() else { return };
     let span = |at: usize| Span::new(file, at, at + 1);

@@ -1,7 +1,7 @@
-//! Directives: their heads, read strictly, and their bodies up to `#end`.
+//! Parses directives: their heads, strictly, and their bodies up to `#end`.
 //!
-//! **Invariant:** a head is parsed as an ordinary expression first and read as what the directive
-//! needs afterwards; a head that does not fit is reported once and leaves a whole tree.
+//! **Invariant:** a head is parsed as an ordinary expression first and then converted to what the directive
+//! needs; a head that does not fit is reported once and leaves a complete tree.
 
 use super::ast::{
     Body as MacroBody, Case, CaseKind, Directive, DirectiveId, DirectiveKind, ExpressionId,
@@ -13,7 +13,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
-/// A directive whose `#end` is still to come.
+/// A directive whose `#end` has not been reached.
 pub(super) enum Body {
     /// The branches before this one, and this one's test; `None` after `#else`.
     If {
@@ -45,7 +45,7 @@ pub(super) enum Body {
 }
 
 impl<'a> Nest<'a> {
-    /// A `#word` outside any unfinished head or vector.
+    /// Handles a `#word` outside any unfinished head or vector.
     pub(super) fn directive(&mut self, head: Head, span: Span) {
         match head {
             Head::If | Head::While | Head::Switch | Head::Case | Head::Elseif => {
@@ -80,12 +80,12 @@ impl<'a> Nest<'a> {
             Head::Else => self.else_branch(span),
             Head::End => self.end_directive(span),
             Head::Break => self.add_directive(DirectiveKind::Break, span, span),
-            // Told already.
+            // Reported already.
             Head::Unknown => self.add_directive(DirectiveKind::Malformed, span, span),
         }
     }
 
-    /// Opens the parenthesis that has to follow the word of a directive.
+    /// Opens the parenthesis that has to follow the keyword of a directive.
     pub(super) fn parenthesis(
         &mut self,
         head: Head,
@@ -114,7 +114,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// `#default pigment { … }`: what it sets stands in no block.
+    /// Reports `#default pigment { … }`: its settings are not in a block.
     fn default_without_block(&mut self, span: Span) {
         let message = "`#default` takes a block";
         let next = self.tokens.get(self.at + 1).copied();
@@ -145,14 +145,14 @@ impl<'a> Nest<'a> {
         });
     }
 
-    /// Adds a finished directive as an item that reaches from its `#` to the end of `last`.
+    /// Adds a finished directive as an item from its `#` to the end of `last`.
     pub(super) fn add_directive(&mut self, kind: DirectiveKind, head: Span, last: Span) {
         let id = DirectiveId(self.ast.directives.len() as u32);
         self.ast.directives.push(Directive { kind, head });
         self.item(ItemKind::Directive(id), head.to(last));
     }
 
-    /// The innermost open directive, if nothing else is open inside it.
+    /// Returns the innermost open directive, if nothing else is open inside it.
     pub(super) fn body(&mut self) -> Option<&mut Body> {
         match &mut self.top().kind {
             FrameKind::Body(body) => Some(body),
@@ -162,14 +162,14 @@ impl<'a> Nest<'a> {
 
     pub(super) fn stray_directive(&mut self, span: Span, expected: &str) {
         let word = directive_word(self.slice(span));
-        // A misspelt word has been told.
+        // A misspelt keyword was reported.
         if Head::from_word(word) == Head::Unknown {
             return;
         }
         let diagnostic =
             Diagnostic::new(Code::StrayDirective, format!("this `#{word}` belongs to nothing"))
                 .at(span, format!("expected {expected} before it"));
-        // `# end of frame`, as other languages write a remark.
+        // `# end of frame`, a comment in other languages.
         let is_remark = self.slice(span).starts_with("# ");
         let sign = Span { end: span.start + 1, ..span };
         self.report(match is_remark {
@@ -190,7 +190,7 @@ impl<'a> Nest<'a> {
                     done.push((at, test, then));
                 }
             }
-            // As in POV-Ray, another case comes first.
+            // As in POV-Ray, a case has to come first.
             Some(Body::Switch { open: None, .. }) => self.stray_directive(span, "a `#case`"),
             Some(Body::Switch { .. }) => self.case(span, CaseKind::Otherwise),
             Some(Body::If { .. }) => {
@@ -210,7 +210,7 @@ impl<'a> Nest<'a> {
                 done.push((place, old, then));
             }
         } else if self.slice(at) != "#else" {
-            // `#else if`, which has been told, is none of them.
+            // `#else if` was reported, and is not one of them.
             self.stray_directive(at, "an `#if` without `#else`");
         }
     }
@@ -238,14 +238,14 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// The body of a macro that is kept as text.
+    /// Keeps the body of a macro as text.
     pub(super) fn raw(&mut self, span: Span) {
         if let Some(Body::Macro { raw, .. }) = self.body() {
             *raw = Some(span);
         }
     }
 
-    /// `#end`.
+    /// Handles `#end`.
     pub(super) fn end_directive(&mut self, end: Span) {
         let base = self.top().items;
         if self.body().is_none() {

@@ -1,8 +1,8 @@
-//! Shows a tree line by line, for reading and for tests.
+//! Prints a tree line by line, for reading and for tests.
 //!
-//! **Out:** one line an item, children indented. A value stands in prefix form: `(+ 1 (* 2 @A))`;
-//! names carry an `@`, words of the language do not.
-//! **Invariant:** no spans, so two texts that mean the same tree show the same lines; no recursion.
+//! **Out:** one line for each item, children indented. A value is in prefix form: `(+ 1 (* 2 @A))`; names
+//! have an `@`, keywords do not. **Invariant:** no spans, so that two texts with the same tree print the same
+//! lines; no recursion.
 
 use super::ast::{
     Argument, Arguments, Ast, Body, Callee, CaseKind, Component, DirectiveId, DirectiveKind,
@@ -10,7 +10,7 @@ use super::ast::{
 };
 use crate::source::{Source, Span};
 
-/// The lines of a whole tree.
+/// Returns the lines of a whole tree.
 pub fn dump(ast: &Ast, source: &Source) -> String {
     let mut dump = Dump { ast, source, out: String::new(), tasks: Vec::new() };
     dump.tasks.push(Task::Items(ast.root, Some(0)));
@@ -25,7 +25,7 @@ enum Task<'a> {
     Name(&'a str),
     Expression(ExpressionId),
     Argument(Argument),
-    /// A line each at this depth, or inline.
+    /// One line each at this depth, or inline.
     Items(Items, Option<usize>),
     Item(Item, Option<usize>),
     Line(usize),
@@ -39,7 +39,7 @@ struct Dump<'a> {
 }
 
 impl<'a> Dump<'a> {
-    /// Puts tasks on the stack so that the first is performed first.
+    /// Pushes tasks so that the first is performed first.
     fn push(&mut self, tasks: impl IntoIterator<Item = Task<'a>, IntoIter: DoubleEndedIterator>) {
         self.tasks.extend(tasks.into_iter().rev());
     }
@@ -80,7 +80,7 @@ impl<'a> Dump<'a> {
         Task::Name(self.ast.name(id))
     }
 
-    /// A line that ends here, or inline text.
+    /// Writes a complete line, or inline text.
     fn leaf(&mut self, depth: Option<usize>, words: String) {
         self.out += &words;
         if depth.is_some() {
@@ -318,7 +318,7 @@ fn inline<'a>(items: Items) -> [Task<'a>; 3] {
     [text("{"), Task::Items(items, None), text("}")]
 }
 
-/// A line and its children below it, or both inline.
+/// Returns the tasks for a line and its children below it, or for both inline.
 fn children<'a>(head: Task<'a>, items: Items, depth: Option<usize>) -> Vec<Task<'a>> {
     match depth {
         Some(depth) => vec![head, text("\n"), Task::Items(items, Some(depth + 1))],

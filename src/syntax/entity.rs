@@ -1,14 +1,14 @@
-//! `&lt;`, `&gt;`, `&amp;`: signs as the source of a web page writes them.
+//! Replaces HTML entities such as `&lt;`, `&gt;` and `&amp;` by their characters.
 //!
-//! **In:** a text without comments. **Out:** the same text with the signs, and blanks behind them.
-//! **Invariant:** strings keep theirs; a text without any passes uncopied; one message for all.
+//! **In:** a text without comments. **Out:** the same text with the characters, each followed by blanks.
+//! **Invariant:** strings keep theirs; a text without any is not copied; one diagnostic for all.
 
 use std::borrow::Cow;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 
-/// A name and the sign it stands for. None of them could stand in a scene: a `;` follows no `&` and name.
+/// Each entity and its character. None of them is valid in a scene: no `;` follows an `&` and a name.
 const ENTITIES: [(&str, u8); 11] = [
     ("&lt;", b'<'),
     ("&gt;", b'>'),
@@ -23,7 +23,7 @@ const ENTITIES: [(&str, u8); 11] = [
     ("&#160;", b' '),
 ];
 
-/// Puts the sign that is meant in the place of each, and tells where they stand.
+/// Replaces each entity by its character, and reports the positions.
 pub(super) fn translate<'a>(
     text: Cow<'a, str>,
     file: FileId,
@@ -49,7 +49,7 @@ pub(super) fn translate<'a>(
         {
             let end = at + name.len();
             bytes[at..end].fill(b' ');
-            // What a string holds is next to both of its quotes.
+            // The content of a string adjoins both of its quotes.
             opens = sign == b'"' && !opens;
             bytes[if opens { end - 1 } else { at }] = sign;
             found.push((Span::new(file, at, end), name, char::from(sign)));
@@ -70,7 +70,7 @@ pub(super) fn translate<'a>(
         told = told.fix(span, sign.to_string());
     }
     diagnostics.push(told);
-    // Signs of one byte took the place of such: still UTF-8.
+    // ASCII characters replaced ASCII characters: still UTF-8.
     Cow::Owned(String::from_utf8(bytes).unwrap_or_default())
 }
 

@@ -1,15 +1,14 @@
 //! Builds expressions by precedence climbing on explicit stacks.
 //!
 //! **In:** operands and operators in written order, for the innermost open bracket. **Out:** nodes in
-//! [`Ast::expressions`](super::ast::Ast), children first.
-//! **Source:** POV-Ray 3.7 manual, section 3.3.1.5.3 "Operators"; that `&` and `|` bind alike, and
-//! that `?:` groups to the right, was tried on the program.
+//! [`Ast::expressions`](super::ast::Ast), children first. **Source:** POV-Ray 3.7 manual, section 3.3.1.5.3
+//! "Operators"; that `&` and `|` have equal precedence, and that `?:` is right-associative, was measured.
 
 use super::ast::{BinaryOperator, Expression, ExpressionId, ExpressionKind, Rank, UnaryOperator};
 use super::token::Mark;
 use crate::source::Span;
 
-/// Operands and operators of all expressions under way; each bracket works above its own base.
+/// Operands and operators of all unfinished expressions; each bracket uses the part above its own base.
 #[derive(Default)]
 pub(super) struct Stacks {
     pub operands: Vec<ExpressionId>,
@@ -26,9 +25,9 @@ pub(super) struct Operator {
 pub(super) enum OperatorKind {
     Unary(UnaryOperator),
     Binary(BinaryOperator),
-    /// `?`, its `:` still to come.
+    /// `?`, with its `:` not yet reached.
     Question,
-    /// `? … :`, its last operand still to come.
+    /// `? … :`, with its last operand not yet reached.
     Conditional,
 }
 
@@ -42,7 +41,7 @@ impl OperatorKind {
     }
 }
 
-/// The operator between two operands that a mark stands for, and whether a sum may hold it.
+/// Returns the binary operator of a mark, and whether a sum may contain it.
 pub(super) fn binary(mark: Mark) -> Option<(BinaryOperator, bool)> {
     use BinaryOperator as B;
     Some(match mark {
@@ -70,8 +69,8 @@ pub(super) fn binary(mark: Mark) -> Option<(BinaryOperator, bool)> {
 }
 
 impl Stacks {
-    /// Takes in an operator that follows an operand: first everything before it that binds at least
-    /// as tightly becomes one operand.
+    /// Adds an operator after an operand: first, all operators before it that bind at least as tightly are
+    /// reduced to one operand.
     pub fn operator(&mut self, base: usize, arena: &mut Vec<Expression>, operator: Operator) {
         let rank = operator.kind.rank();
         while let Some(top) = self.operators[base..].last() {
@@ -86,7 +85,7 @@ impl Stacks {
         self.operators.push(operator);
     }
 
-    /// Takes in a `:`. False if no `?` waits for it.
+    /// Adds a `:`. Returns `false` if no `?` waits for it.
     pub fn colon(&mut self, base: usize, arena: &mut Vec<Expression>) -> bool {
         let waits = |operator: &Operator| operator.kind == OperatorKind::Question;
         let Some(question) = self.operators[base..].iter().rposition(waits) else {
@@ -99,13 +98,13 @@ impl Stacks {
         true
     }
 
-    /// The `?` above `base` that still waits for its `:`.
+    /// Returns the `?` above `base` that still waits for its `:`.
     pub fn open_question(&self, base: usize) -> Option<Span> {
         let waits = |operator: &&Operator| operator.kind == OperatorKind::Question;
         self.operators[base..].iter().rfind(waits).map(|operator| operator.span)
     }
 
-    /// Makes one node of everything above `base` and takes it off. `None` if there is nothing.
+    /// Reduces everything above `base` to one node and removes it. `None` if there is nothing.
     pub fn finish(&mut self, base: usize, arena: &mut Vec<Expression>) -> Option<ExpressionId> {
         while self.operators.len() > base {
             self.reduce(arena);

@@ -1,16 +1,17 @@
-//! Knows a file that is another program's and no scene: a web page, a mesh, a script, a picture.
+//! Recognises files of other programs: web pages, meshes, scripts, pictures.
 //!
-//! **In:** a text. **Out:** what it is, and where it begins. **Invariant:** a text with a line that begins
-//! as a scene's lines do is a scene, whatever else stands in it; one message then says it all.
+//! **In:** a text. **Out:** its actual format, and where it begins. **Invariant:** a text with a line that
+//! begins like a scene's is a scene, whatever else it contains; otherwise one diagnostic covers the whole
+//! text.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{Role, Word};
 
-/// So many lines are looked at.
+/// The most lines that are searched.
 const LINES: usize = 200;
 
-/// What a text is instead of a scene, and what to do about it.
+/// A recognised format, and the advice for it.
 struct Kind {
     name: &'static str,
     help: &'static str,
@@ -19,7 +20,7 @@ struct Kind {
 const MESH: &str = "a `.scene` file reads it with `mesh { file \"…\" }`: `#include` is for scenes";
 const PROGRAM: &str = "run it with its own program, and give what it writes";
 
-/// What a text is that is no scene; `None` for one that may be one.
+/// Returns a diagnostic for a text that is not a scene; `None` if it may be one.
 pub(super) fn foreign(text: &str, file: FileId) -> Option<Diagnostic> {
     let start = text.len() - text.trim_start().len();
     let body = &text[start..];
@@ -31,7 +32,7 @@ pub(super) fn foreign(text: &str, file: FileId) -> Option<Diagnostic> {
     Some(Diagnostic::new(Code::ForeignFile, message).at(span, "the file begins so").help(help))
 }
 
-/// What is no text. Bytes that are not UTF-8 were read as Latin-1.
+/// Recognises binary formats. Bytes that are not UTF-8 were read as Latin-1.
 fn by_its_mark(text: &str) -> Option<Kind> {
     const PICTURE: &str = "a picture belongs into a pigment, or a height field";
     const MARKS: [(&str, &str, &str); 14] = [
@@ -59,7 +60,7 @@ fn by_its_mark(text: &str) -> Option<Kind> {
     (zeros > 2).then_some(Kind { name: "no text", help: "a scene is a text file" })
 }
 
-/// Forms that say in their first characters what they are.
+/// Recognises formats by their first characters.
 fn by_its_start(text: &str) -> Option<Kind> {
     let lower: String = text.chars().take(200).collect::<String>().to_ascii_lowercase();
     let kind = |name, help| Some(Kind { name, help });
@@ -107,7 +108,8 @@ fn by_its_start(text: &str) -> Option<Kind> {
     None
 }
 
-/// `<svg …>`, `<scene version="2.0.0">`, behind a comment or not: a tag, which no vector is.
+/// Returns whether the text begins with a tag such as `<svg …>` or `<scene version="2.0.0">`, after a comment
+/// or not.
 fn is_tagged(lower: &str) -> bool {
     let behind = match lower.strip_prefix("<!--") {
         Some(rest) => rest.split_once("-->").map_or("", |(_, after)| after.trim_start()),
@@ -121,7 +123,7 @@ fn is_tagged(lower: &str) -> bool {
     !inside.contains(',') && (inside.contains("=\"") || inside.chars().all(char::is_alphanumeric))
 }
 
-/// `{ "key":`, `[ {`, or braces that hold nothing else.
+/// Returns whether the text begins like JSON: `{ "key":`, `[ {`, or empty braces.
 fn is_json(text: &str) -> bool {
     let Some(rest) = text.strip_prefix(['{', '[']) else { return false };
     let rest = rest.trim_start();
@@ -132,10 +134,10 @@ fn is_json(text: &str) -> bool {
     text.starts_with('{') && key.is_some_and(|after| after.starts_with(':'))
 }
 
-/// Languages that are known by several of their lines.
+/// Recognises languages by several of their lines.
 fn by_its_lines(text: &str) -> Option<Kind> {
     type Test = fn(&str) -> bool;
-    // What is certain at once counts for more.
+    // An unmistakable line counts for more.
     const LANGUAGES: [(Test, usize, &str, &str); 9] = [
         (is_pbrt, 2, "a scene for PBRT", "a scene has words and braces: `sphere { 0, 1 }`"),
         (is_obj, 3, "a mesh in Wavefront's OBJ", MESH),
@@ -161,7 +163,7 @@ fn by_its_lines(text: &str) -> Option<Kind> {
     Some(Kind { name, help })
 }
 
-/// `#declare`, `camera {`: no other language's line.
+/// `#declare`, `camera {`: lines of no other language.
 fn begins_as_a_scene(line: &str) -> bool {
     const DIRECTIVES: [&str; 6] =
         ["#declare", "#local", "#macro", "#version 3.", "#default", "#include \""];
@@ -195,7 +197,7 @@ fn is_pbrt(line: &str) -> bool {
         || WITH_KIND.contains(&word) && rest.trim_start().starts_with('"')
 }
 
-/// `from math import sin`: in Python alone.
+/// `from math import sin`: only in Python.
 fn imports_from(line: &str) -> bool {
     let mut words = line.split_ascii_whitespace();
     let (from, import) = (words.next(), words.nth(1));

@@ -1,4 +1,4 @@
-//! Heads of directives without parentheses: `#declare A =`, `#include "name"`, `#macro M(a, b)`.
+//! Parses heads of directives without parentheses: `#declare A =`, `#include "name"`, `#macro M(a, b)`.
 
 use std::collections::BTreeMap;
 
@@ -13,14 +13,14 @@ use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
 use crate::vocabulary::{Role, Word};
 
-/// What other languages call the types of parameters.
+/// Names of parameter types in other languages.
 const TYPES: &[&str] = &[
     "float", "double", "int", "integer", "number", "num", "vector", "vec2", "vec3", "vec4",
     "string", "str", "bool", "boolean", "char", "list", "object", "var", "let", "const", "auto",
 ];
 
 impl<'a> Nest<'a> {
-    /// Looks at a token while a head is open. True if the token was the head's own.
+    /// Handles a token while a head is open. Returns whether the token belonged to the head.
     pub(super) fn head_takes(&mut self, token: Token) -> bool {
         loop {
             let top = self.top();
@@ -59,7 +59,7 @@ impl<'a> Nest<'a> {
                     self.unofficial(span);
                     return true;
                 }
-                // A reserved word where a name is wanted: told when the head is read.
+                // A reserved word in place of a name: reported when the head is complete.
                 TokenKind::Word(word)
                     if names && first && state == State::Idle && word.role() != Role::Value =>
                 {
@@ -91,7 +91,7 @@ impl<'a> Nest<'a> {
                     Mark::Open(Bracket::Square) => {
                         head == Head::Macro || state != State::Holding { indexable: true }
                     }
-                    // What stands behind a macro's parameters is its body.
+                    // The tokens after a macro's parameters are its body.
                     _ if head == Head::Macro && holding => true,
                     Mark::Plus | Mark::Minus => false,
                     Mark::Star | Mark::Slash | Mark::Dot => !holding && state != State::Wanting,
@@ -122,7 +122,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// `deprecated once "why"` before the name: a note to readers, without effect here.
+    /// Skips `deprecated once "why"` before the name: a note to readers, without effect here.
     pub(super) fn skip_deprecation(&mut self) {
         for kind in [TokenKind::Word(Word::Once), TokenKind::String] {
             if self.tokens.get(self.at + 1).is_some_and(|next| next.kind == kind) {
@@ -131,8 +131,9 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// `#version unofficial 3.7;` is version 3.7, as in POV-Ray; `#version unofficial megapov 1.21;` is that
-    /// of a patch, which POV-Ray refuses, and is read on as the language here.
+    /// Handles `#version unofficial`: `#version unofficial 3.7;` is version 3.7, as in POV-Ray; `#version
+    /// unofficial megapov 1.21;` is that of a patch, which POV-Ray rejects, and is parsed as the language
+    /// here.
     fn unofficial(&mut self, word: Span) {
         let ahead = |n: usize| self.tokens.get(self.at + n).copied();
         let is_patch = |token: &Token| matches!(token.kind, TokenKind::Name | TokenKind::String);
@@ -157,7 +158,7 @@ impl<'a> Nest<'a> {
         self.tokens.get(self.at + 1).is_some_and(|next| next.kind == round)
     }
 
-    /// Ends the head under way, if the innermost frame is one.
+    /// Completes the open head, if the innermost frame is one.
     pub(super) fn complete_head(&mut self) -> bool {
         if !matches!(self.top().kind, FrameKind::Head(_)) {
             return false;
@@ -181,7 +182,7 @@ impl<'a> Nest<'a> {
         let Some(first) = first else {
             let what = if names_something(head) { "a name" } else { "a value" };
             if full {
-                // That it has no parentheses either has been told.
+                // That its parentheses are missing too was reported.
                 let missing = self.add(ExpressionKind::Missing, open.after());
                 return self.conditioned(head, open, missing, open);
             }
@@ -193,14 +194,14 @@ impl<'a> Nest<'a> {
             Head::Declare | Head::Local => {
                 let span = self.ast.expression(first).span;
                 let told = self.target(first);
-                // `#define A 1` is told by its first word.
+                // `#define A 1` is reported at its first word.
                 let foreign = !self.slice(open).ends_with(head.word());
                 if equals.is_none() && told.is_some() && !foreign {
                     let message = format!("`#{}` gives a name a value", head.word());
                     let label = "expected `=` and a value after this";
                     self.expected_in_head(span, &message, label);
                 }
-                // Whatever was meant, the items that follow are its value.
+                // Whatever was meant, the following items are its value.
                 let nameless = Target { name: self.name(""), indices: Vec::new(), span };
                 let target = told.unwrap_or(nameless);
                 Some(DirectiveKind::Declare { local: head == Head::Local, target })
@@ -270,7 +271,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// `#fopen F "a.txt" w`: what stands behind the file's name is no mode.
+    /// `#fopen F "a.txt" w`: reports that the word after the file name is not a mode.
     fn no_mode(&mut self, file: Span) {
         let message = "`#fopen` takes a handle, a file name and a mode";
         let behind = self.tokens.get(self.at).map(|next| self.span(*next)).filter(|next| {
@@ -336,7 +337,7 @@ impl<'a> Nest<'a> {
                 Argument::Items(items) => self.name_of_items(items),
             };
             let Some((name, span)) = named else { continue };
-            // `optional b` comes as two names side by side.
+            // `optional b` is read as two adjacent names.
             let between = optional.map(|word| &self.text[word.end as usize..span.start as usize]);
             match between {
                 Some(between) if !between.contains(',') => {
@@ -360,14 +361,14 @@ impl<'a> Nest<'a> {
         parameters
     }
 
-    /// `float N`, where nothing parts the parameter before from this one: tells that it is no type.
+    /// Reports `float N`, where nothing separates the previous parameter from this one: it is not a type.
     fn is_type(&mut self, before: Option<&Parameter>, span: Span) -> bool {
         let Some(before) = before.map(|before| before.span) else { return false };
         let gap = Span { start: before.end, end: span.start, ..span };
         if before.end > span.start || !self.slice(gap).trim().is_empty() {
             return false;
         }
-        // The commas between parameters may be left out.
+        // The commas between parameters are optional.
         let (theirs, name) = (self.slice(before), self.slice(span));
         if !TYPES.contains(&theirs) {
             return false;
@@ -382,7 +383,7 @@ impl<'a> Nest<'a> {
         true
     }
 
-    /// As POV-Ray has it (measured), the last parameter of a name is the one that is seen.
+    /// Lints repeated parameters: as in POV-Ray (measured), the last one of a name is used.
     fn lint_repeated(&mut self, parameters: &[Parameter]) {
         let mut seen: BTreeMap<NameId, Span> = BTreeMap::new();
         for parameter in parameters {
@@ -399,7 +400,7 @@ impl<'a> Nest<'a> {
     }
 }
 
-/// True for a directive whose head starts with a name.
+/// Returns whether the directive's head starts with a name.
 fn names_something(head: Head) -> bool {
     matches!(
         head,

@@ -1,20 +1,20 @@
-//! How the author laid the text out: which tokens begin a line, and how far in.
+//! Computes the layout of the source: which tokens begin a line, and their indentation.
 
 use super::token::Token;
 
-/// Where a token stands in its line.
+/// The position of a token in its line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Place {
-    /// True if nothing but blanks stands before it in its line.
+    /// Only blanks precede it in its line.
     pub first: bool,
-    /// Blanks before the first token of its line; a tab reaches the next multiple of four.
+    /// Indentation of its line; a tab advances to the next multiple of four.
     pub indent: u32,
 }
 
 pub(super) struct Layout(Vec<Place>);
 
 impl Layout {
-    /// Measures each token of `text`, which is as the author wrote it.
+    /// Measures each token of `text`, the source as written.
     pub fn of(tokens: &[Token], text: &str) -> Self {
         let bytes = text.as_bytes();
         let mut places = Vec::with_capacity(tokens.len());
@@ -37,7 +37,7 @@ impl Layout {
         Self(places)
     }
 
-    /// A token's place; one behind the last begins a line of its own.
+    /// Returns a token's place; past the last token, that of a new line.
     pub fn place(&self, token: usize) -> Place {
         self.0.get(token).copied().unwrap_or(Place { first: true, indent: 0 })
     }

@@ -1,9 +1,8 @@
-//! Lines that other programs leave in a text: the fences of Markdown, the marks of a conflict of versions,
-//! the signs of a list of changes.
+//! Blanks lines left by other programs: Markdown code fences, merge conflict markers, diff signs.
 //!
-//! **In:** a text without comments. **Out:** the same text with blanks in their place; of a conflict, the
-//! second version goes with its marks. **Invariant:** a text without any passes uncopied; one message for
-//! each conflict, and one for all fences.
+//! **In:** a text without comments. **Out:** the same text with blanks in their place; in a conflict, the
+//! second version is blanked with the markers. **Invariant:** a text without any is not copied; one
+//! diagnostic for each conflict, and one for all fences.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -36,7 +35,7 @@ pub(super) fn blank<'a>(
         start += line.len();
         match change(line) {
             Some('+') => signs.push(range.start..range.start + 1),
-            // What a change took away is the line before it.
+            // The diff removed the line before it.
             Some(_) => signs.push(range.clone()),
             None => {}
         }
@@ -85,7 +84,7 @@ pub(super) fn blank<'a>(
     blanked(text, gone)
 }
 
-/// The sign at the beginning of a line of a diff, if it is one: behind it something begins that no value is.
+/// Returns the diff sign at the beginning of a line, if it is followed by something that is not a value.
 fn change(line: &str) -> Option<char> {
     let sign = line.chars().next().filter(|sign| "+-".contains(*sign))?;
     let rest = line[1..].trim_start();

@@ -1,4 +1,4 @@
-//! Heads of directives in parentheses: `#if (…)`, `#for (…)`, `#write (…)`.
+//! Parses heads of directives in parentheses: `#if (…)`, `#for (…)`, `#write (…)`.
 
 use super::ast::{
     Argument, CaseKind, DirectiveKind, ExpressionId, ExpressionKind, Item, ItemKind, NameId,
@@ -11,11 +11,11 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::Word;
 
-/// How many tokens after an `=` the end of its value is looked for.
+/// The most tokens after an `=` that are searched for the end of its value.
 const LONGEST_VALUE: usize = 40;
 
 impl<'a> Nest<'a> {
-    /// `#if (…)` and its like, with their one expression.
+    /// Handles `#if (…)` and the like, with their one expression.
     pub(super) fn conditioned(&mut self, head: Head, at: Span, value: ExpressionId, close: Span) {
         let body = match head {
             Head::If => Body::If { done: Vec::new(), test: Some((at, Test::Condition(value))) },
@@ -29,7 +29,7 @@ impl<'a> Nest<'a> {
             Head::Elseif => return self.elseif(at, value),
             Head::Case => return self.case(at, CaseKind::Value(value)),
             Head::Range => return self.case(at, CaseKind::Range(value, value)),
-            // Only without its parenthesis, which has been told.
+            // Only without a parenthesis, which was reported.
             Head::Ifdef | Head::Ifndef => {
                 Body::If { done: Vec::new(), test: Some((at, Test::Condition(value))) }
             }
@@ -61,7 +61,7 @@ impl<'a> Nest<'a> {
         self.open(FrameKind::Body(body), at, false);
     }
 
-    /// What no file's name can be: `#write ("ball", 1)`.
+    /// Returns whether an expression cannot be a file handle: `#write ("ball", 1)`.
     fn is_value(&self, id: ExpressionId) -> bool {
         matches!(
             self.ast.expression(id).kind,
@@ -85,7 +85,7 @@ impl<'a> Nest<'a> {
         });
     }
 
-    /// `#for (…)` and its like, with their arguments.
+    /// Handles `#for (…)` and the like, with their arguments.
     pub(super) fn listed(&mut self, head: Head, at: Span, arguments: Vec<Argument>, close: Span) {
         let values: Option<Vec<ExpressionId>> = arguments
             .iter()
@@ -97,7 +97,7 @@ impl<'a> Nest<'a> {
         let first = arguments.first().copied();
         match (head, values.as_deref()) {
             (Head::Ifdef | Head::Ifndef, _) => {
-                // No word of the language is a name that is declared.
+                // A keyword is not a declared name.
                 let is_word = match first.filter(|_| arguments.len() == 1) {
                     Some(Argument::Items(items)) => {
                         matches!(self.ast.items(items), [Item { kind: ItemKind::Word(_), .. }])
@@ -210,7 +210,7 @@ impl<'a> Nest<'a> {
         self.add_directive(DirectiveKind::Default(items), head, close);
     }
 
-    /// `Name =` without `#declare` before it. True if that is what stands here.
+    /// Handles `Name =` without `#declare` before it. Returns whether it was one.
     pub(super) fn declares(&mut self, equals: Span) -> bool {
         let list = match &self.top().kind {
             FrameKind::File | FrameKind::Block | FrameKind::Body(_) => true,
@@ -255,10 +255,10 @@ impl<'a> Nest<'a> {
 }
 
 impl Nest<'_> {
-    /// Whether what stands before an `=` belongs to a value: `sphere { 0, Q = 2 }`, `#declare A = Q = 2;`.
+    /// Returns whether the `=` is inside a value: `sphere { 0, Q = 2 }`, `#declare A = Q = 2;`.
     fn inside_a_value(&mut self) -> bool {
         let in_block = matches!(self.top().kind, FrameKind::Block);
-        // An element's indices have marks of their own: a name alone is told from what it stands in.
+        // An element has its own marks for indices: a single name is judged by its surroundings.
         let Some(before) = self.at.checked_sub(2).and_then(|at| self.tokens.get(at)).copied()
         else {
             return false;

@@ -1,8 +1,7 @@
-//! What a listing or a file of settings leaves in a scene: a number before each line, and settings of an `.ini` file
-//! before the first.
+//! Blanks the line numbers of a listing, and settings of an `.ini` file before the scene.
 //!
-//! **In:** a text without comments. **Out:** the same text with blanks in their place. **Invariant:** a text without
-//! any passes uncopied; one message for all numbers, and one for all settings.
+//! **In:** a text without comments. **Out:** the same text with blanks in their place. **Invariant:** a text
+//! without any is not copied; one diagnostic for all numbers, and one for all settings.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -11,10 +10,10 @@ use super::blank::blanked;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 
-/// So many lines with numbers in a row are a listing.
+/// The fewest consecutive numbered lines that form a listing.
 const FEWEST_LINES: usize = 3;
 
-/// Names of settings, in lower case, that stand in `.ini` files most.
+/// The most frequent names of `.ini` settings, in lower case.
 const SETTINGS: &[&str] = &[
     "all_console",
     "antialias",
@@ -72,7 +71,7 @@ pub(super) fn blank<'a>(
     blanked(text, numbers.into_iter().chain(settings))
 }
 
-/// Each line without the blanks around it.
+/// Returns each line without the blanks around it.
 fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut start = 0;
     text.split_inclusive('\n').map(move |line| {
@@ -82,7 +81,7 @@ fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// The numbers before all lines, each one more than the last; nothing where they may be data.
+/// Returns the numbers before all lines, each one more than the last; nothing if they may be data.
 fn numbers(text: &str) -> Vec<Range<usize>> {
     let (mut found, mut words, mut first) = (Vec::new(), 0, None);
     for (index, (at, line)) in lines(text).enumerate().filter(|(_, (_, line))| !line.is_empty()) {
@@ -103,7 +102,7 @@ fn numbers(text: &str) -> Vec<Range<usize>> {
     if found.len() < FEWEST_LINES || 2 * words < found.len() { Vec::new() } else { found }
 }
 
-/// The lines of settings before all else, with the comments among them.
+/// Returns the lines of settings before everything else, with the comments among them.
 fn settings(text: &str) -> Vec<Range<usize>> {
     let is_setting = |line: &str| {
         let name = line.split_once('=').map_or("", |(name, _)| name.trim()).to_lowercase();

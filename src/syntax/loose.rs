@@ -1,12 +1,13 @@
-//! Braces that pair only once macros are expanded and their `#if`s decided.
+//! Finds braces that pair only after macros are expanded and `#if`s are decided.
 //!
-//! Three standard includes write `#if(a) merge { #else union { #end` inside a macro, and an author may write
-//! `#macro Open() union { #end`. Such braces are left *loose*: each an item of its own, to pair while the
-//! text is evaluated.
-//! **Invariant:** braces are loose only where the text pairs as it would run: a macro's own braces do on
-//! some way through its `#if`s, or the file's do with the calls of its macros expanded, or what its
-//! macros open others of them close. So a forgotten brace is still told. Where that refuses a scene
-//! of POV-Ray's, it is read again with all of them loose (`road/again.rs`). Linear, but for macros in macros.
+//! Three standard includes contain `#if(a) merge { #else union { #end` inside a macro, and an author may
+//! write `#macro Open() union { #end`. Such braces are left *loose*: each is an item of its own, and is
+//! paired during evaluation.
+//! **Invariant:** braces are loose only where the text pairs as it would run: a macro's own braces pair on
+//! some path through its `#if`s, or the file's pair with its macro calls expanded, or braces that its macros
+//! open are closed by other macros. So a forgotten brace is still reported. If that rejects a valid POV-Ray
+//! scene, the scene is read again with all of them loose (`road/again.rs`). Takes linear time, except for
+//! macros in macros.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -17,8 +18,8 @@ use super::token::{Bracket, Head, Mark, Token, TokenKind};
 const OPEN: TokenKind = TokenKind::Mark(Mark::Open(Bracket::Brace));
 const CLOSE: TokenKind = TokenKind::Mark(Mark::Close(Bracket::Brace));
 
-/// Loosens what pairs only after expansion. The body of a macro whose other brackets do so, too, becomes
-/// [`TokenKind::Raw`]. `all`: so does every brace that has no partner where it is written.
+/// Loosens the braces that pair only after expansion. The body of a macro with other such brackets becomes
+/// [`TokenKind::Raw`]. With `all`, every brace without a partner in its own text becomes loose.
 pub(super) fn loosen(mut tokens: Vec<Token>, text: &str, all: bool) -> Vec<Token> {
     let macros = macros(&tokens);
     let mut raw: Vec<Range<usize>> = Vec::new();
@@ -31,7 +32,7 @@ pub(super) fn loosen(mut tokens: Vec<Token>, text: &str, all: bool) -> Vec<Token
         done = body.end;
         match loose_braces(inside) {
             Some(loose) => mark(&mut tokens[body.clone()], &loose),
-            // A parenthesis that one branch alone lacks is a mistake.
+            // A parenthesis missing in one branch only is an error.
             None if paths(inside)[..2] == [[0; 3]; 2] => raw.push(body.clone()),
             None => {}
         }
@@ -40,7 +41,7 @@ pub(super) fn loosen(mut tokens: Vec<Token>, text: &str, all: bool) -> Vec<Token
         let (start, end) = (tokens[body.start - 1].end, tokens[body.end].start);
         tokens.splice(body, [Token { kind: TokenKind::Raw, start, end }]);
     }
-    // A brace in a branch that need not be run may be loose already, and still be what another waits for.
+    // A brace in a conditional branch may be loose already, and still be the partner of another.
     if !pairs(&tokens)
         && !loosen_across(&mut tokens, text, false)
         && !loosen_across(&mut tokens, text, true)
@@ -52,7 +53,7 @@ pub(super) fn loosen(mut tokens: Vec<Token>, text: &str, all: bool) -> Vec<Token
     tokens
 }
 
-/// Whether the text outside of macros pairs where all first branches are run and where all others are:
+/// Returns whether the text outside macros pairs both with all first branches and with all other branches:
 /// `#if (A) union { #else merge { #end … }`.
 fn pairs_on_both_paths(tokens: &[Token]) -> bool {
     let [mut first, mut otherwise] = [Effect::default(); 2];
@@ -85,7 +86,7 @@ fn mark(tokens: &mut [Token], loose: &[usize]) {
     }
 }
 
-/// The bodies of all macros, by their starts.
+/// Returns the bodies of all macros, sorted by start.
 fn macros(tokens: &[Token]) -> Vec<Range<usize>> {
     let mut open = Vec::new();
     let mut bodies = Vec::new();
@@ -107,7 +108,7 @@ fn macros(tokens: &[Token]) -> Vec<Range<usize>> {
     bodies
 }
 
-/// The first token after the head `#macro Name(a, b)` that starts at `start`.
+/// Returns the first token after the head `#macro Name(a, b)` that starts at `start`.
 pub(super) fn body_start(tokens: &[Token], start: usize) -> Option<usize> {
     let parameters = start + 2;
     if tokens[start].kind != TokenKind::Directive(Head::Macro)
@@ -123,11 +124,11 @@ pub(super) fn body_start(tokens: &[Token], start: usize) -> Option<usize> {
     (tokens.get(close)?.kind == TokenKind::Mark(Mark::Close(Bracket::Round))).then_some(close + 1)
 }
 
-/// The braces that have no partner in their own branch; `None` when other brackets have none, either.
+/// Returns the braces without a partner in their own branch; `None` if other brackets have none, either.
 fn loose_braces(tokens: &[Token]) -> Option<Vec<usize>> {
     let mut open: Vec<(Opener, usize)> = Vec::new();
     let mut loose = Vec::new();
-    // What is open since the innermost directive, all braces.
+    // Everything open since the innermost directive: all braces.
     let leave = |open: &mut Vec<(Opener, usize)>, loose: &mut Vec<usize>| loop {
         match open.last() {
             None | Some((Opener::Directive, _)) => return Some(()),
@@ -158,26 +159,26 @@ fn loose_braces(tokens: &[Token]) -> Option<Vec<usize>> {
     open.is_empty().then_some(loose)
 }
 
-/// Which way each open directive's present branch is on.
+/// The paths on which the current branch of an open directive is run.
 struct Branch {
     head: Head,
-    /// Of a `#switch`: the way from its first case to the first `#break`.
+    /// In a `#switch`: the path from its first case to the first `#break`.
     first: bool,
     otherwise: bool,
-    /// A `#break` stood in it.
+    /// It contained a `#break`.
     broken: bool,
-    /// Whether those around it are all on these ways.
+    /// The paths on which all enclosing directives are run.
     around: Ways,
 }
 
-/// Whether all that is open is on its first branch, and whether all is on its `#else`.
+/// Whether all open directives are on their first branch, and whether all are on `#else`.
 #[derive(Clone, Copy)]
 struct Ways {
     first: bool,
     otherwise: bool,
 }
 
-/// The directives that are open, and the ways through them: always the first branch, or always `#else`.
+/// The open directives, and the paths through them: always the first branch, or always `#else`.
 #[derive(Default)]
 struct Branches(Vec<Branch>);
 
@@ -185,14 +186,14 @@ impl Branches {
     fn turn(&mut self, token: Token) {
         match (turn(token.kind), token.kind) {
             (Some(Turn::Open(Opener::Directive)), TokenKind::Directive(head)) => {
-                // Loops turn once or not at all; an inner macro is not run here.
+                // A loop runs once or never; an inner macro is not run here.
                 let first = head != Head::Macro;
                 let around = self.ways();
                 self.0.push(Branch { head, first, otherwise: false, broken: false, around });
             }
             (Some(Turn::Divide), TokenKind::Directive(head)) => {
                 if let Some(branch) = self.0.last_mut() {
-                    // A case runs on into the next one up to a `#break`.
+                    // A case falls through into the next one up to a `#break`.
                     let of_switch = matches!(branch.head, Head::Switch | Head::Case | Head::Range);
                     let first = of_switch && branch.first && !branch.broken;
                     let otherwise = head == Head::Else;
@@ -222,8 +223,8 @@ fn pairs_on_some_path(tokens: &[Token]) -> bool {
     paths(tokens).contains(&[0; 3])
 }
 
-/// How many more brackets of each kind a text opens than it closes, where all first branches are run, where all
-/// others are, and as it is written.
+/// Returns how many more brackets of each kind a text opens than it closes: with all first branches run, with
+/// all other branches run, and as written.
 fn paths(tokens: &[Token]) -> [[i32; 3]; 3] {
     let [mut first, mut otherwise, mut all] = [[0_i32; 3]; 3];
     let mut branches = Branches::default();
@@ -242,7 +243,7 @@ fn paths(tokens: &[Token]) -> [[i32; 3]; 3] {
     [first, otherwise, all]
 }
 
-/// What running a text does to the braces around it: closes some, then opens some.
+/// The effect of a text on the braces around it: it closes some, then opens some.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 struct Effect {
     closes: u64,
@@ -255,7 +256,7 @@ const CLOSES: Effect = Effect { closes: 1, opens: 0 };
 impl Effect {
     fn then(&mut self, next: Self) {
         let within = self.opens.min(next.closes);
-        // A macro that calls another twice may open twice as much, and so on.
+        // A macro that calls another twice may open twice as many, and so on.
         self.closes = self.closes.saturating_add(next.closes - within);
         self.opens = (self.opens - within).saturating_add(next.opens);
     }
@@ -265,18 +266,18 @@ impl Effect {
     }
 }
 
-/// A text that runs at once: the file's own, or a macro's body.
+/// A text that runs as a unit: the file's own, or a macro's body.
 #[derive(Default)]
 struct Run<'t> {
     name: &'t str,
-    /// Where its body starts and its head ends.
+    /// The start of its body, which is the end of its head.
     body: usize,
     effect: Effect,
     branches: Branches,
 }
 
-/// Loosens what one macro opens and another, or the text that calls it, closes; with the braces that are
-/// loose already, or without them. `false` when that does not pair.
+/// Loosens braces that one macro opens and another, or the calling text, closes; with the braces that are
+/// loose already, or without them. Returns `false` if they do not pair.
 fn loosen_across(tokens: &mut [Token], text: &str, with_loose: bool) -> bool {
     let slice = |token: Token| text.get(token.start as usize..token.end as usize).unwrap_or("");
     let mut effects: HashMap<&str, Effect> = HashMap::new();

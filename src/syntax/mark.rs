@@ -1,4 +1,4 @@
-//! Operators and separators.
+//! Parses operators and separators.
 
 use super::ast::{Argument, Callee, Component, ExpressionKind, ItemKind, UnaryOperator};
 use super::directive::Body;
@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::vocabulary::{Dialect, Role};
 
-/// How many tokens after a `;` the end of its vector is looked for.
+/// The most tokens after a `;` that are searched for the end of its vector.
 const LONGEST_VECTOR: usize = 40;
 
 impl<'a> Nest<'a> {
@@ -22,7 +22,7 @@ impl<'a> Nest<'a> {
             Mark::Less if holding && self.top().of_color && !self.compares() => {
                 self.open_vector(span);
             }
-            // `#declare B = A > 3 ? 1 : 2;` is told once, and is meant as in parentheses.
+            // `#declare B = A > 3 ? 1 : 2;` is reported once, and parsed as in parentheses.
             Mark::Less | Mark::Greater
                 if holding && !full && !self.in_vector() && self.compares() =>
             {
@@ -90,7 +90,7 @@ impl<'a> Nest<'a> {
         self.report(diagnostic);
     }
 
-    /// Whether a value follows.
+    /// Returns whether a value follows.
     fn is_before_value(&self) -> bool {
         match self.tokens.get(self.at + 1).map(|token| token.kind) {
             Some(TokenKind::Number | TokenKind::Name | TokenKind::String) => true,
@@ -103,18 +103,19 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// `<0 2 -6>` in a scene for POV-Ray 1.0, which has sums in parentheses only: three numbers.
+    /// `<0 2 -6>` in a scene for POV-Ray 1.0, which has sums in parentheses only: returns whether the sign
+    /// begins another number.
     fn parts_signed_numbers(&mut self) -> bool {
         self.lacks_sums && !self.top().full
     }
 
-    /// A sum or a product, or what stands in parentheses only.
+    /// Parses an operator of a sum or product, or one that is valid in parentheses only.
     fn comparison(&mut self, mark: Mark, span: Span) {
         let Some((operator, in_sums)) = expression::binary(mark) else { return };
         let full = self.top().full || self.top().of_color;
         self.before_operator(span);
         if !in_sums && !full {
-            // `==` and `&&` have been told.
+            // `==` and `&&` were reported.
             let is_foreign = self.slice(span) != operator.symbol();
             self.top().level_told |= is_foreign;
             self.only_in_parentheses(span);
@@ -122,7 +123,7 @@ impl<'a> Nest<'a> {
         self.operator(OperatorKind::Binary(operator), span);
     }
 
-    /// Whether a `?` follows before anything that no comparison has in it.
+    /// Returns whether a `?` follows before any token that cannot be in a comparison.
     fn compares(&self) -> bool {
         let ahead = self.tokens.iter().skip(self.at + 1).take(LONGEST_VECTOR);
         let mut ahead = ahead.map(|token| token.kind).skip_while(|kind| match kind {
@@ -136,7 +137,7 @@ impl<'a> Nest<'a> {
         ahead.next() == Some(TokenKind::Mark(Mark::Question))
     }
 
-    /// An operator that needs an operand before it.
+    /// Handles an operator that needs an operand before it.
     pub(super) fn before_operator(&mut self, span: Span) {
         if matches!(self.top().state, State::Holding { .. }) {
             return;
@@ -153,7 +154,8 @@ impl<'a> Nest<'a> {
         self.operand(ExpressionKind::Missing, before, false);
     }
 
-    /// `sphere { 0, 2 #if (A) * 3 #end }`: inside a bracket or a block, or a function's formula.
+    /// `sphere { 0, 2 #if (A) * 3 #end }`: returns whether the operand is on the other side of a directive,
+    /// inside a bracket, a block or a function's formula.
     fn goes_on_behind_a_directive(&mut self) -> bool {
         let top = self.top();
         let (state, items, operators) = (top.state, top.items, top.operators);
@@ -167,14 +169,14 @@ impl<'a> Nest<'a> {
         is_behind && !self.is_at_top_level()
     }
 
-    /// `(2 * #if (A) 3 #else 4 #end)`: the directive that is reached leaves the operand.
+    /// `(2 * #if (A) 3 #else 4 #end)`: returns whether the directive reached supplies the operand.
     pub(super) fn goes_on_in_a_directive(&self) -> bool {
         let leaves = |head: Head| head.opens() && head != Head::Macro;
         let kind = self.tokens.get(self.at).map(|token| token.kind);
         matches!(kind, Some(TokenKind::Directive(head)) if leaves(head)) && !self.is_at_top_level()
     }
 
-    /// Where only statements stand: neither in a block nor in a macro.
+    /// Returns whether only statements are allowed: neither in a block nor in a macro.
     fn is_at_top_level(&self) -> bool {
         let is_branch = |frame: &&Frame| match frame.kind {
             FrameKind::Body(ref body) => !matches!(body, Body::Macro { .. }),
@@ -184,13 +186,13 @@ impl<'a> Nest<'a> {
         around.is_none_or(|frame| matches!(frame.kind, FrameKind::File))
     }
 
-    /// Told once an expression.
+    /// Reports an operator outside parentheses, once for each expression.
     pub(super) fn only_in_parentheses(&mut self, span: Span) {
         if std::mem::replace(&mut self.top().level_told, true) {
             return;
         }
         let text = self.slice(span);
-        // Those of a call are not its own.
+        // A call's parentheses do not count.
         let is_argument = matches!(self.top().kind, FrameKind::Call(_));
         let own = if is_argument { " of its own" } else { "" };
         let message = format!("`{text}` stands only inside parentheses{own}");
@@ -247,7 +249,7 @@ impl<'a> Nest<'a> {
         self.top().state = State::Wanting;
     }
 
-    /// `function { x > 0 ? 1 : 2 }`, which POV-Ray refuses.
+    /// Reports `function { x > 0 ? 1 : 2 }`, which POV-Ray rejects.
     fn choice_in_function(&mut self, span: Span) {
         let message = "a function has no `?` and `:` in POV-Ray";
         self.report(
@@ -302,7 +304,7 @@ impl<'a> Nest<'a> {
                 if idle && empty {
                     let in_macro_head = self.in_macro_head();
                     match self.top().kind {
-                        // A macro's optional parameter may be left empty.
+                        // A macro's optional parameter may be empty.
                         FrameKind::Call(Callee::Name(..)) if !in_macro_head => {
                             let items = self.take_items(self.items.len());
                             return self.arguments.push(Argument::Items(items));
@@ -328,7 +330,8 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// `<1; 0; 0>`: semicolons where commas belong. False where the vector was not closed at all.
+    /// Reports `<1; 0; 0>`: semicolons in place of commas. Returns `false` if the vector is not closed at
+    /// all.
     fn semicolon_in_vector(&mut self, span: Span) -> bool {
         let open = self.top().open;
         let ahead = self.tokens[self.at..].iter().take(LONGEST_VECTOR);
@@ -361,7 +364,7 @@ impl<'a> Nest<'a> {
             )
             .at(span, "expected `,` instead of `;`");
             if text.contains(',') {
-                // Which of them is a decimal comma only the author knows.
+                // Only the author knows which of them are decimal commas.
                 self.report(diagnostic.help("decimals have a point: `1.5`"));
                 let base = self.top().arguments;
                 self.finish_expression();
@@ -380,7 +383,7 @@ impl<'a> Nest<'a> {
         true
     }
 
-    /// Among the parameters of a `#macro`.
+    /// Returns whether the innermost frame lists the parameters of a `#macro`.
     pub(super) fn in_macro_head(&self) -> bool {
         let outer = self.frames.len().checked_sub(2).map(|outer| &self.frames[outer].kind);
         matches!(outer, Some(FrameKind::Head(Head::Macro)))

@@ -1,8 +1,8 @@
-//! From text to tree.
+//! Parses source text into a syntax tree.
 //!
-//! **In:** a [`Source`]. **Out:** an [`Ast`], always, and what is wrong with the text.
-//! **Invariant:** never fails, never panics, and takes time in proportion to the text; a grammar reads
-//! the tokens (`grammar/lucarne.pest`), Rust pairs and nests them on explicit stacks.
+//! **In:** a [`Source`]. **Out:** an [`Ast`], always, and diagnostics. **Invariant:** never fails, never
+//! panics, and takes linear time; a grammar reads the tokens (`grammar/lucarne.pest`), Rust code pairs and
+//! nests them on explicit stacks.
 
 mod around;
 pub mod ast;
@@ -57,20 +57,20 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Source, Span};
 use crate::vocabulary::Dialect;
 
-/// How a text is read.
+/// Options of [`parse`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ParseOptions {
-    /// Contextual words exist only in [`Dialect::Scene`].
+    /// Contextual keywords exist only in [`Dialect::Scene`].
     pub dialect: Dialect,
-    /// How deep brackets, vectors and directives may nest, together.
+    /// The limit of nesting depth for brackets, vectors and directives together.
     pub nesting_limit: usize,
-    /// No name comes from outside the text, but by what it includes.
+    /// No name comes from outside the text, except from its includes.
     pub alone: bool,
-    /// Branches that are never run are no part of the text where they cannot be read.
+    /// Branches that are never run are ignored if they cannot be parsed.
     pub skips: bool,
-    /// In a `.pov`, bodies that cannot be read stay text until they are run.
+    /// In a `.pov`, bodies that cannot be parsed stay text until they are run.
     pub defers: bool,
-    /// Every brace without a partner where it is written pairs as it is run.
+    /// Every brace without a partner in its own text is paired when it is run.
     pub loose: bool,
 }
 
@@ -88,13 +88,13 @@ impl Default for ParseOptions {
 }
 
 impl ParseOptions {
-    /// How a piece is read, for its mistakes alone.
+    /// Returns the options for parsing a piece only to find its errors.
     fn inside(&self) -> Self {
         Self { skips: false, defers: false, ..*self }
     }
 }
 
-/// Reads one file's text. What cannot be understood is reported once and stays as
+/// Parses one file's text. A part that cannot be parsed is reported once and becomes
 /// [`Missing`](ast::ExpressionKind::Missing) or [`Malformed`](ast::DirectiveKind::Malformed).
 pub fn parse(
     source: &Source,
@@ -104,7 +104,7 @@ pub fn parse(
 ) -> Ast {
     if let Some(told) = foreign::foreign(&source.text, file) {
         diagnostics.push(told);
-        // Nothing in it is a mistake of its own.
+        // No error in it is independent.
         let mut nothing = Diagnostics::new(true);
         let quiet = comment::quiet("", file, &mut nothing);
         return nest::nest(&quiet, 0, file, &[], true, options, &mut nothing);
@@ -121,7 +121,7 @@ pub fn parse(
     ast
 }
 
-/// Reads a text without the bodies that stay text.
+/// Parses a text without the bodies that stay text.
 fn read(
     source: &Source,
     file: FileId,
@@ -146,12 +146,12 @@ fn read(
     let tokens = habits::translate(tokens, &quiet.text, file, options.dialect, &mut found);
     let (tokens, cut) = balance::balance(tokens, &source.text, file, options, &mut found);
     let ast = nest::nest(&quiet, source.text.len(), file, &tokens, cut, options, &mut found);
-    // Each pass found its own; the author reads from the top.
+    // Each pass found its own errors; they are reported in source order.
     let mut found: Vec<_> = found.iter().cloned().collect();
     found.sort_by_key(|diagnostic| diagnostic.primary().map(|label| label.span.start));
     comment::drop_swallowed(&mut found, &source.text);
     let found = tally::tally(found, &source.text);
-    // A quote that was added behind the end is no place in the author's text.
+    // A quote added after the end is not a position in the author's text.
     let end = source.text.len() as u32;
     let mut diagnostics = Diagnostics::new(true);
     let within = |span: Span| Span { start: span.start.min(end), end: span.end.min(end), ..span };
@@ -163,7 +163,7 @@ fn read(
     (ast, diagnostics)
 }
 
-/// `what` is nested: "brackets", "directives", "signs".
+/// Returns a diagnostic; `what` is nested: "brackets", "directives", "signs".
 fn nesting_limit(span: Span, what: &str, limit: usize) -> Diagnostic {
     let message = format!("{what} are nested more than {limit} deep");
     Diagnostic::new(Code::NestingLimit, message)

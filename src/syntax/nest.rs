@@ -1,8 +1,8 @@
 //! Nests the flat tokens into a tree, with an explicit stack of open brackets and directives.
 //!
-//! **In:** tokens whose brackets and directives pair (see `balance`). **Out:** an [`Ast`].
-//! **Invariant:** one pass, no recursion; each open bracket knows the level of its expressions: a
-//! *sum* where values stand side by side, *full* where comparisons cannot be mistaken for vectors.
+//! **In:** tokens whose brackets and directives pair (see `balance`). **Out:** an [`Ast`]. **Invariant:** one
+//! pass, no recursion; each open bracket has a level of expressions: a *sum* where values are adjacent,
+//! *full* where comparisons cannot be mistaken for vectors.
 
 use std::collections::HashMap;
 
@@ -24,7 +24,7 @@ use crate::vocabulary::{Dialect, Family, Word};
 pub(super) struct Frame {
     pub kind: FrameKind,
     pub open: Span,
-    /// Where this frame's part of each pending list starts.
+    /// The start of this frame's part of each pending list.
     pub items: usize,
     pub arguments: usize,
     pub operators: usize,
@@ -33,16 +33,16 @@ pub(super) struct Frame {
     /// Inside the body of a `function`, where calls and indices are full too.
     pub formula: bool,
     pub state: State,
-    /// The word whose block this is directly in, through directives.
+    /// The keyword whose block this is directly in, through directives.
     pub block: Option<Word>,
     /// The next block is the body of a function.
     pub function_ahead: bool,
     pub after_contextual: bool,
-    /// Its expression is the value of `rgb` and its like, which may be a full one.
+    /// Its expression is the value of `rgb` or the like, which may be a full one.
     pub of_color: bool,
-    /// That its expression needs parentheses has been told.
+    /// It was reported that its expression needs parentheses.
     pub level_told: bool,
-    /// A vector in which a `#declare` has begun and its `;` is still to come.
+    /// A vector in which a `#declare` has begun and its `;` has not been reached.
     pub declaring: bool,
 }
 
@@ -68,14 +68,14 @@ pub(super) enum FrameKind {
     Body(Body),
 }
 
-/// How far the expression of a frame is.
+/// The progress of a frame's expression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum State {
-    /// None has begun.
+    /// Not begun.
     Idle,
     /// An operator waits for its operand.
     Wanting,
-    /// It could end here. A name, a call or an element can be indexed.
+    /// It may end here. A name, a call or an element can be indexed.
     Holding { indexable: bool },
 }
 
@@ -97,18 +97,18 @@ pub(super) struct Nest<'a> {
     pub items: Vec<Item>,
     pub arguments: Vec<Argument>,
     pub stacks: Stacks,
-    /// A branch without its directive was told: the `#end` behind it is part of that.
+    /// A branch without its directive was reported, which covers the `#end` after it.
     pub orphaned: bool,
-    /// Outside of parentheses there are no sums.
+    /// There are no sums outside parentheses.
     pub lacks_sums: bool,
-    /// The tokens end before the text does, which has been told.
+    /// The tokens end before the text does, which was reported.
     pub ends_early: bool,
-    /// The text was given up at a limit: what is open now is no mistake of the author's.
+    /// The text was abandoned at a limit: open brackets are not the author's error.
     pub cut: bool,
 }
 
-/// Builds the tree of `tokens`, which lie in a text that is `end` bytes long. `cut`: the
-/// text goes on behind them.
+/// Builds the tree of `tokens`, which are in a text of `end` bytes. With `cut`, the text continues after
+/// them.
 pub(super) fn nest<'a>(
     quiet: &'a Quiet<'a>,
     end: usize,
@@ -129,7 +129,7 @@ pub(super) fn nest<'a>(
         diagnostics,
         ast: Ast {
             file,
-            // More than is needed, mostly: what is never written to is never had.
+            // Usually more than needed: memory that is never written is never committed.
             items: Vec::with_capacity(tokens.len() / 2),
             expressions: Vec::with_capacity(tokens.len() / 2),
             directives: Vec::new(),
@@ -162,7 +162,7 @@ pub(super) fn nest<'a>(
 
 impl<'a> Nest<'a> {
     pub(super) fn span(&self, token: Token) -> Span {
-        // A quote that was put in to close a string may lie behind the end.
+        // A quote added to close a string may be past the end.
         let (start, end) = (token.start as usize, token.end as usize);
         Span::new(self.file, start.min(self.end), end.min(self.end))
     }
@@ -190,7 +190,7 @@ impl<'a> Nest<'a> {
         ExpressionId(self.ast.expressions.len() as u32 - 1)
     }
 
-    /// The innermost frame. There always is the file's own.
+    /// Returns the innermost frame. There is always at least the file's own.
     pub(super) fn top(&mut self) -> &mut Frame {
         let last = self.frames.len() - 1;
         &mut self.frames[last]
@@ -227,7 +227,7 @@ impl<'a> Nest<'a> {
         });
     }
 
-    /// Takes the innermost frame off. The file's own stays.
+    /// Pops the innermost frame. The file's own stays.
     pub(super) fn pop(&mut self) -> Option<Frame> {
         if self.frames.len() > 1 { self.frames.pop() } else { None }
     }
@@ -278,7 +278,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// Ends the expression under way, if there is one, and hands it to its frame.
+    /// Ends the current expression, if there is one, and adds it to its frame.
     pub(super) fn finish_expression(&mut self) {
         let (state, base) = (self.top().state, self.top().operators);
         match state {

@@ -1,12 +1,12 @@
-//! Decodes runs of literals by hand: megabytes of mesh data without a node each.
+//! Decodes runs of literals directly, so that megabytes of mesh data need no node each.
 //!
-//! **In:** the text of a run. **Out:** correctly rounded numbers, in order.
-//! **Invariant:** a run holds only what `numeric` takes for one.
+//! **In:** the text of a run. **Out:** correctly rounded numbers, in order. **Invariant:** a run contains
+//! only what `numeric` accepts as one.
 
 /// One literal, vector bracket or comma of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Piece {
-    /// A literal with its sign, from byte to byte of the run.
+    /// A literal with its sign, as a byte range of the run.
     Number {
         start: usize,
         end: usize,
@@ -16,7 +16,7 @@ pub(super) enum Piece {
     Comma,
 }
 
-/// The pieces of a run and the byte each starts at.
+/// An iterator over the pieces of a run and the byte each starts at.
 pub(super) struct Pieces<'a> {
     run: &'a [u8],
     at: usize,
@@ -59,7 +59,7 @@ impl Iterator for Pieces<'_> {
 pub(super) struct Row {
     pub count: u32,
     pub width: u32,
-    /// The bytes of the run it covers.
+    /// The byte range of the run that it covers.
     pub start: usize,
     pub end: usize,
 }

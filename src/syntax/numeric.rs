@@ -1,20 +1,19 @@
-//! Parts numeric text into its tokens: literals, what stands between them, and the long runs of both.
+//! Splits numeric text into its tokens: literals, the tokens between them, and long runs of both.
 //!
-//! **In:** text that the grammar takes for `numeric`. **Out:** its tokens, in order.
-//! **Invariant:** linear in time; every byte that is not blank is in exactly one token.
+//! **In:** text that the grammar accepts as `numeric`. **Out:** its tokens, in order. **Invariant:** linear
+//! in time; every byte that is not blank is in exactly one token.
 
 use super::token::{Mark, Token, TokenKind, word};
 
-/// A run has so many literals or vectors at least, each with its comma. No operator can follow any of
-/// them, so they are values as they stand. A sign before the first might be an operator; after a comma
-/// it is a sign.
+/// The fewest literals or vectors of a run, each with its comma. No operator can follow any of them, so they
+/// are complete values. A sign before the first might be an operator; after a comma it is a sign.
 const RUN: usize = 8;
 
-/// Adds the tokens from `start` to `end`, and returns where the last of them ends: behind `end`, where
-/// it goes on there (`>` and its `=`).
+/// Adds the tokens from `start` to `end`, and returns the end of the last one: past `end` if the token
+/// continues there (`>` and its `=`).
 pub(super) fn part(text: &str, start: usize, end: usize, tokens: &mut Vec<Token>) -> usize {
     let scan = Scan(text.as_bytes());
-    // No run begins before these: it was looked for further up.
+    // No run begins before these: the search got this far.
     let (mut literals_told, mut vectors_told) = (start, start);
     let mut at = start;
     while at < end {
@@ -52,7 +51,7 @@ pub(super) fn part(text: &str, start: usize, end: usize, tokens: &mut Vec<Token>
             Some(b'+') => scan.mark(&mut at, Mark::Plus),
             Some(b'-') => scan.mark(&mut at, Mark::Minus),
             Some(b'/') => scan.mark(&mut at, Mark::Slash),
-            // The `e` of no literal is a word's.
+            // An `e` that is not part of a literal begins a word.
             Some(b'a'..=b'z' | b'A'..=b'Z') => {
                 at = scan.word(at);
                 word(&text[begin..at])
@@ -67,7 +66,7 @@ pub(super) fn part(text: &str, start: usize, end: usize, tokens: &mut Vec<Token>
     at
 }
 
-/// Finds the ends of things in a text: each function takes where one might begin.
+/// Finds the ends of tokens in a text: each function takes the offset where one might begin.
 #[derive(Clone, Copy)]
 struct Scan<'a>(&'a [u8]);
 
@@ -154,7 +153,7 @@ impl Scan<'_> {
         (several && self.byte(end) == Some(b'>')).then_some(end + 1)
     }
 
-    /// The end of a run; or, where it is too short for one, of what was looked at.
+    /// Returns the end of a run; or, if it is too short, of the part that was searched.
     fn run(
         self,
         at: usize,
@@ -199,7 +198,7 @@ mod tests {
     fn the_e_of_no_literal_begins_a_word() {
         assert_eq!(texts("2 e1 3e4e5"), ["2", "e1", "3e4", "e5"]);
         let mut tokens = Vec::new();
-        // The text goes on where the numeric part of it ends.
+        // The text continues after its numeric part.
         assert_eq!(part("2 e1x_ 3", 0, 4, &mut tokens), 6);
         assert_eq!(tokens[1], Token { kind: TokenKind::Name, start: 2, end: 6 });
     }

@@ -1,18 +1,18 @@
-//! What POV-Ray 3.7 still reads of old versions in a `.pov`: `composite` as `union`, `alpha` as `filter`, and that
-//! version 1.0 has sums in parentheses only.
+//! Handles keywords of old versions that POV-Ray 3.7 still accepts in a `.pov`: `composite` for `union`,
+//! `alpha` for `filter`; and version 1.0, which has sums in parentheses only.
 
 use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{Dialect, Word};
 
-/// The old words, and what each is today (measured).
+/// The old keywords, and their replacements (measured).
 const OLD: &[(Word, Word)] = &[(Word::Composite, Word::Union), (Word::Alpha, Word::Filter)];
 
-/// The version from which on there are sums outside of parentheses (measured).
+/// The first version with sums outside parentheses (measured).
 const SUMS_SINCE: f64 = 1.5;
 
-/// Whether the first `#version` of a text is one without sums.
+/// Returns whether the first `#version` of a text is one without sums.
 pub(super) fn lacks_sums(tokens: &[Token], text: &str, dialect: Dialect) -> bool {
     let is_version = |token: &Token| token.kind == TokenKind::Directive(Head::Version);
     let number = tokens.iter().position(is_version).and_then(|at| tokens.get(at + 1));
@@ -21,7 +21,7 @@ pub(super) fn lacks_sums(tokens: &[Token], text: &str, dialect: Dialect) -> bool
         && number.and_then(|number| number.parse::<f64>().ok()).is_some_and(|n| n < SUMS_SINCE)
 }
 
-/// Replaces the old words, with a warning for each.
+/// Replaces the old keywords, with a warning for each.
 pub(super) fn replace(
     tokens: &mut [Token],
     file: FileId,
@@ -49,7 +49,8 @@ pub(super) fn replace(
     }
 }
 
-/// Whether `finish {` stands before it: `finish { alpha 0.5 }` is refused, and `finish { ambient 1 alpha 0.5 }` is not.
+/// Returns whether `finish {` directly precedes it: `finish { alpha 0.5 }` is rejected, and `finish { ambient
+/// 1 alpha 0.5 }` is not.
 fn begins_finish(before: &[Token]) -> bool {
     let kinds = before.iter().rev().take(2).map(|token| token.kind);
     kinds.eq([TokenKind::Mark(Mark::Open(Bracket::Brace)), TokenKind::Word(Word::Finish)])

@@ -1,4 +1,4 @@
-//! Operands: literals, names, words, calls, and runs of numbers.
+//! Parses operands: literals, names, keywords, calls, and runs of numbers.
 
 use super::ast::{Callee, ExpressionKind, Item, ItemKind, NameId};
 use super::nest::{FrameKind, Nest, State};
@@ -10,7 +10,7 @@ use crate::vocabulary::Dialect;
 use crate::vocabulary::{Role, Word};
 
 impl<'a> Nest<'a> {
-    /// An operand begins: whatever was complete before it is a value of its own.
+    /// Begins an operand: a complete one before it is a value of its own.
     pub(super) fn before_operand(&mut self) {
         if let State::Holding { .. } = self.top().state {
             self.finish_expression();
@@ -27,7 +27,7 @@ impl<'a> Nest<'a> {
     pub(super) fn named(&mut self, span: Span, after_contextual: bool) {
         let text = self.slice(span);
         if self.next_is(TokenKind::Mark(Mark::Open(Bracket::Brace))) {
-            // A misspelt word and its block: no component.
+            // A misspelt keyword and its block cannot be a component.
             self.leave_vectors(span);
         }
         let top = self.top();
@@ -49,14 +49,14 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// A name or function and the parenthesis after it.
+    /// Opens a call: a name or function and the parenthesis after it.
     pub(super) fn call(&mut self, callee: Callee, span: Span, full: bool) {
         self.before_operand();
         self.at += 1;
         self.open(FrameKind::Call(callee), span, full);
     }
 
-    /// `2*scale`, where `Scale` is a name and a value is wanted.
+    /// `2*scale`: returns the name `Scale`, which differs in case only, where a value is expected.
     fn name_but_for_case(&mut self, span: Span) -> Option<NameId> {
         let text = self.slice(span);
         let alike = self.names.iter().filter(|(name, _)| name.eq_ignore_ascii_case(text));
@@ -72,7 +72,7 @@ impl<'a> Nest<'a> {
         Some(id)
     }
 
-    /// Whether a word of blocks stands where only a value can: `2 * scale;`, `radius*x`.
+    /// Returns whether a keyword of blocks is used as a value: `2 * scale;`, `radius*x`.
     fn stands_for_value(&mut self) -> bool {
         let Some(TokenKind::Mark(next)) = self.tokens.get(self.at + 1).map(|token| token.kind)
         else {
@@ -98,7 +98,7 @@ impl<'a> Nest<'a> {
     }
 
     pub(super) fn word(&mut self, word: Word, span: Span) {
-        // One that was declared though it cannot be, where a value is wanted: that has been told.
+        // A keyword that was wrongly declared as a name, used as a value: reported before.
         let is_name = match word.role() {
             Role::Statement => {
                 self.top().state == State::Wanting
@@ -126,7 +126,7 @@ impl<'a> Nest<'a> {
                     return self.call(Callee::Word(word, span), span, one_argument);
                 }
                 if self.lists_items() && self.top().state != State::Wanting {
-                    // The functions of a `julia_fractal` stand alone.
+                    // The functions of a `julia_fractal` have no arguments.
                     return self.item(ItemKind::Word(word), span);
                 }
                 let name = word.name();
@@ -162,7 +162,7 @@ impl<'a> Nest<'a> {
             let continues = match next.kind {
                 TokenKind::Number => text.starts_with('.'),
                 TokenKind::Name => text == "e" || text == "E",
-                // `1e-`, with no digits behind.
+                // `1e-`, without digits after it.
                 TokenKind::Mark(Mark::Minus | Mark::Plus) => {
                     let behind = self.tokens.get(self.at + 2).map(|token| token.start);
                     self.slice(span).ends_with(['e', 'E']) && behind != Some(next.end)
@@ -177,7 +177,7 @@ impl<'a> Nest<'a> {
         }
         let text = self.slice(span);
         match text.parse::<f64>() {
-            // What is too large for a number is told where it is used, if a `.pov` uses it.
+            // A number that is too large is reported on use, if a `.pov` uses it.
             Ok(number) if number.is_finite() || self.dialect == Dialect::Pov => {
                 self.operand(ExpressionKind::Number(number), span, false);
             }
@@ -205,7 +205,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// `0x1F`, as other languages write numbers: a `0` and a name that touch.
+    /// `0x1F`, as in other languages: a `0` and a name that touch.
     fn number_to_another_base(&mut self, zero: Span) -> bool {
         let Some(&next) = self.tokens.get(self.at + 1) else { return false };
         let digits = self.span(next);
@@ -258,7 +258,7 @@ impl<'a> Nest<'a> {
         true
     }
 
-    /// True where values stand side by side as items.
+    /// Returns whether adjacent values are separate items.
     pub(super) fn lists_items(&mut self) -> bool {
         let top = self.top();
         match &top.kind {
@@ -274,7 +274,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// Literals with their commas: one item where values stand side by side, else token by token.
+    /// Adds literals with their commas: as one item where adjacent values are items, else token by token.
     pub(super) fn run(&mut self, token: Token) {
         let mut span = self.span(token);
         loop {
@@ -301,7 +301,7 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// Takes the first element of a run and its comma as tokens. Returns their length.
+    /// Adds the first element of a run and its comma as tokens. Returns their length.
     pub(super) fn first_of_run(&mut self, run: Span) -> usize {
         let text = self.slice(run);
         let part = |from: usize, to: usize| (run.start + from as u32, run.start + to as u32);
@@ -339,9 +339,9 @@ impl<'a> Nest<'a> {
     }
 }
 
-/// The words whose value is a full expression: `rgb A > B ? C : D`.
+/// Returns whether the keyword takes a full expression: `rgb A > B ? C : D`.
 ///
-/// **Source:** POV-Ray 3.7 reads one there, and nowhere else outside parentheses (measured).
+/// **Source:** POV-Ray 3.7 accepts one there, and nowhere else outside parentheses (measured).
 fn is_color_vector(word: Word) -> bool {
     use Word as W;
     matches!(
@@ -350,14 +350,14 @@ fn is_color_vector(word: Word) -> bool {
     )
 }
 
-/// `0.0.00` with its first point alone.
+/// Returns `0.0.00` with its first point alone.
 fn with_one_point(text: &str) -> Option<String> {
     let (whole, rest) = text.split_once('.')?;
     let right = format!("{whole}.{}", rest.replace('.', ""));
     right.parse::<f64>().is_ok().then_some(right)
 }
 
-/// `1.0.0` as three whole numbers.
+/// Returns `1.0.0` as three integers.
 fn with_commas(text: &str) -> Option<String> {
     let parts: Vec<&str> = text.split('.').collect();
     let whole = |part: &&str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());

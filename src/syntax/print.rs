@@ -1,6 +1,6 @@
-//! Writes a tree back as text.
+//! Prints a tree as source text.
 //!
-//! **Invariant:** reading the text again gives the same tree, but for places and comments (of a tree
+//! **Invariant:** parsing the printed text gives the same tree, except for spans and comments (for a tree
 //! without errors). No recursion.
 
 use super::ast::{
@@ -9,7 +9,7 @@ use super::ast::{
 };
 use crate::source::{Source, Span};
 
-/// The text of a tree, a line an item, blocks indented by two.
+/// Returns the text of a tree, an item a line, blocks indented by two.
 pub fn print(ast: &Ast, source: &Source) -> String {
     let mut print = Print { ast, source, out: String::new(), depth: 0, tasks: Vec::new() };
     print.tasks.push(Task::Items(ast.root));
@@ -40,7 +40,7 @@ struct Print<'a> {
 }
 
 impl Print<'_> {
-    /// Puts tasks on the stack so that the first is performed first.
+    /// Pushes tasks so that the first is performed first.
     fn push(&mut self, tasks: impl IntoIterator<Item = Task, IntoIter: DoubleEndedIterator>) {
         self.tasks.extend(tasks.into_iter().rev());
     }
@@ -168,7 +168,8 @@ impl Print<'_> {
         }
     }
 
-    /// What stands between parentheses, or the brackets of an entry. A line that ended with a `;` would end the statement.
+    /// Returns the content of parentheses, or of an entry's brackets. A line that ends with a `;` would end
+    /// the statement.
     fn inside(&self, items: Items) -> Vec<Task> {
         let all = self.ast.items(items);
         match all.iter().any(|item| item.kind == ItemKind::Semicolon) {
@@ -330,7 +331,7 @@ impl Print<'_> {
     }
 }
 
-/// Items inside brackets, a line each.
+/// Returns items inside brackets, a line each.
 fn block(open: &'static str, items: Items, close: &'static str) -> Vec<Task> {
     let [indent, inside, outdent] = body(items);
     vec![Task::Text(open), indent, inside, outdent, Task::Line, Task::Text(close)]

@@ -1,9 +1,9 @@
-//! Sentences outside of comments: what a letter, a forum or a page says around a scene.
+//! Blanks sentences outside comments, such as the text of a mail or a web page around a scene.
 //!
-//! **In:** a text without comments. **Out:** the same text with blanks in their place.
-//! **Invariant:** a line is a sentence only outside of all braces, where it has several words of everyday
-//! speech, or its punctuation, and no sign that a scene is made of, or behind the sign of another language's
-//! comment any words; one message for lines that follow each other.
+//! **In:** a text without comments. **Out:** the same text with blanks in their place. **Invariant:** a line
+//! is a sentence only outside all braces, if it has several words of everyday speech, or their punctuation,
+//! and no punctuation of a scene, or if it has any words after the comment sign of another language; one
+//! diagnostic for adjacent lines.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -13,7 +13,7 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
 use crate::vocabulary::Word;
 
-/// Words that sentences are made of, and scenes are not.
+/// Words that are frequent in sentences, and not used in scenes.
 const SPEECH: &[&str] = &[
     "a",
     "an",
@@ -77,7 +77,7 @@ const SPEECH: &[&str] = &[
     "your",
     "thanks",
     "thank",
-    // of other languages
+    // Of other languages.
     "das",
     "der",
     "die",
@@ -156,7 +156,7 @@ pub(super) fn blank<'a>(
     blanked(text, sentences)
 }
 
-/// The lines that are sentences, without the blanks around them.
+/// Returns the lines that are sentences, without the blanks around them.
 fn sentences(text: &str) -> Vec<Range<usize>> {
     let (mut found, mut start, mut depth, mut quoted) = (Vec::new(), 0, 0i64, false);
     for line in text.split_inclusive('\n') {
@@ -184,7 +184,7 @@ fn sentences(text: &str) -> Vec<Range<usize>> {
     found
 }
 
-/// The sign of another language before a line of words: `-- like this`.
+/// Returns the comment sign of another language before a line of words: `-- like this`.
 fn comment_sign(line: &str) -> Option<&str> {
     const SIGNS: [&str; 6] = ["--", ";", "%", "'", "REM ", "rem "];
     let sign = SIGNS.into_iter().find(|sign| line.starts_with(sign))?;
@@ -209,7 +209,7 @@ fn comment_sign(line: &str) -> Option<&str> {
     is_text.then_some(sign.trim_end())
 }
 
-/// `follows`: a sentence stands before it.
+/// Returns whether a line is a sentence; `follows`: a sentence precedes it.
 fn is_sentence(line: &str, follows: bool) -> bool {
     if !line.starts_with(char::is_alphabetic)
         || line.ends_with(';')
@@ -217,7 +217,7 @@ fn is_sentence(line: &str, follows: bool) -> bool {
     {
         return false;
     }
-    // `Follow (Cart, Here, Ahead)` is rather a call.
+    // `Follow (Cart, Here, Ahead)` is probably a call.
     let name = line.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_').trim_start();
     if name.starts_with('(') && name.ends_with(')') {
         return false;

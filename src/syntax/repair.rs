@@ -1,8 +1,8 @@
-//! Says which brackets and `#end`s are missing or too many, and goes on as if they were right.
+//! Reports which brackets and `#end`s are missing or surplus, and corrects them.
 //!
-//! **In:** tokens that do not pair. **Out:** tokens that do.
-//! **Invariant:** one message for one mistake: what a repair makes surplus elsewhere is dropped in
-//! silence. Time in proportion to the number of tokens times the nesting limit at most.
+//! **In:** tokens that do not pair. **Out:** tokens that do. **Invariant:** one diagnostic for one mistake:
+//! tokens that a repair makes surplus elsewhere are dropped silently. Takes at most time proportional to the
+//! number of tokens times the nesting limit.
 
 use std::collections::{HashMap, HashSet};
 
@@ -24,7 +24,7 @@ use super::token::{Bracket, Head, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::FileId;
 
-/// How many tokens a vector of plain values has at most.
+/// The most tokens of a vector of plain values.
 const LONGEST_VECTOR: usize = 12;
 
 /// Adds and drops closers until everything pairs.
@@ -65,7 +65,7 @@ pub(super) fn repair(
     repair.run()
 }
 
-/// Openers less closers, of each bracket.
+/// Returns openers minus closers, for each bracket.
 fn surplus(tokens: &[Token]) -> [i32; 3] {
     let mut surplus = [0; 3];
     for token in tokens {
@@ -84,11 +84,11 @@ struct Open {
     /// The indentation of its line, and of the first line inside.
     indent: u32,
     inner: Option<u32>,
-    /// Where it seems to have ended.
+    /// The position where it seems to have ended.
     outside: Option<Outside>,
-    /// Its closer stands in a branch; it is closed where the directive of that branch ends.
+    /// Its closer is in a branch; it is closed where the directive of that branch ends.
     closed_in_branch: bool,
-    /// For a directive: that a branch does not pair has been told.
+    /// For a directive: it was reported that a branch does not pair.
     told: bool,
 }
 
@@ -101,14 +101,14 @@ struct Repair<'a> {
     openers: HashMap<usize, usize>,
     /// The directives that have an `#end`.
     ended: HashSet<usize>,
-    /// Openers less closers, of each bracket, as far as they are not explained yet.
+    /// Openers minus closers, for each bracket, as far as they are not explained yet.
     surplus: [i32; 3],
-    /// Closers that were added although their own may still come.
+    /// Closers that were added although their own may still follow.
     owed: [u32; 3],
-    /// Where the last of them was added.
+    /// The position where the last of them was added.
     owed_since: [usize; 3],
     open: Vec<Open>,
-    /// Closers to be put before the token of this number.
+    /// Closers to insert before the token with this index.
     inserted: Vec<(usize, TokenKind)>,
     dropped: Vec<bool>,
     told: usize,
@@ -174,7 +174,7 @@ impl Repair<'_> {
                 }
                 Opener::Bracket(other) => {
                     let outer = self.open_in_branch(bracket).is_some();
-                    // `[0.6 rgb 1}`: on one line the one is written for the other.
+                    // `[0.6 rgb 1}`: on one line, one closer was written for the other.
                     let swapped = surplus(other) <= 0 || self.are_on_a_line(top.token, at);
                     if !outer || (swapped && surplus(bracket) < 0) {
                         return self.stray(bracket, at);
@@ -195,8 +195,8 @@ impl Repair<'_> {
         }
     }
 
-    /// Where braces are missing: does this one, by its indentation or by what `top` cannot hold, end the block
-    /// around `top`?
+    /// Returns whether this brace, if braces are missing, ends the block around `top`, judged by its
+    /// indentation or by what `top` cannot contain.
     fn closes_an_outer_block(&self, top: &Open, bracket: Bracket, at: usize) -> bool {
         let place = self.layout.place(at);
         let outer = self.open.len().checked_sub(2).map(|below| &self.open[below]);
@@ -210,7 +210,7 @@ impl Repair<'_> {
                 .is_some_and(|outer| outer.opener == top.opener && (by_indent(outer) || ended()))
     }
 
-    /// The innermost open `bracket`, if no directive was opened after it.
+    /// Returns the innermost open `bracket`, if no directive was opened after it.
     fn open_in_branch(&self, bracket: Bracket) -> Option<usize> {
         let last = self.open.iter().rposition(|open| {
             open.opener == Opener::Directive || open.opener == Opener::Bracket(bracket)
@@ -218,7 +218,7 @@ impl Repair<'_> {
         (self.open[last].opener == Opener::Bracket(bracket)).then_some(last)
     }
 
-    /// A closer in a branch, of something opened before the directive.
+    /// Handles a closer in a branch, for an opener before the directive.
     fn close_in_branch(&mut self, bracket: Bracket, at: usize) {
         let wanted = Opener::Bracket(bracket);
         let Some(outer) = self.open.iter().rposition(|open| open.opener == wanted) else {
@@ -261,7 +261,7 @@ impl Repair<'_> {
         }
         self.surplus[index] += 1;
         let closer = bracket.closer();
-        // Too many of the one opener, and too many of the other's closer: they are meant for each other.
+        // Surplus openers of one kind and surplus closers of another are meant for each other.
         let meant = match self.open.last().map(|top| top.opener) {
             Some(Opener::Bracket(open)) => Some(open),
             Some(Opener::Directive) | None => None,
@@ -282,7 +282,7 @@ impl Repair<'_> {
                 .fix(self.span(at), right);
             return self.tell(diagnostic);
         }
-        // `<1, 0, 0)>`: its own comes next.
+        // `<1, 0, 0)>`: its own closer is next.
         let is_closed =
             self.tokens.get(at + 1).map(|next| next.kind) == Some(TokenKind::Mark(Mark::Greater));
         if let Some(open) =
@@ -306,7 +306,7 @@ impl Repair<'_> {
         self.tell(diagnostic.help("leave it out").fix(self.span(at), ""));
     }
 
-    /// `#end`.
+    /// Handles `#end`.
     fn end(&mut self, at: usize) {
         let Some(&opener) = self.openers.get(&at) else { return };
         self.close_since_directive(at);
@@ -324,7 +324,7 @@ impl Repair<'_> {
         }
     }
 
-    /// `#else` and its like: the directive had not ended before.
+    /// Handles `#else` and the like: the directive had not ended before.
     fn divide(&mut self, at: usize) {
         self.close_since_directive(at);
         let directive = self.open.pop_if(|top| top.opener == Opener::Directive);
@@ -343,7 +343,7 @@ impl Repair<'_> {
             && let Some(top) = self.open.pop()
         {
             let Opener::Bracket(bracket) = top.opener else { continue };
-            // The other branch is usually the same mistake again.
+            // The other branch usually has the same mistake.
             if std::mem::replace(&mut self.open[directive].told, true) {
                 self.insert_closer(&top, at);
                 self.surplus[bracket as usize] -= 1;
@@ -361,7 +361,7 @@ impl Repair<'_> {
             Opener::Bracket(bracket) => TokenKind::Mark(Mark::Close(bracket)),
             Opener::Directive => TokenKind::Directive(Head::End),
         };
-        // What ends at a closer needs no guess.
+        // A closer is a certain end, without a guess.
         let ends_file = at == self.tokens.len();
         let outside = open.outside.filter(|outside| outside.certain || ends_file);
         let place = outside.map_or(at, |outside| outside.token);
@@ -409,7 +409,7 @@ mod tests {
             let stray = |token: &Token| {
                 matches!(turn(token.kind), Some(Turn::Divide | Turn::Close(Opener::Directive)))
             };
-            // An `#end` or `#else` of nothing is told where the tree is built.
+            // An unmatched `#end` or `#else` is reported when the tree is built.
             if !text.contains("#end") && !text.contains("#else") {
                 assert!(pairs(&repaired), "{text}");
             }

@@ -1,9 +1,9 @@
-//! What a condition skips whatever happens: where that cannot be read, it is a comment.
+//! Removes branches that a constant condition always skips, if they cannot be parsed.
 //!
 //! **In:** a text without comments. **Out:** the same text, with blanks in place of each branch that is never
-//! run and could not be, which is among the comments then.
-//! **Invariant:** a branch that reads without mistakes stays, and so does one that may be run. POV-Ray 3.7
-//! skips such a branch word by word, whatever stands there (measured).
+//! run and cannot be parsed; it is then listed as a comment. **Invariant:** a branch that parses without
+//! errors stays, and so does one that may be run. POV-Ray 3.7 skips such a branch word by word, whatever it
+//! contains (measured).
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -25,7 +25,7 @@ pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
     let branches = Reader { tokens: &tokens, text: &quiet.text, options }.branches();
     let unreadable = |branch: &Range<usize>| {
         let text = quiet.text.get(branch.clone()).unwrap_or("");
-        // `#elif` is rather a branch of its own.
+        // `#elif` probably starts a branch of its own.
         let unknown = |token: &Token| {
             let word = text.get(token.start as usize..token.end as usize).unwrap_or("");
             token.kind == TokenKind::Directive(Head::Unknown) && is_near_a_directive(word)
@@ -34,11 +34,11 @@ pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
             return false;
         }
         let mut told = Diagnostics::new(true);
-        // What is skipped in it would be with it.
+        // A branch that is skipped inside it would be skipped with it.
         parse(&Source::new("", text.to_owned()), file, &options.inside(), &mut told);
         !told.is_empty()
     };
-    // Where the other branch cannot be read either, what both open may go on behind them.
+    // If the other branch cannot be parsed either, brackets that both open may continue after them.
     let skips = |(branch, other): &(Range<usize>, Option<Range<usize>>)| {
         unreadable(branch) && !other.as_ref().is_some_and(&unreadable)
     };
@@ -55,7 +55,7 @@ pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
     quiet.text = blanked(std::mem::take(&mut quiet.text), branches);
 }
 
-/// What a name stands for at a place.
+/// The known value of a name at a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Declared {
     Nothing,
@@ -63,7 +63,7 @@ enum Declared {
     Something,
 }
 
-/// What the names of a text stand for, of those that are declared outside of all directives alone.
+/// The known values of a text's names; only declarations outside all directives count.
 struct Known<'a> {
     names: HashMap<&'a str, Declared>,
     /// Names that a loop, a macro or a branch declares.
@@ -93,7 +93,7 @@ impl<'a> Known<'a> {
                     let plain = depth == 0 && token.kind != TokenKind::Directive(Head::Macro);
                     (!plain).then(|| reader.slice(at + 1))
                 }
-                // `#read (File, A, B)`, `M(A)`: names that something may be done to.
+                // `#read (File, A, B)`, `M(A)`: these may assign to the names.
                 TokenKind::Name => {
                     let before = at.checked_sub(1).map(|before| reader.tokens[before].kind);
                     let behind = reader.tokens.get(at + 1).map(|behind| behind.kind);
@@ -115,7 +115,7 @@ impl<'a> Known<'a> {
         }
     }
 
-    /// Takes notice of a token.
+    /// Updates the known values after a token.
     fn pass(&mut self, reader: &Reader<'a>, at: usize) {
         let token = &reader.tokens[at];
         self.turn(token);
@@ -141,7 +141,7 @@ impl<'a> Known<'a> {
     }
 }
 
-/// Whether a text may hold a condition that is plain.
+/// Returns whether a text may contain a constant condition.
 fn may_skip(text: &str) -> bool {
     text.match_indices('#').any(|(at, _)| {
         let rest = text[at + 1..].trim_start();
@@ -180,8 +180,8 @@ impl<'a> Reader<'a> {
             .unwrap_or("")
     }
 
-    /// The branches that are never run, each with the one that is run instead; without those inside others, and
-    /// without the blanks around them.
+    /// Returns the branches that are never run, each with the one that is run instead; without nested ones,
+    /// and without the blanks around them.
     fn branches(&self) -> Vec<(Range<usize>, Option<Range<usize>>)> {
         let unknown = if self.options.alone { self.unknown_names() } else { HashSet::new() };
         let mut known = Known::of(self);
@@ -204,7 +204,7 @@ impl<'a> Reader<'a> {
             if let (Some(branch), other) = (whole(branches.0), whole(branches.1)) {
                 let end = branch.1;
                 found.push((text(&branch), other.as_ref().map(text)));
-                // What is declared in between is declared as before.
+                // Declarations in between still count.
                 (at..end).for_each(|at| known.pass(self, at));
                 at = end;
             }
@@ -216,7 +216,8 @@ impl<'a> Reader<'a> {
         self.tokens.get(at).is_some_and(|token| token.kind == TokenKind::Mark(mark))
     }
 
-    /// Whether the condition that begins at `at` holds, if that is plain, and where its branch begins.
+    /// Returns whether the condition that begins at `at` holds, if it is constant, and where its branch
+    /// begins.
     fn condition(
         &self,
         at: usize,
@@ -256,7 +257,7 @@ impl<'a> Reader<'a> {
         (self.is(at + 1, open) && self.is(end, close)).then_some((value, end + 1))
     }
 
-    /// The `#else`, `#elseif` or `#end` that the branch ends with which each directive begins.
+    /// Returns the `#else`, `#elseif` or `#end` that ends the first branch of each directive.
     fn ends_of_branches(&self) -> HashMap<usize, usize> {
         let (mut open, mut ends) = (Vec::new(), HashMap::new());
         for (at, token) in self.tokens.iter().enumerate() {
@@ -275,7 +276,7 @@ impl<'a> Reader<'a> {
         ends
     }
 
-    /// Names that this text only asks for, and that nothing it includes may declare.
+    /// Returns names that this text only tests, and that no include may declare.
     fn unknown_names(&self) -> HashSet<&str> {
         let (mut asked, mut used) = (HashSet::new(), HashSet::new());
         for (at, token) in self.tokens.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Puts right the misspelt words of directives, so that one letter does not unnest a file.
+//! Corrects misspelt keywords of directives, so that one letter does not unbalance a file.
 
 use std::collections::HashSet;
 
@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics, suggest};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{Dialect, Role, Word};
 
-/// What other languages write.
+/// Spellings of other languages.
 const FOREIGN: &[(&str, &str)] = &[
     ("endif", "end"),
     ("endwhile", "end"),
@@ -37,10 +37,10 @@ const FOREIGN: &[(&str, &str)] = &[
     ("def", "declare"),
 ];
 
-/// What other languages write before a name and its parameters.
+/// Keywords of other languages before a name and its parameters.
 const FUNCTIONS: &[&str] = &["function", "func", "fn", "def", "sub", "proc", "procedure"];
 
-/// Reports every unknown directive, and takes it for the one that was meant if that is likely.
+/// Reports every unknown directive, and replaces it by the probable one.
 pub(super) fn correct_heads(
     tokens: &mut Vec<Token>,
     text: &str,
@@ -60,15 +60,15 @@ pub(super) fn correct_heads(
         let span = Span::new(file, token.start as usize, token.end as usize);
         let word = directive_word(text.get(span.range()).unwrap_or(""));
         if color_at(text.get(span.start as usize..).unwrap_or(""), before).is_some() {
-            // A colour, as the web writes it (habits/web.rs).
+            // A colour in web notation (habits/web.rs).
             continue;
         }
         if before == Some(TokenKind::Number) && is_no_number(word) {
-            // Told with the number before it (habits/number.rs).
+            // Reported with the number before it (habits/number.rs).
             continue;
         }
         if word == "define" {
-            // Told with what follows it, which is written otherwise too (habits/head.rs).
+            // Reported with the tokens after it, which need correction too (habits/head.rs).
             token.kind = TokenKind::Directive(Head::Declare);
             continue;
         }
@@ -78,7 +78,7 @@ pub(super) fn correct_heads(
         let mut diagnostic =
             Diagnostic::new(Code::UnknownDirective, format!("`#{word}` is not a directive"))
                 .at(span, "unknown word after `#`");
-        // `#camera { … }`; POV-Ray 3.7 passes over the sign before any word of the language (measured).
+        // `#camera { … }`; POV-Ray 3.7 ignores the `#` before any keyword (measured).
         let ours = Word::from_name(word);
         let is_block = is_brace(next) && ours.is_some_and(|ours| ours.role() == Role::Statement);
         if let Some(ours) = ours.filter(|_| is_block || dialect == Dialect::Pov) {
@@ -95,7 +95,7 @@ pub(super) fn correct_heads(
         let near = foreign
             .or_else(|| suggest::closest(word, Head::WORDS.iter().copied()))
             .or_else(|| suggest::short_of(word, Head::WORDS.iter().copied()));
-        // `#foo bar` is no `#for`.
+        // `#foo bar` is not a `#for`.
         let fits = |near: &&str| {
             let head = Head::from_word(near);
             fits(head, next) && (head != Head::For || foreign.is_some() || opens(next))
@@ -103,7 +103,7 @@ pub(super) fn correct_heads(
         if let Some([name, array]) = each {
             let right = format!("#for (I, 0, dimension_size({array}, 1) - 1)");
             diagnostic = diagnostic.help(format!("write `{right}`, and `{array}[I]` for `{name}`"));
-            // Nothing is known of the name: its body is not run.
+            // The name is unknown: its body is not run.
             token.kind = TokenKind::Directive(Head::Ifdef);
             pairs.extend([at + 3, at + 4]);
         } else if let Some(near) = near.filter(fits) {
@@ -113,7 +113,7 @@ pub(super) fn correct_heads(
                 .fix(Span { start, ..span }, near);
             token.kind = TokenKind::Directive(Head::from_word(near));
         } else if text.get(span.range()).is_some_and(|head| head[1..].starts_with([' ', '\t'])) {
-            // A comment, as other languages write it (habits/sign.rs).
+            // A comment of another language (habits/sign.rs).
             continue;
         }
         if word == "continue" {
@@ -134,7 +134,7 @@ pub(super) fn correct_heads(
     drop_their_ends(tokens);
 }
 
-/// `#foreach (V, A)`: what stands for each element, and the array.
+/// `#foreach (V, A)`: returns the name for each element, and the array.
 fn each_of<'a>(tokens: &[Token], text: &'a str) -> Option<[&'a str; 2]> {
     let [head, open, name, comma, array, close, ..] = tokens else { return None };
     let slice = |token: &Token| text.get(token.start as usize..token.end as usize).unwrap_or("");
@@ -149,14 +149,14 @@ fn each_of<'a>(tokens: &[Token], text: &'a str) -> Option<[&'a str; 2]> {
     is_each.then(|| [slice(name), slice(array)])
 }
 
-/// Whether `#word` is rather a directive that is misspelt, or another language's.
+/// Returns whether `#word` is probably a misspelt directive, or another language's.
 pub(super) fn is_near_a_directive(head: &str) -> bool {
     let word = directive_word(head);
     FOREIGN.iter().any(|(theirs, _)| *theirs == word)
         || suggest::closest(word, Head::WORDS.iter().copied()).is_some()
 }
 
-/// `# Declare the balls`: a sentence that begins with a word of the language (told in habits/sign.rs).
+/// `# Declare the balls`: returns whether a sentence begins with a keyword (reported in habits/sign.rs).
 fn reads_as_comment(text: &str, head: Span) -> bool {
     let word = text.get(head.start as usize + 1..head.end as usize).unwrap_or("");
     let prose = word.starts_with([' ', '\t']) && word.trim_start().starts_with(char::is_uppercase);
@@ -172,7 +172,7 @@ fn opens(next: Option<TokenKind>) -> bool {
     next == Some(TokenKind::Mark(Mark::Open(Bracket::Round)))
 }
 
-/// Whether what follows can be a condition, where a directive has one.
+/// Returns whether the next token can begin a condition, if the directive has one.
 fn fits(head: Head, next: Option<TokenKind>) -> bool {
     let has_condition = matches!(head, Head::Elseif | Head::Case | Head::Range)
         || (head.opens() && head != Head::Macro);
@@ -187,7 +187,8 @@ fn fits(head: Head, next: Option<TokenKind>) -> bool {
     !has_condition || may_begin
 }
 
-/// Where there are more `#end`s than directives to end, those of the unknown ones go with them.
+/// Drops surplus `#end`s: if there are more than directives to end, those of the unknown ones are dropped
+/// with them.
 fn drop_their_ends(tokens: &mut Vec<Token>) {
     let takes_parentheses = |at: usize| {
         tokens

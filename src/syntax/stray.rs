@@ -1,4 +1,4 @@
-//! Characters that mean nothing where they stand.
+//! Reports characters without meaning in their position.
 
 use super::ast::ExpressionKind;
 use super::nest::{Nest, State};
@@ -6,7 +6,7 @@ use super::token::{Bracket, Mark, Token, TokenKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
-/// Quotes that no language of programs has, as word processors write them in some country.
+/// Typographic quotes of word processors, which no programming language uses.
 const QUOTES: [char; 10] = ['“', '”', '„', '‟', '«', '»', '‘', '’', '‚', '‛'];
 
 impl Nest<'_> {
@@ -61,14 +61,14 @@ impl Nest<'_> {
             let open = TokenKind::Mark(Mark::Open(Bracket::Round));
             matches!(next.kind, TokenKind::Number | TokenKind::Name) || next.kind == open
         });
-        // Told: what stands behind it is no other value.
+        // Reported: the next token is not another value.
         if goes_on && matches!(text, "%" | "^") && matches!(self.top().state, State::Holding { .. })
         {
             self.mark(Mark::Star, token);
         }
     }
 
-    /// The `n` of a `\n` outside of strings.
+    /// Returns the `n` of a `\n` outside strings.
     fn escape_behind(&self, backslash: Token) -> Option<char> {
         let next = self.tokens.get(self.at + 1)?;
         let sign = self.slice(self.span(*next));
@@ -76,7 +76,7 @@ impl Nest<'_> {
         is_escape.then(|| sign.chars().next()).flatten()
     }
 
-    /// `“…”`, as word processors write it: one mistake, and taken as a string that is not known.
+    /// `“…”`, as word processors write it: reported once, and parsed as an unknown string.
     fn curly_string(&mut self, open: Span, close: usize, quote: char) {
         let close = Span::new(self.file, close, close + quote.len_utf8());
         let opening = self.slice(open);

@@ -1,22 +1,22 @@
-//! Tells many of one mistake as one.
+//! Merges repeated diagnostics of the same mistake.
 //!
-//! **In:** what was found, in the order of the text. **Out:** the same, but closers without an opener that
-//! stand side by side are one message, and so are all but the first few openers that lack their closer at
-//! one place; each says how many more there are.
+//! **In:** diagnostics, in source order. **Out:** the same, but adjacent closers without an opener share one
+//! diagnostic, and so do all but the first few openers that lack their closer at the same position; each
+//! gives the number of further ones.
 
 use std::collections::HashMap;
 
 use crate::diagnostic::{Code, Diagnostic};
 
-/// So many openers of one kind are told one by one.
+/// The most openers of one kind that are reported one by one.
 const FEW: usize = 10;
 
 pub(super) fn tally(found: Vec<Diagnostic>, text: &str) -> Vec<Diagnostic> {
     let mut told: Vec<Diagnostic> = Vec::with_capacity(found.len().min(1000));
-    // How many more there are of the messages in `told`.
+    // The number of further diagnostics for each in `told`.
     let mut more: HashMap<usize, usize> = HashMap::new();
     let mut openers: HashMap<String, (usize, usize)> = HashMap::new();
-    // Where the run ends that the last message is about.
+    // The end of the run that the last diagnostic covers.
     let mut run_end = 0;
     for diagnostic in found {
         let Some(place) = diagnostic.primary().map(|label| label.span) else {
@@ -58,7 +58,7 @@ pub(super) fn tally(found: Vec<Diagnostic>, text: &str) -> Vec<Diagnostic> {
     told
 }
 
-/// `49,999`.
+/// Returns a number with thousands separators: `49,999`.
 fn thousands(number: usize) -> String {
     let digits = number.to_string();
     let groups = digits.as_bytes().rchunks(3).rev();

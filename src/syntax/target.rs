@@ -1,4 +1,4 @@
-//! Names that directives declare, test or forget: `Name`, `Name[i][j]`.
+//! Parses names that directives declare, test or undefine: `Name`, `Name[i][j]`.
 
 use super::ast::{ExpressionId, ExpressionKind, ItemKind, Items, NameId, Target};
 use super::nest::Nest;
@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
 impl<'a> Nest<'a> {
-    /// `Name` or `Name[i][j]`, without a message if it is neither.
+    /// Returns `Name` or `Name[i][j]`; `None` without a diagnostic if it is neither.
     pub(super) fn target_if_any(&mut self, id: ExpressionId) -> Option<Target> {
         let span = self.ast.expression(id).span;
         let (mut of, mut indices) = (id, Vec::new());
@@ -40,7 +40,7 @@ impl<'a> Nest<'a> {
         None
     }
 
-    /// A reserved word that is no value comes as an item, not as an expression.
+    /// Returns a name from items: a reserved word that is not a value is an item, not an expression.
     pub(super) fn name_of_items(&mut self, items: Items) -> Option<(NameId, Span)> {
         let first = *self.ast.items(items).first()?;
         if let ItemKind::Word(_) = first.kind {
@@ -75,7 +75,7 @@ impl<'a> Nest<'a> {
         self.report(diagnostic);
     }
 
-    /// Reports a word of the language where a new name was wanted, and takes it for a name.
+    /// Reports a keyword in place of a new name, and treats it as a name.
     pub(super) fn reserved(&mut self, span: Span) -> NameId {
         let text = self.slice(span);
         if self.names.contains_key(text) {

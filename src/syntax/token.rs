@@ -1,7 +1,7 @@
-//! Turns a text into tokens: the only file that knows pest.
+//! Splits a text into tokens; the only module that uses pest.
 //!
-//! **In:** a text without comments. **Out:** its tokens, in order, without blanks.
-//! **Invariant:** every byte that is not blank is in exactly one token.
+//! **In:** a text without comments. **Out:** its tokens, in order, without blanks. **Invariant:** every byte
+//! that is not blank is in exactly one token.
 
 use pest::Parser;
 use pest_derive::Parser;
@@ -35,9 +35,9 @@ pub(super) enum TokenKind {
     /// A brace that pairs only after expansion.
     LooseOpen,
     LooseClose,
-    /// Stands in for the body of a macro whose other brackets pair only after expansion.
+    /// Replaces the body of a macro whose other brackets pair only after expansion.
     Raw,
-    /// Stands in for a body that stays text until it is run.
+    /// Replaces a body that stays text until it is run.
     Unread,
     /// A character without meaning, or a `#` without a word.
     Stray,
@@ -68,7 +68,7 @@ pub(super) enum Mark {
     Colon,
 }
 
-/// The brackets that pair without knowing what stands between them (`<` does not).
+/// The brackets that pair regardless of what is between them (`<` does not).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bracket {
     Brace,
@@ -96,7 +96,7 @@ impl Bracket {
 
 macro_rules! heads {
     ($($variant:ident $word:literal)*) => {
-        /// The word of a directive.
+        /// The keyword of a directive.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub(super) enum Head { $($variant,)* Unknown }
 
@@ -125,7 +125,7 @@ heads! {
 }
 
 impl Head {
-    /// True for a directive that ends with its own `#end`.
+    /// Returns whether the directive ends with its own `#end`.
     pub fn opens(self) -> bool {
         matches!(
             self,
@@ -139,23 +139,23 @@ impl Head {
         )
     }
 
-    /// True for one that starts another branch of a directive.
+    /// Returns whether the directive starts another branch.
     pub fn divides(self) -> bool {
         matches!(self, Head::Else | Head::Elseif | Head::Case | Head::Range)
     }
 }
 
-/// All tokens of a text.
+/// Returns all tokens of a text.
 pub(super) fn tokens(text: &str) -> Vec<Token> {
     let mut tokens = Vec::with_capacity(text.len() / 3);
-    // Where the next piece begins, and where the last token ends.
+    // The start of the next piece, and the end of the last token.
     let (mut at, mut behind) = (0, 0);
     while let Some(rest) = text.get(at..)
         && let Some(piece) = Grammar::parse(Rule::piece, rest).ok().and_then(|mut p| p.next())
     {
         let length = piece.as_str().len();
         if length == 0 {
-            // The grammar takes every character: this is the end.
+            // The grammar accepts every character: this is the end.
             break;
         }
         for pair in piece.into_inner() {
@@ -180,7 +180,7 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
                     };
                     let end = start + token.len();
                     match (kind, tokens.last_mut()) {
-                        // The word may stand on a line after its `#`.
+                        // The word may be on a line after its `#`.
                         (TokenKind::Word(_) | TokenKind::Name, Some(hash))
                             if hash.kind == TokenKind::Stray
                                 && text.get(hash.start as usize..hash.end as usize)
@@ -201,17 +201,17 @@ pub(super) fn tokens(text: &str) -> Vec<Token> {
     tokens
 }
 
-/// The word of a directive, without its `#` and the blanks between the two.
+/// Returns the keyword of a directive, without its `#` and the blanks between the two.
 pub(super) fn directive_word(directive: &str) -> &str {
     directive.trim_start_matches(|c: char| c == '#' || c.is_whitespace())
 }
 
-/// A word of the language, or a name.
+/// Returns a keyword, or a name.
 pub(super) fn word(text: &str) -> TokenKind {
     Word::from_name(text).map_or(TokenKind::Name, TokenKind::Word)
 }
 
-/// The marks that numeric text does not have.
+/// Returns the marks that do not occur in numeric text.
 fn mark(text: &str) -> TokenKind {
     TokenKind::Mark(match text {
         "{" => Mark::Open(Bracket::Brace),

@@ -1,8 +1,8 @@
-//! Bodies of directives that cannot be read: in a `.pov` each stays text until it is run.
+//! Leaves bodies of directives that cannot be parsed as text until they are run, in a `.pov`.
 //!
-//! **In:** a text that has mistakes, and where they are. **Out:** the bodies around them, of macros, branches,
-//! loops and cases. **Invariant:** with these left out the rest of the text has no mistake; POV-Ray 3.7 passes
-//! over what it does not run word by word (measured), so a mistake in there is one only where it is run.
+//! **In:** a text with errors, and their positions. **Out:** the bodies around them, of macros, branches,
+//! loops and cases. **Invariant:** without these bodies the text has no error; POV-Ray 3.7 skips word by word
+//! what it does not run (measured), so an error inside counts only if it is run.
 
 use std::ops::Range;
 
@@ -15,16 +15,16 @@ use super::token::{Bracket, Head, Mark, Token, TokenKind, tokens};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::vocabulary::Dialect;
 
-/// How often a text is read for the mistakes behind those that were found before.
+/// The most times that a text is parsed to find errors after those found before.
 const MOST_READINGS: usize = 16;
 
-/// Whether mistakes in what is never run are looked for at all.
+/// Returns whether bodies with errors are left as text: only in a `.pov`.
 pub(super) fn is_asked_for(options: &ParseOptions) -> bool {
     options.defers && options.dialect == Dialect::Pov
 }
 
-/// The bodies to leave unread so that `read` finds no mistake in the rest; `None` where some mistake stands in
-/// none. `first` is what it finds in the whole.
+/// Returns the bodies to leave out so that `read` finds no error in the rest; `None` if some error is in no
+/// body. `first` are the errors of the whole text.
 pub(super) fn bodies_around_mistakes(
     quiet_text: &str,
     first: &Diagnostics,
@@ -41,7 +41,8 @@ pub(super) fn bodies_around_mistakes(
         if mistakes.iter().any(|mistake| swallows(mistake)) {
             return None;
         }
-        // One outside of all may come of those inside: `#esle` makes an `#else` behind it one too many.
+        // An error outside all bodies may follow from those inside: `#esle` makes an `#else` after it
+        // surplus.
         let around = |mistake: &&Diagnostic| innermost_around(mistake, &bodies, &unread);
         let more: Vec<Range<usize>> = mistakes.iter().filter_map(around).collect();
         if more.is_empty() {
@@ -60,12 +61,12 @@ pub(super) fn bodies_around_mistakes(
     None
 }
 
-/// Whether a mistake takes in what stands behind it, so that a body there is none.
+/// Returns whether an error affects everything after it, so that a body there is not one.
 fn swallows(mistake: &Diagnostic) -> bool {
     matches!(mistake.code, Code::UnclosedString | Code::UnclosedComment | Code::NestingLimit)
 }
 
-/// The smallest body around a mistake that is not left out already.
+/// Returns the smallest body around an error that is not left out already.
 fn innermost_around(
     mistake: &Diagnostic,
     bodies: &[Range<usize>],
@@ -78,7 +79,7 @@ fn innermost_around(
     bodies.iter().filter(holds).min_by_key(|body| body.len()).cloned()
 }
 
-/// Puts blanks in the place of what is not read.
+/// Replaces the bodies that are left out by blanks.
 pub(super) fn leave_out(quiet: &mut Quiet, unread: &[Range<usize>]) {
     let inside = |at: usize| {
         let before = unread.partition_point(|body| body.start <= at);
@@ -99,9 +100,10 @@ pub(super) fn stand_in(tokens: &mut Vec<Token>, unread: &[Range<usize>]) {
     tokens.sort_by_key(|token| token.start);
 }
 
-/// The bodies of all directives, without the blanks around them.
+/// Returns the bodies of all directives, without the blanks around them.
 fn bodies(tokens: &[Token], text: &str) -> Vec<Range<usize>> {
-    // Where each body begins, and what its directive was last: a second `#else` is passed over with the first.
+    // The start of each body, and the last keyword of its directive: a second `#else` is skipped with the
+    // first.
     let (mut open, mut bodies): (Vec<(Option<usize>, Head)>, _) = (Vec::new(), Vec::new());
     let mut close = |begun: Option<usize>, end: usize| {
         let Some(first) = begun.filter(|first| *first < end) else { return };
@@ -132,7 +134,7 @@ fn bodies(tokens: &[Token], text: &str) -> Vec<Range<usize>> {
     bodies
 }
 
-/// Whether `head` begins another body of the directive whose present body `last` began.
+/// Returns whether `head` begins another body of the directive whose current body began with `last`.
 fn divides(last: Head, head: Head) -> bool {
     match last {
         Head::If | Head::Ifdef | Head::Ifndef | Head::Elseif => {
@@ -145,12 +147,12 @@ fn divides(last: Head, head: Head) -> bool {
     }
 }
 
-/// The first token behind the head of a directive, with what it asks in parentheses.
+/// Returns the first token after the head of a directive, including its condition in parentheses.
 fn behind_head(tokens: &[Token], at: usize, head: Head) -> Option<usize> {
     match head {
         Head::Else => Some(at + 1),
         Head::Macro => body_start(tokens, at),
-        // Up to its first case nothing is run.
+        // Nothing is run before its first case.
         Head::Switch => None,
         _ => {
             let mut depth = 0_usize;

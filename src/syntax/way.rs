@@ -1,9 +1,9 @@
-//! The ways through a macro's body whose brackets pair on each way, and not as they are written:
-//! `#if (A) #write (F, "mesh {", #else mesh { #end … #if (A) "}") #else } #end`.
+//! Finds the paths through a macro's body whose brackets pair on each path, but not as written: `#if (A)
+//! #write (F, "mesh {", #else mesh { #end … #if (A) "}") #else } #end`.
 //!
-//! **In:** a text, and where the body stands in it. **Out:** the conditions that decide, and the body as it is
-//! where they have come to what they come to: each character in its place, and blanks for what is not run.
-//! **Invariant:** the body assigns to no name in such a condition, so that each is the same all through it.
+//! **In:** a text, and the span of the body. **Out:** the deciding conditions, and for given values of these
+//! the body as it runs: each character in its position, and blanks for branches that are not run.
+//! **Invariant:** the body assigns to no name in such a condition, so that its value is constant throughout.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -14,21 +14,21 @@ use super::token::{Bracket, Head, Mark, Token, TokenKind, tokens};
 use crate::diagnostic::Diagnostics;
 use crate::source::Span;
 
-/// See the module.
+/// The paths through a macro's body; see the module.
 #[derive(Debug)]
 pub struct Ways {
     body: Span,
     forks: Vec<Fork>,
 }
 
-/// An `#if` in whose branches brackets stand without their partners.
+/// An `#if` whose branches do not pair by themselves.
 #[derive(Debug)]
 struct Fork {
-    /// With its parentheses.
+    /// Including its parentheses.
     condition: Range<usize>,
     /// `#if (…)`, `#else` and `#end`.
     marks: [Range<usize>; 3],
-    /// Where the condition holds, and where it does not.
+    /// The branch if the condition holds, and the other one.
     branches: [Range<usize>; 2],
 }
 
@@ -39,17 +39,18 @@ impl Fork {
     }
 }
 
-/// A directive that has begun.
+/// An open directive.
 struct Begun {
     head: Head,
     at: usize,
     otherwise: Option<usize>,
-    /// It has more branches than two.
+    /// It has more than two branches.
     is_manifold: bool,
 }
 
 impl Ways {
-    /// `None` where the brackets pair on no way, or it takes more than an `#if` to tell which is taken.
+    /// Returns the paths; `None` if the brackets pair on no path, or if the choice depends on more than
+    /// `#if`s.
     pub fn of(text: &str, body: Span) -> Option<Self> {
         let quiet = comment::quiet(text, body.file, &mut Diagnostics::new(true));
         let all: Vec<Token> = tokens(&quiet.text)
@@ -93,8 +94,8 @@ impl Ways {
         (begun.is_empty() && whole && !is_changed && !ways.forks.is_empty()).then_some(ways)
     }
 
-    /// Takes an `#if` that ends at `end` for a fork if its branches do not pair; `None` where anything else does
-    /// not.
+    /// Records an `#if` that ends at `end` as a fork if its branches do not pair; `None` if anything else
+    /// does not pair.
     fn judge(&mut self, all: &[Token], begun: &Begun, end: usize) -> Option<()> {
         let behind = begun.otherwise.map_or(end, |otherwise| otherwise);
         let condition = (begun.head == Head::If).then(|| closed(all, begun.at + 1)).flatten();
@@ -119,7 +120,7 @@ impl Ways {
         Some(())
     }
 
-    /// What is left where all that was found to decide holds, or nothing of it.
+    /// Returns the remaining tokens if all deciding conditions hold (`way`), or none does.
     fn along(&self, tokens: &[Token], way: bool) -> Vec<Token> {
         let is_run = |token: &&Token| {
             !self.forks.iter().any(|fork| fork.is_left_out(token.start as usize, way))
@@ -127,37 +128,37 @@ impl Ways {
         tokens.iter().filter(is_run).copied().collect()
     }
 
-    /// The conditions with their parentheses, in the order in which `text_where` takes what they come to.
+    /// Returns the conditions with their parentheses, in the order in which `text_where` takes their values.
     pub fn conditions(&self) -> impl Iterator<Item = Span> {
         self.forks
             .iter()
             .map(|fork| Span::new(self.body.file, fork.condition.start, fork.condition.end))
     }
 
-    /// Whether a place is run where the first conditions come to this.
+    /// Returns whether the position `at` is run, given the values of the first conditions.
     pub fn reaches(&self, at: usize, holds: &[bool]) -> bool {
         !self.forks.iter().zip(holds).any(|(fork, holds)| fork.is_left_out(at, *holds))
     }
 
-    /// The body alone, on its way.
+    /// Returns the body alone, on the path given by the conditions' values.
     pub fn text_where(&self, text: &str, holds: &[bool]) -> String {
         blanked(text, |at| self.body.range().contains(&at) && self.reaches(at, holds))
     }
 }
 
-/// A text with nothing in it but a part.
+/// Returns a text in which everything but `part` is blank.
 pub fn alone(text: &str, part: Span) -> String {
     blanked(text, |at| part.range().contains(&at))
 }
 
-/// A text with blanks in the place of what is not kept; its lines stay.
+/// Returns a text with blanks for the bytes that are not kept; its line breaks stay.
 fn blanked(text: &str, is_kept: impl Fn(usize) -> bool) -> String {
     let bytes = text.bytes().enumerate();
     let kept = bytes.map(|(at, byte)| if byte == b'\n' || is_kept(at) { byte } else { b' ' });
     String::from_utf8_lossy(&kept.collect::<Vec<_>>()).into_owned()
 }
 
-/// The `)` of a `(`.
+/// Returns the `)` of a `(`.
 fn closed(tokens: &[Token], open: usize) -> Option<usize> {
     let mut depth = 0_usize;
     for (at, token) in tokens.iter().enumerate().skip(open) {

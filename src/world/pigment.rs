@@ -1,4 +1,4 @@
-//! The colour of a pigment at a point in its texture's space.
+//! Evaluates the colour of a pigment at a point in its texture's space.
 //!
 //! **Out:** a colour between those of its map.
 
@@ -7,8 +7,8 @@ use crate::color::Color;
 use crate::math::Vector;
 use crate::pattern::Measured;
 
-/// The colour at a point in the texture's space, which may be off by `error` along each axis. That
-/// is only asked after near a seam of the pattern or of its map, if the point is sharp (see
+/// Returns the colour at a point in the texture's space, which may be off by `error` along each axis. `error`
+/// is called for a sharp point only near a seam of the pattern or of its map, and otherwise always (see
 /// `trace::sharpness`).
 #[inline(always)]
 pub fn at(
@@ -19,7 +19,7 @@ pub fn at(
 ) -> Color {
     match pigment {
         Pigment::Color(color) => *color,
-        // Which it is no point tells.
+        // A point alone does not identify the face.
         Pigment::Faces(colors) => colors.first().copied().unwrap_or(Color::BLACK),
         Pigment::Patterned { pattern, pattern_from_texture: map, map: colors } => {
             let place = map.point(point);
@@ -34,15 +34,15 @@ pub fn at(
     }
 }
 
-/// The first entry of the map that the value's error does not tell it from: the value is that.
+/// Returns the value of the first map entry that is within the error of `value`.
 fn entry_at(map: &[(f64, Color)], value: f64, error: f64) -> Option<f64> {
     let near = map.partition_point(|entry| entry.0 < value - error);
     map.get(near).map(|entry| entry.0).filter(|&entry| entry <= value + error)
 }
 
-/// The map's colour for a value: linear between entries, the nearest entry's outside of them. Of
-/// several entries with exactly the value the first counts, but at the map's end the last. `None`
-/// where the value's error may not tell it from an entry's, or it is no number.
+/// Returns the map's colour for a value: linear between entries, constant beyond the first and the last. Of
+/// several entries with exactly this value the first counts, but at the map's end the last. `None` if an
+/// entry lies within the value's error, or the value is NaN.
 ///
 /// **Source:** POV-Ray 3.7's behaviour, measured on planes of constant gradient.
 #[inline(always)]

@@ -1,7 +1,7 @@
-//! A World for people to read: `lucarne show --stage world`.
+//! Prints a World in readable form, for `lucarne show --stage world`.
 //!
-//! **Invariant:** every number of the World is here, each in the shortest form that reads back to the
-//! same bits; an object stands with its shape, a box with the seed's numbers for each face.
+//! **Invariant:** prints every number of the World, each in the shortest form that reads back to the same
+//! bits; an object comes with its shape, a box with the numbers of each face.
 
 use std::fmt::{self, Write};
 
@@ -19,7 +19,7 @@ use crate::shape::csg::Node;
 use crate::shape::{Box_, Shape};
 use crate::source::{Site, Sources};
 
-/// The World, a part a line; what a part came from stands behind it.
+/// Returns the World as text, one part a line, each followed by its origin.
 pub fn dump(world: &World, origins: &Origins, sources: &Sources) -> String {
     let mut out = String::new();
     let printer = Printer { world, origins, sources };
@@ -184,7 +184,7 @@ impl Printer<'_> {
         self.constants(out, object)
     }
 
-    /// The texture coordinates that do not change over a face.
+    /// Prints the texture coordinates that are constant over a face.
     fn constants(&self, out: &mut String, object: &Object) -> fmt::Result {
         let Some(start) = object.faces else { return Ok(()) };
         let count = match object.shape {
@@ -211,14 +211,14 @@ impl Printer<'_> {
     }
 }
 
-/// Where a solid with a space of its own stands: its centre here, its matrices in `more`.
+/// Prints the placement of a solid with its own space: its centre in `out`, its matrices in `more`.
 fn placement(out: &mut String, more: &mut String, placement: &Placement) -> fmt::Result {
     write!(out, " centre {}", vector(placement.centre))?;
     writeln!(more, "      world_from_local {}", matrix(placement.world_from_local))?;
     writeln!(more, "      local_from_world {}", matrix(placement.local_from_world))
 }
 
-/// A whole's operations in postfix order, its leaves by their objects.
+/// Prints the operations of a CSG solid in postfix order, its leaves by their objects.
 fn nodes(out: &mut String, whole: &Whole) -> fmt::Result {
     let mut leaves = whole.leaves();
     for node in &whole.nodes {
@@ -238,7 +238,7 @@ fn nodes(out: &mut String, whole: &Whole) -> fmt::Result {
     writeln!(out)
 }
 
-/// A box as the seed describes it: for each of three faces N, C_f, d_f, C_o, d_o and l.
+/// Prints a box face by face: for each of three pairs of faces N, C_f, d_f, C_o, d_o and l.
 fn faces(out: &mut String, solid: &Box_) -> fmt::Result {
     for i in 0..3 {
         let face = solid.face(i);
@@ -342,7 +342,7 @@ fn unit(v: UnitVector) -> String {
     vector(v.get())
 }
 
-/// Row by row.
+/// Returns the matrix row by row.
 fn matrix(m: Matrix) -> String {
     [m.row(0), m.row(1), m.row(2)].map(vector).join(" ")
 }

@@ -1,4 +1,4 @@
-//! What the World's solids answer: what is inside of which, and which are one.
+//! Queries about the World's solids: point containment, and which objects form one solid.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -10,7 +10,7 @@ use crate::shape::body::Local;
 use crate::shape::{Body, JuliaFractal, Placed, Shape, csg};
 
 impl World {
-    /// Whether a point lies inside an object: outside of its shape, if it is `inverse`.
+    /// Returns whether a point lies inside an object: outside its shape, if the object is `inverse`.
     pub fn contains(&self, object: &Object, point: Vector) -> bool {
         let inside = match object.shape {
             Shape::Sphere(i) => self.spheres[i as usize].contains(point),
@@ -22,7 +22,7 @@ impl World {
         inside != object.inverse
     }
 
-    /// Whether a point lies inside an object, or the whole that it is a part of.
+    /// Returns whether a point lies inside an object, or inside the CSG solid that it is part of.
     pub fn whole_contains(&self, object: &Object, point: Vector) -> bool {
         let Some(whole) = object.whole else { return self.contains(object, point) };
         let whole = &self.wholes[whole as usize];
@@ -30,7 +30,7 @@ impl World {
         csg::contains(&whole.nodes, self.objects[whole.leaves()].iter().map(leaf))
     }
 
-    /// The language's word for an object's shape.
+    /// Returns the keyword of an object's shape.
     pub fn word(&self, object: &Object) -> &'static str {
         match object.shape {
             Shape::Sphere(_) | Shape::Ellipsoid(_) => "sphere",
@@ -40,7 +40,7 @@ impl World {
         }
     }
 
-    /// Those of the objects that are no parts, and of each whole the first part.
+    /// Returns the indices of the objects outside CSG solids, and of the first part of each CSG solid.
     pub fn solids(&self) -> impl Iterator<Item = u32> {
         (0..self.objects.len() as u32).filter(|&i| {
             let whole = self.objects[i as usize].whole;
@@ -48,7 +48,7 @@ impl World {
         })
     }
 
-    /// The objects that a solid of [`World::solids`] is made of.
+    /// Returns the objects that make up a solid of [`World::solids`].
     pub fn parts(&self, solid: u32) -> &[Object] {
         let at = solid as usize;
         match self.objects[at].whole {
@@ -57,18 +57,18 @@ impl World {
         }
     }
 
-    /// Whether the crossings of any solid are found by steps that come nearer and nearer.
+    /// Returns whether any solid is intersected by iteration.
     pub fn has_iterated_roots(&self) -> bool {
         self.placed.iter().any(|placed| placed.body.is_iterated())
     }
 
-    /// The most iterations that a fractal has; `None` where there is no fractal.
+    /// Returns the most iterations of any fractal; `None` if there is none.
     pub fn julia_iterations(&self) -> Option<u32> {
         let fractals = self.placed.iter().filter_map(fractal);
         fractals.map(|fractal| fractal.iterations).max()
     }
 
-    /// The same World, where no fractal has more iterations than that.
+    /// Returns the same World with the iterations of each fractal limited to `most`.
     pub fn within_julia_iterations(&self, most: Option<u32>) -> Cow<'_, Self> {
         let most = match (most, self.julia_iterations()) {
             (Some(most), Some(own)) if own > most => most,
@@ -88,7 +88,7 @@ impl World {
         Cow::Owned(world)
     }
 
-    /// Whether an object has no inside.
+    /// Returns whether an object has no inside.
     pub fn is_sheet(&self, object: u32) -> bool {
         match self.objects[object as usize].shape {
             Shape::Placed(i) => self.placed[i as usize].body.is_sheet(),
@@ -96,7 +96,7 @@ impl World {
         }
     }
 
-    /// Whether an object is a box without thickness: who goes in goes out.
+    /// Returns whether an object is a box without thickness: a ray that enters leaves at once.
     pub fn is_flat_box(&self, object: u32) -> bool {
         match self.objects[object as usize].shape {
             Shape::Box(i) => self.boxes[i as usize].is_flat(),
@@ -104,7 +104,7 @@ impl World {
         }
     }
 
-    /// Whether both are parts of one whole, or the same.
+    /// Returns whether both are parts of one CSG solid, or the same object.
     pub fn is_same_solid(&self, a: u32, b: u32) -> bool {
         let whole = |object: u32| self.objects[object as usize].whole;
         a == b || whole(a).is_some() && whole(a) == whole(b)

@@ -1,7 +1,8 @@
-//! Gaps between the parts of an operation: along the axes, and across the parts' own faces.
+//! Finds gaps between the parts of an operation: along the axes, and across the parts' own faces.
 //!
-//! **In:** what is known of some parts. **Out:** two of them that do not meet. **Invariant:** told where what the
-//! parts reach proves it, along one direction; that all meet nowhere may be for other reasons.
+//! **In:** the bounds of some parts. **Out:** two of them that do not overlap. **Invariant:** reported only
+//! where the extents of the parts prove it along one direction; parts without a common point may lack one for
+//! other reasons.
 
 use std::collections::BTreeMap;
 
@@ -11,20 +12,20 @@ use crate::geometry::reach::{Reach, slanted_faces};
 use crate::math::{UnitVector, Vector};
 use crate::shape::Shape;
 
-/// What is thinner than this, relative, is not there: it may all be rounding.
+/// Relative thickness below which a part is empty: it may all be rounding.
 pub(super) const THIN: f64 = 64.0 * f64::EPSILON;
-/// Slanted directions that are looked along: those that most parts have a face across.
+/// The most slanted directions that are tried: those across a face of the most parts.
 const MOST_DIRECTIONS: usize = 32;
 
-/// Two of some parts that do not meet.
+/// Two parts that do not overlap.
 pub(super) struct Gap {
     pub touching: bool,
     pub parts: [usize; 2],
 }
 
 impl Lowering<'_, '_> {
-    /// Two of some parts that are apart, or else that only touch; `None` where, along each direction that is
-    /// looked along, all have something in common.
+    /// Returns two parts that are apart, or else two that only touch; `None` where all parts overlap along
+    /// each direction that is tried.
     pub(super) fn gap(&self, parts: &[Known]) -> Option<Gap> {
         let straight = gap_along_axes(parts).filter(|gap| !gap.touching);
         straight.or_else(|| {
@@ -54,9 +55,10 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// Across the parts' slanted faces, and from the one ball of two parts to the other's middle.
+    /// Returns the directions across the parts' slanted faces, and from the only sphere of two parts to the
+    /// other's centre.
     fn directions(&self, parts: &[Known]) -> Vec<Vector> {
-        // Of each, by its numbers, how many parts have it, and which is the first.
+        // For each direction, keyed by its numbers: how many parts have it, and which is the first.
         let mut known: BTreeMap<[u64; 3], (usize, usize)> = BTreeMap::new();
         let mut all = Vec::new();
         let shapes = parts.iter().filter_map(|part| {
@@ -64,7 +66,7 @@ impl Lowering<'_, '_> {
             Some(self.world.objects[object as usize].shape)
         });
         for face in shapes.clone().flat_map(|shape| slanted_faces(&self.world, shape)) {
-            // One of two opposite directions; zero has no sign.
+            // Only one of two opposite directions; zero has no sign.
             let leads = face.to_array().into_iter().find(|share| *share != 0.0);
             let face = if leads < Some(0.0) { -face } else { face } + Vector::ZERO;
             let entry = known.entry(face.to_array().map(f64::to_bits)).or_insert((0, all.len()));
@@ -102,8 +104,8 @@ pub(super) fn gap_along_axes(parts: &[Known]) -> Option<Gap> {
     (0..3).filter_map(along).min_by_key(|gap| gap.touching)
 }
 
-/// Between the part that begins last and the one that ends first, where not even what touches overlaps. What is
-/// thin itself may lie in a face.
+/// Returns the gap between the part that begins last and the one that ends first, if they do not overlap or
+/// only touch. A part that is thin itself may lie in a face.
 fn between(reaches: &[Reach]) -> Option<Gap> {
     let (low, high) = (|part: usize| reaches[part].low, |part: usize| reaches[part].high);
     let last = (0..reaches.len()).max_by(|&a, &b| low(a).total_cmp(&low(b)))?;

@@ -1,17 +1,16 @@
-//! What an affine map does to a sphere about the origin: its stretch, without its rotation.
+//! Computes the stretch of an affine map without its rotation: its effect on a sphere about the origin.
 //!
-//! **In:** a map. **Out:** the symmetric positive part of it, and the inverse of that.
+//! **In:** a map. **Out:** its symmetric positive part, and the inverse of that part.
 
 use super::{Affine, Cofactors};
 use crate::math::double::{Double, DoubleVector, power_of_two_near};
 
 impl Affine {
-    /// The linear part without the rotation that comes first in it, which no sphere about the
-    /// origin can tell: the symmetric positive matrix P of M = P·Q, and its inverse. `None` where
-    /// the map flattens space.
+    /// Returns the linear part without its initial rotation, which does not change a sphere about the origin:
+    /// the symmetric positive matrix P of M = P·Q, and its inverse. `None` if the map flattens space.
     ///
-    /// Newton's iteration X ← ½(X + X⁻ᵀ) leads from M to Q, quadratically once near; it is exact
-    /// from the start where each row and column has but one number.
+    /// Newton's iteration X ← ½(X + X⁻ᵀ) converges from M to Q, quadratically near it; it is exact from the
+    /// start if each row and column has only one nonzero number.
     /// **Source:** Higham, "Computing the polar decomposition", SIAM J. Sci. Stat. Comput. 7 (1986).
     pub fn stretch(&self) -> Option<(Self, Self)> {
         let turn = if self.is_monomial() {
@@ -44,7 +43,7 @@ impl Affine {
         Some((symmetric(stretch), symmetric(unstretch)))
     }
 
-    /// The rows of the rotation (or mirror) nearest to the linear part.
+    /// Returns the rows of the rotation (or reflection) nearest to the linear part.
     fn nearest_rotation(&self) -> Option<[DoubleVector; 3]> {
         let half = Double::from(0.5);
         let mut near = *self;
@@ -53,7 +52,7 @@ impl Affine {
             // The columns of the inverse transpose.
             let [x, y, z] = rows.map(|row| row.map(|c| c / determinant));
             let opposite = Self::new([x, y, z], near.offset, near.rounding).columns();
-            // A power of two that brings the two to one size makes the first steps quick.
+            // Scaling the two to one size by a power of two speeds up the first steps.
             let balance = (opposite.iter().map(|r| r.largest()).fold(0.0, f64::max)
                 / near.rows.iter().map(|r| r.largest()).fold(0.0, f64::max))
             .sqrt();
@@ -74,7 +73,7 @@ impl Affine {
         Some(near.rows)
     }
 
-    /// Whether each row and each column has but one number that is not zero.
+    /// Returns whether each row and each column has exactly one nonzero number.
     fn is_monomial(&self) -> bool {
         let lone = |v: &DoubleVector| v.components().iter().filter(|c| !c.is_zero()).count() == 1;
         self.rows.iter().all(lone) && self.columns().iter().all(lone)

@@ -1,6 +1,6 @@
-//! What a text is made of when its blanks are left out: tokens and comments, in order.
+//! Splits a text into atoms, its tokens and comments in order, without blanks.
 //!
-//! **In:** a text without errors, and its tree. **Out:** its atoms, each with its part in the layout.
+//! **In:** a text without errors, and its tree. **Out:** its atoms, each with its role in the layout.
 //! **Invariant:** the atoms' texts, joined, are the text without its blanks.
 
 use std::borrow::Cow;
@@ -16,24 +16,24 @@ use crate::vocabulary::Word;
 pub(super) struct Atom<'a> {
     pub kind: Kind,
     pub text: Cow<'a, str>,
-    /// How many lines end between the atom before and this one.
+    /// The number of line breaks between the previous atom and this one.
     pub lines: usize,
-    /// The first of these ends is `\r\n`.
+    /// The first of these line breaks is `\r\n`.
     pub wide: bool,
-    /// How many characters stand before it in its line; a tab reaches the next multiple of eight.
+    /// The number of columns before it in its line; a tab advances to the next multiple of eight.
     pub column: usize,
 }
 
-/// The part an atom plays in the layout.
+/// The role of an atom in the layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// A word that is an item of its own.
+    /// A keyword that is an item of its own.
     Word(Word),
-    /// A word that is one only in its block.
+    /// A word that is a keyword only in its block.
     OwnWord,
-    /// A number, a string, a name, or a word that is a value.
+    /// A number, a string, a name, or a keyword that is a value.
     Value,
-    /// What is called by the parenthesis that follows.
+    /// The callee of the parenthesis that follows.
     Callee,
     Directive(Head),
     Open(Pair),
@@ -59,7 +59,7 @@ pub(super) enum Kind {
     Stray,
 }
 
-/// Brackets, by what they do to the layout.
+/// Kinds of brackets, by their effect on the layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pair {
     Brace,
@@ -76,7 +76,7 @@ impl Kind {
         matches!(self, Kind::LineComment | Kind::BlockComment)
     }
 
-    /// True for a directive that ends with its own `#end`.
+    /// Returns whether it is a directive that ends with its own `#end`.
     pub fn opens_directive(self) -> bool {
         matches!(self, Kind::Directive(head) if head.opens())
     }
@@ -95,7 +95,7 @@ impl Kind {
 }
 
 impl Atom<'_> {
-    /// True if it reaches over several lines.
+    /// Returns whether it spans several lines.
     pub fn is_tall(&self) -> bool {
         self.text.contains('\n')
     }
@@ -108,7 +108,7 @@ impl Atom<'_> {
     }
 }
 
-/// What the tree knows of a byte that its token does not say.
+/// Information about a byte that the tree has and its token lacks.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Role {
     None,
@@ -161,7 +161,7 @@ fn roles(ast: &Ast, length: usize) -> Vec<Role> {
     roles
 }
 
-/// The atoms of `source`, whose `tokens` pair. `quiet` is its text without comments.
+/// Returns the atoms of `source`, whose `tokens` pair. `quiet` is its text without comments.
 pub(super) fn atoms<'a>(
     source: &'a Source,
     quiet: &str,
@@ -181,7 +181,7 @@ pub(super) fn atoms<'a>(
     let parts = tokens.iter().flat_map(|&token| parts(token, quiet));
     for token in parts {
         while let Some(comment) = comments.next_if(|comment| comment.start < token.start) {
-            // The comments of a body that is kept as it is are in it.
+            // A body that is kept as it is contains its comments.
             if comment.start as usize >= list.kept {
                 list.comment(*comment);
             }
@@ -192,7 +192,7 @@ pub(super) fn atoms<'a>(
     list.atoms
 }
 
-/// A run of numbers as its tokens; any other token is its own.
+/// Returns the tokens of a run of numbers; any other token alone.
 pub(super) fn parts(token: Token, quiet: &str) -> Vec<Token> {
     if !matches!(token.kind, TokenKind::Numbers | TokenKind::Vectors) {
         return vec![token];
@@ -216,13 +216,13 @@ struct List<'a> {
     text: &'a str,
     roles: Vec<Role>,
     atoms: Vec<Atom<'a>>,
-    /// Where the last atom ends.
+    /// The end of the last atom.
     end: usize,
-    /// Where the line starts that it ends in.
+    /// The start of the line in which it ends.
     line: usize,
-    /// In the head of a declaration, its `=` still to come.
+    /// In the head of a declaration, before its `=`.
     declares: bool,
-    /// Where the last body ends that is kept as it is.
+    /// The end of the last body that is kept as it is.
     kept: usize,
 }
 
@@ -290,7 +290,7 @@ impl<'a> List<'a> {
         self.add(kind, start, end);
     }
 
-    /// A body as it is, from its first line's indent on.
+    /// Adds a body unchanged, starting at the indentation of its first line.
     fn raw(&mut self, start: usize, end: usize) {
         let body = self.text.get(start..end).unwrap_or("");
         let blank = body.len() - body.trim_start().len();
@@ -304,10 +304,10 @@ impl<'a> List<'a> {
             Mark::Open(Bracket::Brace) => Kind::Open(Pair::Brace),
             Mark::Close(Bracket::Brace) => Kind::Close(Pair::Brace),
             Mark::Open(Bracket::Round) => Kind::Open(Pair::Round),
-            // `A[1](x)`: what calls an element touches it, too.
+            // `A[1](x)`: the bracket of a called element touches it, too.
             Mark::Close(Bracket::Round) if role == Role::Index => Kind::Close(Pair::Index),
             Mark::Close(Bracket::Round) => Kind::Close(Pair::Round),
-            // Which of them are indices, their closers say.
+            // Their closers show which of them are indices.
             Mark::Open(Bracket::Square) => Kind::Open(Pair::Entry),
             Mark::Close(Bracket::Square) if role == Role::Index => Kind::Close(Pair::Index),
             Mark::Close(Bracket::Square) => Kind::Close(Pair::Entry),
@@ -336,7 +336,7 @@ impl<'a> List<'a> {
     }
 }
 
-/// `\n`, `\r\n` and `\r` each end a line.
+/// Counts line ends: `\n`, `\r\n` and `\r`.
 fn count_lines(gap: &str) -> usize {
     let bytes = gap.as_bytes();
     let ends = bytes.iter().enumerate().filter(|&(at, byte)| match byte {
@@ -347,12 +347,12 @@ fn count_lines(gap: &str) -> usize {
     ends.count()
 }
 
-/// How far a line's text reaches on a terminal.
+/// Returns the width of a line's text on a terminal.
 pub(super) fn columns(text: &str) -> usize {
     text.chars().fold(0, |column, c| if c == '\t' { (column / 8 + 1) * 8 } else { column + 1 })
 }
 
-/// The text with `\n` for every end of a line.
+/// Returns the text with `\n` for every line end.
 pub(super) fn with_plain_lines(text: &str) -> Cow<'_, str> {
     match text.contains('\r') {
         true => Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")),

@@ -1,36 +1,36 @@
-//! Puts the atoms into lines.
+//! Breaks the atoms into lines.
 //!
-//! A block that the author has in one line stays in one, if it fits; any other has a line for each item
-//! that began one, and its closer on its own. Between items the author's line breaks stand. What is too
-//! long ends before an item, after a comma, or before an operator.
-//! **Invariant:** one pass; doing it to its own result changes nothing.
+//! A block that the author wrote on one line stays on one, if it fits; any other has a line for each item
+//! that began one, and its closer on its own. Between items the author's line breaks are kept. A line that is
+//! too long is broken before an item, after a comma, or before an operator.
+//! **Invariant:** one pass; formatting the result again changes nothing.
 
 use super::atom::{Atom, Kind, Pair, columns};
 use super::group::{Groups, NONE};
 use super::rows::Row;
 use crate::syntax::token::Head;
 
-/// The columns a line has, but for its comment.
+/// The most columns of a line, without its comment.
 const WIDTH: usize = 100;
-/// The blanks of one level.
+/// The indentation of one level.
 const STEP: usize = 2;
-/// Lines inside parentheses begin below what follows the parenthesis, up to this column.
+/// Lines inside parentheses are aligned with the first token after the parenthesis, up to this column.
 const DEEPEST: usize = 40;
-/// The empty lines that may follow each other.
+/// The most consecutive empty lines.
 const MOST_BLANK: usize = 2;
 
-/// A group that is open.
+/// An open group.
 struct Frame {
     opener: usize,
-    /// All in one line.
+    /// All on one line.
     flat: bool,
     /// Too long for a line: each item has its own.
     split: bool,
-    /// Where the line begins that the closer begins.
+    /// The indentation of a line that the closer begins.
     base: usize,
-    /// Where the lines inside begin.
+    /// The indentation of the lines inside.
     inside: usize,
-    /// An entry on its opener's line, up to its first word.
+    /// An entry on its opener's line, before its first word.
     in_entry: bool,
 }
 
@@ -40,18 +40,18 @@ struct Flow<'a> {
     frames: Vec<Frame>,
     rows: Vec<Row>,
     row: Row,
-    /// Where the present line begins, and where it ends so far.
+    /// The start of the current line, and its end so far.
     indent: usize,
     column: usize,
-    /// Closers whose group is not in one line.
+    /// Closers whose group spans several lines.
     broken: Vec<bool>,
     /// In a row of items that is too long for a line: each has its own.
     parted: bool,
-    /// How lines end: those of comments do as all others.
+    /// The line end, also inside comments.
     end: &'static str,
 }
 
-/// The lines of a text.
+/// Returns the lines of a text.
 pub(super) fn rows(atoms: &[Atom], groups: &Groups, end: &'static str) -> Vec<Row> {
     let mut flow = Flow {
         atoms,
@@ -104,7 +104,7 @@ impl Flow<'_> {
         if let (Kind::Word(_), Some(frame)) = (atom.kind, self.frames.last_mut())
             && frame.in_entry
         {
-            // What an entry says stands below where it begins to: `[0 0.5 color A`, and `color B`.
+            // The content of an entry is aligned with its first word: `[0 0.5 color A`, and `color B`.
             (frame.inside, frame.in_entry) = (self.column - atom.width(), false);
         }
         if atom.kind.closes() {
@@ -121,7 +121,7 @@ impl Flow<'_> {
         self.column = if last.len() < text.len() { columns } else { self.column + columns };
     }
 
-    /// The text of a comment over several lines, moved as a whole if it began its line.
+    /// Returns the text of a comment over several lines, shifted as a whole if it began its line.
     fn tall_comment(&self, at: usize) -> String {
         let atom = &self.atoms[at];
         let began = atom.lines > 0 || at == 0;
@@ -129,7 +129,7 @@ impl Flow<'_> {
         shifted(&atom.text, atom.column, to).replace('\n', self.end)
     }
 
-    /// A comment behind code, or below such a comment.
+    /// Returns whether a comment follows code, or is below such a comment.
     fn stays_aside(&self, at: usize) -> bool {
         let atom = &self.atoms[at];
         if atom.kind != Kind::LineComment || at == 0 {
@@ -177,7 +177,7 @@ impl Flow<'_> {
         frame.inside + if bonus { STEP } else { 0 }
     }
 
-    /// True for the `#break` that a case ends with.
+    /// Returns whether this is the `#break` at the end of a case.
     fn ends_case(&self, at: usize) -> bool {
         let mut next = self.atoms[at + 1..].iter().map(|atom| atom.kind);
         let next = next.find(|kind| !kind.is_comment());
@@ -209,7 +209,8 @@ impl Flow<'_> {
         });
     }
 
-    /// True if the group of this opener, which has been put and ends at `column`, can end its line.
+    /// Returns whether the group of this opener, which has been written and ends at `column`, fits on its
+    /// line.
     fn fits(&self, opener: usize, column: usize) -> bool {
         if self.groups.stays_whole(opener) {
             return true;
@@ -226,7 +227,7 @@ impl Flow<'_> {
         column + self.groups.width(opener, last) - self.atoms[opener].width() <= WIDTH
     }
 
-    /// True if this atom begins a line.
+    /// Returns whether this atom begins a line.
     fn ends_before(&self, at: usize) -> bool {
         let (left, right) = (self.kind(at - 1), self.kind(at));
         if left == Kind::LineComment {
@@ -245,7 +246,7 @@ impl Flow<'_> {
         self.must_end(at) || (left == Kind::Stray) || self.should_end(at)
     }
 
-    /// True where a block or a directive over several lines wants a line break.
+    /// Returns whether a block or a directive over several lines requires a line break.
     fn must_end(&self, at: usize) -> bool {
         let right = self.kind(at);
         let Some(frame) = self.frames.last() else {
@@ -280,7 +281,7 @@ impl Flow<'_> {
             || self.is_broken_directive(at)
     }
 
-    /// True if the author's row of items that begins here is too long for a line.
+    /// Returns whether the author's row of items that begins here is too long for a line.
     fn is_long_row(&self, at: usize) -> bool {
         let of_row = |next: usize| {
             self.groups.parent[next] == self.groups.parent[at]
@@ -308,7 +309,7 @@ impl Flow<'_> {
         false
     }
 
-    /// True for an item behind a block or a directive over several lines.
+    /// Returns whether this item follows a block or a directive over several lines.
     fn follows_a_block(&self, at: usize) -> bool {
         self.broken[at - 1]
             && self.groups.lists(self.atoms, at)
@@ -323,7 +324,7 @@ impl Flow<'_> {
             )
     }
 
-    /// True for a directive over several lines that may begin one.
+    /// Returns whether this is a directive over several lines that may begin one.
     fn is_broken_directive(&self, at: usize) -> bool {
         let blank = 1;
         self.kind(at).opens_directive()
@@ -332,7 +333,7 @@ impl Flow<'_> {
                 && self.fits(at, self.column + blank + self.atoms[at].width()))
     }
 
-    /// True if the line is too long for what comes up to the next place where it may end.
+    /// Returns whether the line is too long for the atoms up to the next possible break.
     fn should_end(&self, at: usize) -> bool {
         let empty = self.row.code.trim_start().is_empty();
         if empty || self.groups.stays_whole(at) || !self.groups.may_end(self.atoms, at) {
@@ -341,7 +342,7 @@ impl Flow<'_> {
         let mut last = at;
         let mut next = at;
         loop {
-            // A group in one line is taken whole.
+            // A group on one line is kept whole.
             let closer = self.groups.partner[next];
             if self.kind(next).opens() && closer != NONE {
                 if !self.groups.in_one_line(next) {
@@ -367,7 +368,7 @@ impl Flow<'_> {
     }
 }
 
-/// The lines of a comment after its first, moved as that was: from column `from` to `to`.
+/// Returns the lines of a comment after its first, shifted from column `from` to `to`.
 fn shifted(text: &str, from: usize, to: usize) -> String {
     let mut lines = text.split('\n');
     let mut moved = lines.next().unwrap_or("").to_owned();

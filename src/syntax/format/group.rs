@@ -1,4 +1,4 @@
-//! What belongs together: the partner of each bracket and directive, and which lines of the author stand.
+//! Finds the partner of each bracket and directive, and the author's line breaks that are kept.
 //!
 //! **Invariant:** depends on the atoms and the author's line breaks only, never on widths.
 
@@ -14,17 +14,17 @@ pub(super) const NONE: usize = usize::MAX;
 
 /// The structure of a text.
 pub(super) struct Groups {
-    /// The closer of an opener, the opener of a closer; of a directive, its `#end`.
+    /// The closer of an opener, the opener of a closer; for a directive, its `#end`.
     pub partner: Vec<usize>,
-    /// The innermost opener around each atom; an opener, divider or closer lies in what is around it.
+    /// The innermost opener around each atom; an opener, divider or closer is in the group around it.
     pub parent: Vec<usize>,
     /// For the last atom of the head of a directive that has a body, that directive or its divider.
     pub head_of: Vec<usize>,
-    /// The `#ifndef` that the whole file stands in, as an include's does.
+    /// The `#ifndef` around the whole file, as in an include.
     pub guard: usize,
-    /// The author's rows with a comment that silences a warning there: they are not parted.
+    /// The author's rows with a comment that allows a lint there: they are not broken.
     whole: BTreeSet<usize>,
-    /// Where each atom would begin and end if all stood in one line, and in which of the author's rows.
+    /// The start and end of each atom if all were on one line, and its row in the author's text.
     before: Vec<Place>,
     behind: Vec<Place>,
 }
@@ -78,7 +78,7 @@ impl Groups {
             {
                 self.partner[at] = opener;
             }
-            // `array[3][2]`: no entries either.
+            // `array[3][2]`: not entries either.
             let before = at.checked_sub(1).map(|before| atoms[before].kind);
             if kind == Kind::Open(Pair::Entry)
                 && matches!(before, Some(Kind::Word(Word::Array) | Kind::Close(Pair::Index)))
@@ -138,35 +138,35 @@ impl Groups {
         }
     }
 
-    /// The columns that the atoms from `first` to `last` take in one line.
+    /// Returns the columns that the atoms from `first` to `last` take on one line.
     pub fn width(&self, first: usize, last: usize) -> usize {
         self.behind[last].column - self.before[first].column
     }
 
-    /// True if the author's row of this atom is not parted.
+    /// Returns whether the author's row of this atom is not broken.
     pub fn stays_whole(&self, at: usize) -> bool {
         self.whole.contains(&self.before[at].row)
     }
 
-    /// True if the author has the group of this opener in one line.
+    /// Returns whether the author wrote the group of this opener on one line.
     pub fn in_one_line(&self, opener: usize) -> bool {
         let closer = self.partner[opener];
         closer != NONE && self.before[closer].row == self.behind[opener].row
     }
 }
 
-/// True for a word that stands with the one before it in a line.
+/// Returns whether a keyword stays on the line of the one before.
 fn continues_a_word(word: Word) -> bool {
     word.family() == Family::Color || matches!(word, Word::Albedo | Word::All | Word::Once)
 }
 
-/// True for the components of a colour: `red 1 green 0.5`.
+/// Returns whether the keyword is a component of a colour: `red 1 green 0.5`.
 fn is_component(word: Word) -> bool {
     matches!(word, Word::Red | Word::Green | Word::Blue | Word::Filter | Word::Transmit)
 }
 
 impl Groups {
-    /// True if the atoms here are a list of items: those of a block, a directive, or the file.
+    /// Returns whether the atoms here are a list of items: those of a block, a directive, or the file.
     pub fn lists(&self, atoms: &[Atom], at: usize) -> bool {
         match self.parent[at] {
             NONE => true,
@@ -176,7 +176,7 @@ impl Groups {
         }
     }
 
-    /// True if the author's line break before this atom is left out.
+    /// Returns whether the author's line break before this atom is removed.
     pub fn joins(&self, atoms: &[Atom], at: usize) -> bool {
         use Kind as K;
         let Some(before) = at.checked_sub(1) else { return true };
@@ -188,7 +188,7 @@ impl Groups {
             (_, K::Comma | K::Semicolon | K::Dot | K::Open(Pair::Index)) => true,
             (K::Stray, _) => false,
             (K::Open(Pair::Index), _) => true,
-            // As its opener: both have a line break inside, or none.
+            // Like its opener: both have a line break inside, or none.
             (_, K::Close(Pair::Round | Pair::Entry | Pair::Angle | Pair::Index)) => {
                 !self.opens_a_line(atoms, self.partner[at])
             }
@@ -223,14 +223,14 @@ impl Groups {
         }
     }
 
-    /// True for an opener whose content begins on a line of its own, by the author's will.
+    /// Returns whether the author began the opener's content on a line of its own.
     pub fn opens_a_line(&self, atoms: &[Atom], opener: usize) -> bool {
         let at = opener.wrapping_add(1);
         let Some(next) = atoms.get(at).filter(|next| !next.kind.closes()) else { return false };
         next.kind == Kind::LineComment || (next.lines > 0 && !self.joins(atoms, at))
     }
 
-    /// True if an item begins here, so that a line may.
+    /// Returns whether an item begins here, so that a line may.
     pub fn begins(&self, atoms: &[Atom], at: usize) -> bool {
         use Kind as K;
         let Some(before) = at.checked_sub(1) else { return true };
@@ -253,7 +253,7 @@ impl Groups {
         }
     }
 
-    /// True if a line that begins here goes on with what the line before has begun.
+    /// Returns whether a line that begins here continues the line before.
     pub fn continues(&self, atoms: &[Atom], at: usize) -> bool {
         use Kind as K;
         let left = atoms[..at].iter().rev().map(|atom| atom.kind).find(|kind| !kind.is_comment());
@@ -267,7 +267,7 @@ impl Groups {
         unfinished || component || matches!(right, K::Operator | K::Product | K::Dot)
     }
 
-    /// True if a line that would be too long may end before this atom.
+    /// Returns whether a line that would be too long may be broken before this atom.
     pub fn may_end(&self, atoms: &[Atom], at: usize) -> bool {
         let Some(before) = at.checked_sub(1) else { return false };
         let (left, right) = (atoms[before].kind, atoms[at].kind);

@@ -1,8 +1,8 @@
-//! Canonical layout: blanks and indents are ours, tokens and comments stay the author's.
+//! Formats a text in canonical layout: changes blanks and indentation, and keeps tokens and comments.
 //!
-//! **In:** a text. **Out:** the same tokens and comments in canonical layout, or what is wrong with it.
-//! **Invariant:** no token or comment is added, dropped or reordered: the result is compared with the
-//! text, always. Formatting twice is formatting once.
+//! **In:** a text. **Out:** the same tokens and comments in canonical layout, or the reason why not.
+//! **Invariant:** no token or comment is added, dropped or reordered: the result is always compared with the
+//! text. Formatting is idempotent.
 
 mod atom;
 mod flow;
@@ -17,16 +17,16 @@ use crate::source::{FileId, Source};
 use crate::syntax::comment::Quiet;
 use crate::syntax::token::{Token, TokenKind};
 
-/// Why a text has no canonical layout.
+/// The reason why a text cannot be formatted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unformatted {
-    /// It has errors, which have been told.
+    /// It has errors, which were reported.
     Broken,
     /// Its tokens would have changed: a bug.
     Unsafe,
 }
 
-/// The text in canonical layout. Its lines end as the author's first one does.
+/// Returns the text in canonical layout. Its line ends are those of the author's first line.
 pub fn format(
     source: &Source,
     file: FileId,
@@ -34,10 +34,11 @@ pub fn format(
     diagnostics: &mut Diagnostics,
 ) -> Result<String, Unformatted> {
     let mut found = Diagnostics::new(false);
-    // What cannot be read has no layout, run or not.
+    // A part that cannot be parsed has no layout, run or not.
     let all = ParseOptions { defers: false, ..*options };
     let ast = parse(source, file, &all, &mut found);
-    // Words that a `.pov` may have without their sign, or with one, are read as others than they are written.
+    // Keywords that a `.pov` may write with or without their `#` are parsed differently from how they are
+    // written.
     let reads_otherwise =
         |one: &Diagnostic| matches!(one.code, Code::UnknownDirective | Code::UnknownWord);
     let broken = found.has_errors() || found.iter().any(reads_otherwise);
@@ -67,7 +68,7 @@ fn tokens<'a>(text: &'a str, file: FileId, options: &ParseOptions) -> (Quiet<'a>
     (quiet, tokens)
 }
 
-/// As the first line ends; ends in strings and comments do not count.
+/// Returns the first line end; those in strings and comments do not count.
 fn end_of_line(text: &str, atoms: &[Atom]) -> &'static str {
     let behind = &text[text.trim_end().len()..];
     let first = atoms.iter().find(|atom| atom.lines > 0);
@@ -77,12 +78,12 @@ fn end_of_line(text: &str, atoms: &[Atom]) -> &'static str {
     }
 }
 
-/// True if two texts have the same tokens and comments in the same order.
+/// Returns whether two texts have the same tokens and comments in the same order.
 fn same_but_blanks(one: &str, other: &str, options: &ParseOptions) -> bool {
     pieces(one, options) == pieces(other, options)
 }
 
-/// Each token and each comment of a text.
+/// Returns each token and each comment of a text.
 fn pieces(text: &str, options: &ParseOptions) -> Vec<String> {
     let (quiet, tokens) = tokens(text, FileId(0), options);
     let mut pieces = Vec::with_capacity(tokens.len());
@@ -99,7 +100,7 @@ fn pieces(text: &str, options: &ParseOptions) -> Vec<String> {
         comment(&mut pieces, token.start);
         let text = quiet.text.get(token.start as usize..token.end as usize).unwrap_or("");
         pieces.push(match token.kind {
-            // Blanks may stand behind its `#`.
+            // Blanks may follow its `#`.
             TokenKind::Directive(head) => format!("#{}", head.word()),
             _ => text.to_owned(),
         });

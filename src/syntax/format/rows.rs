@@ -1,22 +1,22 @@
-//! The finished lines, with the comments at their ends in columns where the author had them so.
+//! Writes the finished lines, with trailing comments aligned in columns where the author aligned them.
 //!
-//! **Invariant:** comments that stood below each other still do; no line ends with a blank.
+//! **Invariant:** comments that were aligned stay so; no line ends with a blank.
 
-/// One line without its end.
+/// One line without its line end.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Row {
-    /// Its blanks and its code.
+    /// Its indentation and its code.
     pub code: String,
-    /// A comment behind the code, and the column the author had it in.
+    /// A comment after the code, and its column in the author's text.
     pub comment: Option<(String, usize)>,
-    /// Empty lines before it.
+    /// The number of empty lines before it.
     pub blank: usize,
 }
 
-/// What stands between a line's code and its comment, at least.
+/// The least distance between a line's code and its comment.
 const GAP: usize = 2;
 
-/// The text of all lines, each ended by `end`.
+/// Returns the text of all lines, each ended by `end`.
 pub(super) fn write(rows: &[Row], end: &str) -> String {
     let mut out = String::with_capacity(rows.iter().map(|row| row.code.len() + 1).sum());
     let mut at = 0;
@@ -40,14 +40,14 @@ pub(super) fn write(rows: &[Row], end: &str) -> String {
     out
 }
 
-/// How many lines from the first on have their comments in one column.
+/// Returns how many lines from the first on have their comments in one column.
 fn run(rows: &[Row]) -> usize {
     let Some((_, column)) = rows[0].comment else { return 1 };
     let below = |row: &&Row| row.blank == 0 && row.comment.as_ref().is_some_and(|c| c.1 == column);
     1 + rows[1..].iter().take_while(below).count()
 }
 
-/// The columns of the code's last line: a string may reach over several.
+/// Returns the width of the code's last line: a string may span several.
 fn width(row: &Row) -> usize {
     row.code.rsplit('\n').next().unwrap_or("").chars().count()
 }

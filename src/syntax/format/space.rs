@@ -1,11 +1,11 @@
-//! Where a blank stands between two atoms of one line.
+//! Decides where a blank separates two atoms of one line.
 //!
-//! Sums and comparisons are spaced, products are tight: `2*x + 1`. That is how scenes are written.
-//! **Invariant:** two atoms never join to become another.
+//! Sums and comparisons are spaced, products are tight: `2*x + 1`, as is usual in scenes. **Invariant:** two
+//! atoms never join to become another.
 
 use super::atom::{Atom, Kind, Pair};
 
-/// True if a blank stands between two neighbours.
+/// Returns whether a blank separates two neighbours.
 pub(super) fn between(left: &Atom, right: &Atom) -> bool {
     wanted(left.kind, right.kind) || would_join(&left.text, &right.text)
 }
@@ -40,14 +40,14 @@ fn wanted(left: Kind, right: Kind) -> bool {
     }
 }
 
-/// True if the two would be read as something else without a blank.
+/// Returns whether the two would be parsed differently without a blank.
 fn would_join(left: &str, right: &str) -> bool {
     let (Some(a), Some(b)) = (left.chars().next_back(), right.chars().next()) else {
         return false;
     };
     let wordy = |c: char| c.is_ascii_alphanumeric() || c == '_';
     match (a, b) {
-        // `5 .x`, and `#` alone before a word.
+        // `5 .x`, and a single `#` before a word.
         ('.', b) => b.is_ascii_digit(),
         ('#', b) => wordy(b),
         (a, '.') => left.starts_with(|c: char| c.is_ascii_digit() || c == '.') && wordy(a),

@@ -1,4 +1,4 @@
-//! The old forms that are rewritten, one by one.
+//! Reports the old forms that have a rewriting, one by one.
 
 use super::Legacy;
 use crate::diagnostic::Fix;
@@ -9,7 +9,7 @@ use crate::syntax::ast::{
 use crate::vocabulary::{Family, Word};
 
 impl Legacy<'_> {
-    /// `red 1 green 0.5`, behind `color` or alone. Returns how many items it takes.
+    /// Reports `red 1 green 0.5`, after `color` or alone. Returns how many items it takes.
     pub(super) fn components(&mut self, first: Span, items: &[Item]) -> usize {
         const ORDER: [Word; 5] = [Word::Red, Word::Green, Word::Blue, Word::Filter, Word::Transmit];
         let mut values: [Option<Span>; 5] = [None; 5];
@@ -41,7 +41,7 @@ impl Legacy<'_> {
         used
     }
 
-    /// `[from, to color a color b]`.
+    /// Reports `[from, to color a color b]`.
     pub(super) fn entry(&mut self, span: Span, items: &[Item]) {
         let parts: Vec<&Item> = items.iter().filter(|item| item.kind != ItemKind::Comma).collect();
         let is_value = |item: &Item| matches!(item.kind, ItemKind::Expression(_));
@@ -51,7 +51,7 @@ impl Legacy<'_> {
             ItemKind::Word(word) => word.family() == Family::Color && !is_component(word),
             _ => false,
         };
-        // Behind a colour, components change it: `[0.5 Red filter 0.3]`.
+        // After a colour, components modify it: `[0.5 Red filter 0.3]`.
         let two_values = is_value(first) && rest.len() == 2 && is_value(rest[1]);
         if !starts(first) && !two_values {
             return;
@@ -85,7 +85,7 @@ impl Legacy<'_> {
         }
     }
 
-    /// A number, a vector or a colour that is declared without a `;`. `items` follow the `=`.
+    /// Reports a number, a vector or a colour that is declared without a `;`. `items` follow the `=`.
     pub(super) fn declaration(&mut self, items: &[Item]) {
         let is_color = |item: &&Item| {
             matches!(item.kind, ItemKind::Word(word)
@@ -126,7 +126,7 @@ impl Legacy<'_> {
         }
     }
 
-    /// True for what is surely a number or a vector, whatever its names are.
+    /// Returns whether the expression is certainly a number or a vector, whatever its names are.
     fn is_number(&self, node: &Expression) -> bool {
         match node.kind {
             ExpressionKind::Number(_)
@@ -150,7 +150,7 @@ impl Legacy<'_> {
         }
     }
 
-    /// `component strength, radius, <centre>` of a blob.
+    /// Reports `component strength, radius, <centre>` of a blob.
     pub(super) fn component(&mut self, span: Span, items: &[Item]) {
         let mut parts = items.iter().filter(|item| item.kind != ItemKind::Comma).take(3);
         let part = |item: Option<&Item>| match item {
@@ -169,7 +169,8 @@ impl Legacy<'_> {
         }
     }
 
-    /// `reflection colour reflection_exponent n`. Returns how many items it takes, 1 for today's form.
+    /// Reports `reflection colour reflection_exponent n`. Returns how many items it takes, 1 for the current
+    /// form.
     pub(super) fn reflection(&mut self, items: &[Item]) -> usize {
         let of_color = |item: &&Item| matches!(item.kind, ItemKind::Word(word) if word.family() == Family::Color);
         let words = items[1..].iter().take_while(of_color).count();
@@ -189,7 +190,7 @@ impl Legacy<'_> {
         words + 4
     }
 
-    /// `on`, `off`, `1`, which may follow a word that is a switch.
+    /// Returns whether the item is a switch value, such as `on`, `off` or `1`.
     pub(super) fn is_switch(&self, item: &Item) -> bool {
         match item.kind {
             ItemKind::Expression(id) => matches!(
@@ -203,7 +204,8 @@ impl Legacy<'_> {
         }
     }
 
-    /// `3 -10`, typed with a sign that touches the second number: all of it, and where the first one ends.
+    /// `3 -10`, typed with a sign that touches the second number: returns the whole span, and the end of the
+    /// first number.
     fn difference(&self, node: &Expression) -> Option<(Span, Span)> {
         let ExpressionKind::Binary(BinaryOperator::Subtract, first, second) = node.kind else {
             return None;
@@ -216,7 +218,7 @@ impl Legacy<'_> {
         (touches && is_typed(first) && is_typed(second)).then(|| (node.span, first.span.after()))
     }
 
-    /// `<1 2 3>`: components without commas.
+    /// Reports `<1 2 3>`: components without commas.
     pub(super) fn vectors(&mut self) {
         let ast = self.ast;
         for node in &ast.expressions {
@@ -230,7 +232,7 @@ impl Legacy<'_> {
             if ends.is_empty() {
                 continue;
             }
-            // `<0 3 -10>`: of three numbers where two are read, the picture is not what was meant.
+            // `<0 3 -10>`: three numbers that are parsed as two give an unintended picture.
             let lost = arguments_of(ast, arguments).filter_map(|one| self.difference(one));
             let lost: Vec<(Span, Span)> = lost.collect();
             match lost[..] {
@@ -256,13 +258,13 @@ impl Legacy<'_> {
     }
 }
 
-/// `-1.5`
+/// Returns whether the text is a literal with an optional sign: `-1.5`.
 fn is_literal(text: &str) -> bool {
     let digits = text.trim_start_matches(['-', '+', ' ']);
     digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') && digits.parse::<f64>().is_ok()
 }
 
-/// The expressions among arguments.
+/// Returns the expressions among arguments.
 fn arguments_of(ast: &Ast, arguments: Arguments) -> impl Iterator<Item = &Expression> {
     ast.arguments(arguments).iter().filter_map(|one| match one {
         Argument::Expression(id) => Some(ast.expression(*id)),
@@ -270,7 +272,7 @@ fn arguments_of(ast: &Ast, arguments: Arguments) -> impl Iterator<Item = &Expres
     })
 }
 
-/// True for what is a part of a colour, and changes the one before it.
+/// Returns whether the keyword is a component of a colour, and modifies the one before it.
 fn is_component(word: Word) -> bool {
     matches!(
         word,

@@ -1,8 +1,8 @@
-//! Old forms of the language, as the tree shows them: what they are called today, and how to write it.
+//! Lints old forms of the language in the tree, with their current names and spellings.
 //!
-//! **In:** the tree of one file. **Out:** a `legacy-form` for each, with a fix where the rewriting is sure.
-//! **Invariant:** a fix changes no picture, but where a vector without commas has lost a component, which is
-//! said. Branches that are not run are looked at, too.
+//! **In:** the tree of one file. **Out:** a `legacy-form` for each, with a fix where the rewriting is
+//! certain. **Invariant:** a fix does not change the picture, except where a vector without commas has lost a
+//! component, which is stated. Branches that are not run are searched, too.
 //!
 //! **Source:** POV-Ray 3.7 manual: 3.3.1.7 and 3.3.1.7.3 "Color Keywords" (components, `alpha`),
 //! 3.3.2.2.1 "Declaring identifiers" (`;`), 3.4.1.4 "HF_Gray_16", 3.4.5.1.1 "Blob" (`component`),
@@ -19,7 +19,7 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics, Fix};
 use crate::source::{Source, Span};
 use crate::vocabulary::{Family, Word};
 
-/// Tells every old form of a file.
+/// Reports every old form in a file.
 pub fn legacy(ast: &Ast, source: &Source, diagnostics: &mut Diagnostics) {
     let mut legacy = Legacy { ast, source, found: Vec::new(), lists: vec![(ast.root, None)] };
     while let Some((items, block)) = legacy.lists.pop() {
@@ -34,7 +34,7 @@ struct Legacy<'a> {
     ast: &'a Ast,
     source: &'a Source,
     found: Vec<Diagnostic>,
-    /// Lists that are still to be looked at, and the word whose block each is in.
+    /// Lists that remain to be searched, and the keyword whose block each is in.
     lists: Vec<(Items, Option<Word>)>,
 }
 
@@ -43,7 +43,7 @@ impl<'a> Legacy<'a> {
         self.source.text.get(span.range()).unwrap_or("")
     }
 
-    /// True if a span holds a comment, which a new text for it would lose.
+    /// Returns whether a span contains a comment, which a replacement would lose.
     fn has_comment(&self, span: Span) -> bool {
         let comments = &self.ast.comments;
         let after = comments.partition_point(|comment| comment.start < span.start);
@@ -56,7 +56,7 @@ impl<'a> Legacy<'a> {
         );
     }
 
-    /// As [`Self::tell`]; the new text takes the place of `whole`, if no comment would be lost.
+    /// As [`Self::tell`]; the new text replaces `whole`, if no comment would be lost.
     fn tell_and_fix(&mut self, span: Span, message: &str, whole: Span, new: String) {
         let shown =
             if new.is_empty() { "leave it out".to_owned() } else { format!("write `{new}`") };
@@ -102,7 +102,7 @@ impl<'a> Legacy<'a> {
         }
     }
 
-    /// The items inside parentheses and among arguments.
+    /// Queues the items inside parentheses and among arguments.
     fn groups(&mut self, node: &Expression) {
         match node.kind {
             ExpressionKind::GroupItems(items) => self.lists.push((items, None)),
@@ -150,7 +150,7 @@ impl<'a> Legacy<'a> {
         }
     }
 
-    /// Looks at the word at `at` and what follows it. Returns how many items that took.
+    /// Checks the keyword at `at` and the items after it. Returns how many items were consumed.
     fn word(&mut self, word: Word, list: &[Item], at: usize, block: Option<Word>) -> usize {
         let (items, span) = (&list[at..], list[at].span);
         let before = at.checked_sub(1).map(|before| list[before].kind);
@@ -160,7 +160,7 @@ impl<'a> Legacy<'a> {
             Word::Color if !before.is_some_and(of_color) => {
                 return 1 + self.components(span, &items[1..]);
             }
-            // Behind a colour they change it: `rgb 1 red 0.5`.
+            // After a colour they modify it: `rgb 1 red 0.5`.
             Word::Red | Word::Green | Word::Blue
                 if !before.is_some_and(|kind| {
                     of_color(kind) || matches!(kind, ItemKind::Expression(_))

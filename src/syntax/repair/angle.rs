@@ -1,15 +1,15 @@
-//! Vectors around other brackets: where an angle tells where these end.
+//! Pairs brackets inside vectors, using the angle brackets to find their ends.
 
 use super::{LONGEST_VECTOR, Open, Repair};
 use crate::syntax::balance::Opener;
 use crate::syntax::token::{Bracket, Mark, TokenKind};
 use crate::vocabulary::{Role, Word};
 
-/// How many tokens of a vector that holds formulas are looked at.
+/// The most tokens of a vector with formulas that are searched.
 const LONGEST_FORMULA: usize = 64;
 
 impl Repair<'_> {
-    /// The `<` of a vector of plain values that reaches up to token `at`.
+    /// Returns the `<` of a vector of plain values that reaches up to token `at`.
     pub(super) fn vector_before(&self, at: usize) -> Option<usize> {
         let before = self.tokens[..at].iter().rev().take(LONGEST_VECTOR);
         let values = before.take_while(|token| match token.kind {
@@ -24,8 +24,9 @@ impl Repair<'_> {
         (opens && open + 1 < at).then_some(open)
     }
 
-    /// `<0, sin(A>;`: a parenthesis within a vector ends before that does, and one of a single value before a
-    /// comma. `place` for every other closer.
+    /// Returns the position for the closer of a parenthesis within a vector: `<0, sin(A>;` ends before the
+    /// vector does, and a parenthesis of a single value before a comma. Returns `place` for every other
+    /// closer.
     pub(super) fn before_angle(&self, open: &Open, place: usize) -> usize {
         if open.opener != Opener::Bracket(Bracket::Round) || !self.is_within_angle(open.token) {
             return place;
@@ -57,7 +58,7 @@ impl Repair<'_> {
         place
     }
 
-    /// Whether a value stands behind the `>` of a comparison, and no end of a vector.
+    /// Returns whether a value follows the `>`, which is then a comparison and not the end of a vector.
     fn compares_at(&self, angle: usize) -> bool {
         match self.tokens.get(angle + 1).map(|token| token.kind) {
             Some(TokenKind::Number | TokenKind::Name | TokenKind::String) => true,
@@ -69,7 +70,7 @@ impl Repair<'_> {
         }
     }
 
-    /// Whether a `<` before this token is still open.
+    /// Returns whether a `<` before this token is still open.
     fn is_within_angle(&self, at: usize) -> bool {
         let mut vectors = 0;
         let before = self.tokens[..at].iter().rev().take(LONGEST_FORMULA);

@@ -1,4 +1,4 @@
-//! What is said of a bracket or directive without a partner.
+//! Reports brackets and directives without a partner.
 
 use super::{Open, Repair};
 use crate::diagnostic::{Code, Diagnostic};
@@ -13,7 +13,7 @@ impl Repair<'_> {
         self.text.get(from..to).is_some_and(|between| !between.contains(['\n', '\r']))
     }
 
-    /// Reports that `open` has no closer, which became certain before token `at`, and adds one.
+    /// Reports that `open` has no closer, which is certain before token `at`, and adds one.
     pub(super) fn never_closed(&mut self, open: Open, at: usize) {
         if self.closed_by_sign(&open, at) {
             return;
@@ -46,7 +46,7 @@ impl Repair<'_> {
         };
         let label = match self.closed_by(at).filter(|_| outside.is_none()) {
             _ if ends_file => format!("the file ends first, without {expected}"),
-            // "expected `}` before `}`" would tell nobody whose it is.
+            // "expected `}` before `}`" would not say to which block it belongs.
             Some(outer) if expected == format!("`{found}`") => {
                 format!("this closes {}: a {expected} is missing before it", self.shown(outer))
             }
@@ -62,7 +62,7 @@ impl Repair<'_> {
                 && outside.token > open.token + 1
                 && self.are_on_a_line(open.token, outside.token - 1)
         });
-        // What stands on one line ends with that.
+        // An opener on a single line is closed at its end.
         let diagnostic = match line.filter(|_| beside.is_none()) {
             Some(outside) => diagnostic
                 .help("is a `}` missing at the end of its line?")
@@ -81,7 +81,7 @@ impl Repair<'_> {
         });
     }
 
-    /// `#if (A < 2 sphere {`: the end of the condition, where it is a value.
+    /// `#if (A < 2 sphere {`: returns the end of the condition, if it is a value.
     fn end_of_condition(&self, open: &Open, outside: usize) -> Option<Span> {
         let kind = |at: usize| self.tokens.get(at).map(|token| token.kind);
         let head = open.token.checked_sub(1).and_then(kind);
@@ -100,7 +100,7 @@ impl Repair<'_> {
         (of_parenthesis && is_head && is_value).then(|| self.span(last).after())
     }
 
-    /// `function(x, y; { … }`: a sign stands where the closer belongs.
+    /// `function(x, y; { … }`: handles another sign in place of the closer.
     fn closed_by_sign(&mut self, open: &Open, at: usize) -> bool {
         let at = open.outside.map_or(at, |outside| outside.token);
         let kind = |at: usize| self.tokens.get(at).map(|token| token.kind);
@@ -124,15 +124,15 @@ impl Repair<'_> {
         true
     }
 
-    /// A text that ends in the middle of a vector or of parentheses, inside blocks: it was cut off, and
-    /// that is one mistake.
+    /// Reports a text that ends inside a vector or parentheses, within blocks: the text was cut off, which is
+    /// one mistake.
     pub(super) fn cut_off(&mut self, end: usize) {
         let vector = self.vector_before(end);
         let inside = self.open.last().is_some_and(|open| {
             matches!(open.opener, Opener::Bracket(Bracket::Round | Bracket::Square))
         });
         let blocks = self.open.len() - usize::from(inside && vector.is_none());
-        // What looks ended, or should have been closed before, is a mistake of its own.
+        // An item that seems to have ended, or should have been closed before, is a separate mistake.
         let inside_blocks = self.open[..blocks]
             .iter()
             .all(|open| !matches!(open.opener, Opener::Bracket(Bracket::Round | Bracket::Square)));
@@ -162,7 +162,7 @@ impl Repair<'_> {
         self.tell(diagnostic);
     }
 
-    /// What of all that is open the closer at `at` closes.
+    /// Returns the open item that the closer at `at` closes.
     fn closed_by(&self, at: usize) -> Option<usize> {
         let innermost = |wanted: Opener| {
             self.open.iter().rev().find(|open| open.opener == wanted).map(|open| open.token)
@@ -188,7 +188,7 @@ impl Repair<'_> {
         Span::new(self.file, start.min(end), end)
     }
 
-    /// An opener with the word before it: "`sphere {`".
+    /// Returns an opener with the word before it: "`sphere {`".
     pub(super) fn shown(&self, at: usize) -> String {
         let text = |at: usize| self.text.get(self.span(at).range()).unwrap_or("");
         let named = |at: &usize| {

@@ -1,7 +1,7 @@
-//! Braces that close an object before all of it was said: `torus { 2, 1 pigment { rgb 1 } } finish { phong 1 } }`.
+//! Removes braces that close an object too early: `torus { 2, 1 pigment { rgb 1 } } finish { phong 1 } }`.
 //!
-//! **In:** tokens with more `}` than `{`. **Out:** the same without a `}` before each word that only stands in
-//! an object. **Invariant:** none is left out but where another `}` has no partner.
+//! **In:** tokens with more `}` than `{`. **Out:** the same without a `}` before each keyword that is only
+//! valid in an object. **Invariant:** none is removed unless another `}` has no partner.
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
@@ -9,10 +9,10 @@ use crate::syntax::layout::Layout;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
 use crate::vocabulary::{Family, Role, Word};
 
-/// How many tokens of objects behind a brace are looked at.
+/// The most tokens of objects after a brace that are searched.
 const LONGEST: usize = 400;
 
-/// Leaves out what closes too early, and says so.
+/// Removes braces that close too early, and reports them.
 pub(super) fn close_later(
     tokens: Vec<Token>,
     text: &str,
@@ -24,7 +24,7 @@ pub(super) fn close_later(
     let mut surplus = super::surplus(&tokens)[Bracket::Brace as usize].unsigned_abs();
     let mut kept = Vec::with_capacity(tokens.len());
     let layout = Layout::of(&tokens, text);
-    // Of each open block the word before it, if it is an object's, and its line.
+    // For each open block, the word before it, if it is an object's, and its line.
     let mut around: Vec<(Option<Token>, usize)> = Vec::new();
     let mut line = 0;
     for (at, token) in tokens.iter().enumerate() {
@@ -65,8 +65,8 @@ pub(super) fn close_later(
     kept
 }
 
-/// The token behind the objects that begin at `at`, as far as these stand on lines that are indented by more than
-/// `indent`: they are rather parts of the block before them.
+/// Returns the token after the objects that begin at `at`, as far as they are on lines indented by more than
+/// `indent`: they probably belong to the block before them.
 fn behind_objects(tokens: &[Token], layout: &Layout, at: usize, indent: u32) -> Option<usize> {
     let mark = |bracket: fn(Bracket) -> Mark| TokenKind::Mark(bracket(Bracket::Brace));
     let mut depth = 0_usize;

@@ -1,4 +1,4 @@
-//! Which directive each `#end` ends.
+//! Matches each `#end` with the directive that it ends.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use crate::syntax::balance::{Opener, Turn, turn};
 use crate::syntax::layout::Layout;
 use crate::syntax::token::Token;
 
-/// Which directive each `#end` ends. Where `#end`s are missing, indentation says whose.
+/// Returns the directive that each `#end` ends. If `#end`s are missing, indentation decides.
 pub(super) fn match_directives(tokens: &[Token], layout: &Layout) -> HashMap<usize, usize> {
     let count = |wanted: Turn| tokens.iter().filter(|t| turn(t.kind) == Some(wanted)).count();
     let (opens, ends) =

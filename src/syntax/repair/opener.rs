@@ -1,8 +1,8 @@
-//! Blocks whose `{` was left out, although their `}` is there: `pigment rgb 1 }`, `Engine scale 2 }`.
+//! Adds missing `{`s of blocks whose `}` exists: `pigment rgb 1 }`, `Engine scale 2 }`.
 //!
-//! **In:** tokens with more `}` than `{`. **Out:** the same with a `{` after each word that lacks it, and
-//! `object {` before each name.
-//! **Invariant:** a `{` is added only where a `}` without a partner follows in the same statement.
+//! **In:** tokens with more `}` than `{`. **Out:** the same with a `{` after each keyword that lacks it, and
+//! `object {` before each name. **Invariant:** a `{` is added only where a `}` without a partner follows in
+//! the same statement.
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::source::{FileId, Span};
@@ -10,7 +10,7 @@ use crate::syntax::layout::Layout;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
 use crate::vocabulary::{Family, Role, Word};
 
-/// Adds what is missing, and says so.
+/// Adds each missing `{`, and reports it.
 pub(super) fn open_missing(
     tokens: Vec<Token>,
     file: FileId,
@@ -42,8 +42,8 @@ pub(super) fn open_missing(
     opened
 }
 
-/// Adds `object {` before declared names whose `}` is there: `Engine translate x }`, a line of its own at
-/// the top level or among objects.
+/// Adds `object {` before declared names whose `}` exists: `Engine translate x }`, a line of its own at the
+/// top level or among objects.
 pub(super) fn open_objects(
     tokens: Vec<Token>,
     text: &str,
@@ -77,7 +77,7 @@ pub(super) fn open_objects(
     opened
 }
 
-/// At most so many names before which `object {` is missing.
+/// Returns up to `most` names that lack an `object {` before them.
 fn lone_objects(tokens: &[Token], layout: &Layout, most: usize) -> Vec<usize> {
     let open = TokenKind::Mark(Mark::Open(Bracket::Brace));
     let close = TokenKind::Mark(Mark::Close(Bracket::Brace));
@@ -96,7 +96,7 @@ fn lone_objects(tokens: &[Token], layout: &Layout, most: usize) -> Vec<usize> {
                 let changed = tokens.get(at + 1).is_some_and(|next| {
                     matches!(next.kind, TokenKind::Word(word) if word.role() == Role::Statement)
                 });
-                // Its line closes once more than it opens, at its end.
+                // Its line closes one more than it opens, at its end.
                 let mut line = (at + 1..tokens.len()).take_while(|&next| !layout.place(next).first);
                 let mut depth = 0_i32;
                 let end = line.find(|&next| {
@@ -115,7 +115,7 @@ fn lone_objects(tokens: &[Token], layout: &Layout, most: usize) -> Vec<usize> {
     lone
 }
 
-/// The words after which a `{` is missing.
+/// Returns the keywords that lack a `{` after them.
 fn lacking(tokens: &[Token]) -> Vec<usize> {
     let (mut depth, mut waiting, mut found) = (0_usize, Vec::new(), Vec::new());
     for (at, token) in tokens.iter().enumerate() {
@@ -125,7 +125,7 @@ fn lacking(tokens: &[Token]) -> Vec<usize> {
             TokenKind::Mark(Mark::Close(Bracket::Brace)) => found.extend(waiting.pop()),
             TokenKind::Directive(_) if depth == 0 => waiting.clear(),
             TokenKind::Word(word) if wants_a_block(word) => {
-                // A statement of its own, unless it stands in one that was not opened.
+                // A statement of its own, unless it is in one that was not opened.
                 let inside =
                     waiting.last().is_some_and(|&outer: &usize| holds(tokens[outer], word));
                 if depth == 0 && !inside {
@@ -141,7 +141,7 @@ fn lacking(tokens: &[Token]) -> Vec<usize> {
     found
 }
 
-/// Whether what the word `outer` opens holds `inner`, so that it is no statement of its own.
+/// Returns whether the block of `outer` may contain `inner`, which is then not a separate statement.
 fn holds(outer: Token, inner: Word) -> bool {
     let TokenKind::Word(outer) = outer.kind else { return false };
     let is_object = |word: Word| matches!(word.family(), Family::Shape | Family::Csg);
@@ -153,7 +153,7 @@ fn holds(outer: Token, inner: Word) -> bool {
     }
 }
 
-/// Words that never stand without a block, but for those of `begins_contents`.
+/// Returns whether a keyword always has a block, except in the cases of `begins_contents`.
 fn wants_a_block(word: Word) -> bool {
     const OTHERS: [Word; 11] = [
         Word::Camera,
@@ -172,8 +172,8 @@ fn wants_a_block(word: Word) -> bool {
         && (matches!(word.family(), Family::Shape | Family::Csg) || OTHERS.contains(&word))
 }
 
-/// Whether `next` begins what stands in the block of `word`, and not something else that the word has a
-/// meaning before: `cylinder` of a light, `material` of a picture.
+/// Returns whether `next` begins the content of the block of `word`, and not another construct in which
+/// `word` has no block: `cylinder` of a light, `material` of a picture.
 fn begins_contents(word: Word, next: TokenKind) -> bool {
     match next {
         TokenKind::Number | TokenKind::Numbers | TokenKind::Vectors => true,

@@ -1,7 +1,7 @@
-//! Where a bracket or directive that is never closed seems to have ended, by the look of the text.
+//! Estimates where an unclosed bracket or directive ended, from the layout of the text.
 //!
-//! **Invariant:** what is closed after all has no such place inside it, so closers that are put at these
-//! places never cross.
+//! **Invariant:** an item that is closed after all has no such position inside it, so closers inserted at
+//! these positions never cross.
 
 use super::{Open, Repair};
 use crate::syntax::balance::Opener;
@@ -9,16 +9,17 @@ use crate::syntax::layout::Place;
 use crate::syntax::token::{Bracket, Head, Mark, TokenKind};
 use crate::vocabulary::{Family, Role, Word};
 
-/// The first token inside something that looks as if it stood outside.
+/// The first token inside an open item that appears to be outside it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Outside {
     pub token: usize,
-    /// Told by indentation, or by what a block can hold. Else it is a guess, by which nothing is told.
+    /// Certain by indentation, or by what a block can contain. Otherwise it is a guess, which produces no
+    /// diagnostic.
     pub certain: bool,
 }
 
 impl Repair<'_> {
-    /// Notes where what is open seems to have ended, from the innermost outward.
+    /// Records where open items seem to have ended, from the innermost outward.
     pub(super) fn look_for_outside(&mut self, at: usize) {
         let place = self.layout.place(at);
         let begins = place.first && (self.begins_statement(at) || self.is_call(at));
@@ -34,8 +35,8 @@ impl Repair<'_> {
                     None => {}
                 }
             }
-            // Nothing else ends more than the innermost, but for what stands beside several; around one that has
-            // ended before, these have, too.
+            // A token that begins no statement ends only the innermost item, unless it belongs beside several
+            // blocks; items around one that has ended before have ended, too.
             let ended = known.is_some_and(|outside| outside.certain);
             if !begins && (ended || !self.stands_beside(self.open[level].token, at)) {
                 break;
@@ -46,7 +47,7 @@ impl Repair<'_> {
         }
     }
 
-    /// Whether `open` seems to have ended before token `at`, and whether that is certain.
+    /// Returns whether `open` seems to have ended before token `at`, and whether that is certain.
     fn outside(&self, open: &Open, at: usize, place: Place, begins: bool) -> Option<bool> {
         let indented = open.inner.is_some_and(|inner| inner > open.indent);
         let beside = begins && place.indent <= open.indent;
@@ -56,7 +57,7 @@ impl Repair<'_> {
                 (ended || self.stands_beside(open.token, at)).then_some(true)
             }
             Opener::Directive if beside && indented => Some(true),
-            // Of a text without indentation, one statement.
+            // In a text without indentation, it holds one statement.
             Opener::Directive => {
                 let brace = TokenKind::Mark(Mark::Close(Bracket::Brace));
                 (beside && self.tokens[at - 1].kind == brace).then_some(false)
@@ -90,7 +91,7 @@ impl Repair<'_> {
         }
     }
 
-    /// True for a directive, and for a word that opens a block.
+    /// Returns whether a directive, or a keyword that opens a block, is at `at`.
     fn begins_statement(&self, at: usize) -> bool {
         let brace = TokenKind::Mark(Mark::Open(Bracket::Brace));
         match self.tokens[at].kind {
@@ -103,15 +104,15 @@ impl Repair<'_> {
         }
     }
 
-    /// `Disk(0, Red)`, as if it were a macro.
+    /// Returns whether a macro call may be at `at`: `Disk(0, Red)`.
     fn is_call(&self, at: usize) -> bool {
         let round = TokenKind::Mark(Mark::Open(Bracket::Round));
         self.tokens[at].kind == TokenKind::Name
             && self.tokens.get(at + 1).is_some_and(|next| next.kind == round)
     }
 
-    /// Whether the statement at `at` stands beside the block that opens at `opener`, and never in it: a `finish`
-    /// and a `pigment`.
+    /// Returns whether the statement at `at` may only be beside the block that opens at `opener`, never in
+    /// it: a `finish` and a `pigment`.
     pub(super) fn stands_beside(&self, opener: usize, at: usize) -> bool {
         let TokenKind::Word(inner) = self.tokens[at].kind else { return false };
         let outer = opener.checked_sub(1).map(|before| self.tokens[before].kind);
@@ -156,8 +157,8 @@ impl Repair<'_> {
         }
     }
 
-    /// False where the block that opens at `opener` cannot hold the statement at `at`: an object stands at
-    /// the top level, and in few blocks.
+    /// Returns `false` if the block that opens at `opener` cannot contain the statement at `at`: an object is
+    /// valid at the top level, and in few blocks.
     pub(super) fn may_hold(&self, opener: usize, at: usize) -> bool {
         let TokenKind::Word(inner) = self.tokens[at].kind else { return true };
         let only_outside = matches!(inner.family(), Family::Shape | Family::Csg)
@@ -181,7 +182,7 @@ impl Repair<'_> {
         (!only_outside || holds_objects) && !self.stands_beside(opener, at)
     }
 
-    /// What was open around `closed` had not ended inside it.
+    /// Forgets the estimated ends of items around `closed` that are inside it.
     pub(super) fn forget_outsides_since(&mut self, closed: &Open) {
         for open in self.open.iter_mut().rev() {
             match open.outside {
@@ -192,7 +193,7 @@ impl Repair<'_> {
     }
 }
 
-/// The lists of a mesh2, which stand side by side.
+/// Returns whether the keyword is a list of a mesh2; such lists are adjacent.
 fn is_list(word: Word) -> bool {
     matches!(
         word,

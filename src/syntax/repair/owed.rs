@@ -1,4 +1,5 @@
-//! Closers that were added although their own may still come, and those of another statement, or of a directive.
+//! Handles closers that were already added before their own follows, and those of another statement or
+//! directive.
 
 use super::{Open, Repair};
 use crate::diagnostic::{Code, Diagnostic};
@@ -11,7 +12,8 @@ impl Repair<'_> {
         self.owed_since[bracket as usize] = at;
     }
 
-    /// Whether the closer at `at` is the one that was added: none but a `}` comes in another statement.
+    /// Returns whether the closer at `at` is the one that was added: only a `}` may follow in another
+    /// statement.
     pub(super) fn is_owed(&self, bracket: Bracket, at: usize) -> bool {
         let index = bracket as usize;
         let [from, to] = [self.owed_since[index], at].map(|at| self.tokens[at].start as usize);
@@ -19,7 +21,7 @@ impl Repair<'_> {
         self.owed[index] > 0 && (bracket == Bracket::Brace || !between.contains(';'))
     }
 
-    /// `#macro M(A) … }`: a brace where the `#end` of a directive is missing, told here.
+    /// `#macro M(A) … }`: reports a brace in place of the `#end` of a directive.
     pub(super) fn ends_directive(&mut self, bracket: Bracket, at: usize) -> bool {
         let Some(top) = self.open.last() else { return false };
         let (directive, place) = (top.token, self.layout.place(at));
@@ -49,7 +51,7 @@ impl Repair<'_> {
         true
     }
 
-    /// Whether the `(` or `[` on top ended with its statement: what closes it now is another's.
+    /// Returns whether the `(` or `[` on top ended with its statement: the closer belongs to another.
     pub(super) fn is_of_another(&self, top: &Open) -> bool {
         top.opener != Opener::Bracket(Bracket::Brace)
             && top.outside.is_some_and(|outside| {
