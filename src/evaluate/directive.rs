@@ -1,4 +1,4 @@
-//! Directives: run where they stand, between two items of whoever is reading.
+//! Directives, run at their position between two items of the current consumer.
 
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::source::{FileId, Span};
@@ -187,11 +187,11 @@ impl Evaluator<'_> {
         }
     }
 
-    /// POV-Ray, too, refuses a scene of a version to come.
+    /// Reports a `#version` newer than any release, which POV-Ray refuses as well.
     fn check_version(&mut self, here: &Here, span: Span) -> Outcome<()> {
-        /// The newest version of POV-Ray that there is.
+        /// Newest version of POV-Ray.
         const NEWEST: f64 = 3.8;
-        /// The one whose language this is.
+        /// The version whose language is implemented.
         const BUILT: f64 = 3.7;
         if self.version <= NEWEST {
             // Includes save the scene's version, and set it again.
@@ -254,7 +254,8 @@ impl Evaluator<'_> {
         self.is_known(symbol)
     }
 
-    /// What `defined` and `#ifdef` ask. A file that is closed, or read to its end, is not.
+    /// Returns whether `defined` and `#ifdef` hold for a name. They do not for a file that is closed or read
+    /// to its end.
     pub(super) fn is_known(&mut self, symbol: Symbol) -> bool {
         match self.scopes.read(symbol) {
             Some(Value::Broken) | None => false,
@@ -266,7 +267,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `#declare Name = …`: the value is what the next items leave.
+    /// Runs `#declare Name = …`, whose value is what the next items leave.
     fn declare(&mut self, here: &Here, head: Span, local: bool, target: &Target) -> Outcome<()> {
         let symbol = here.symbol(target.name);
         let (home, in_main) = (self.scopes.home(symbol, local), self.in_main());
@@ -299,8 +300,8 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// POV-Ray takes no other value for the name of a function or a macro, and no macro for that of a value; the
-    /// new one is used.
+    /// Reports a redeclaration that POV-Ray refuses: another kind of value for the name of a function or a
+    /// macro, or a macro for the name of a value. The new one is used.
     pub(super) fn redeclared(&mut self, here: &Here, (head, span): (Span, Span), kind: &str) {
         let name = self.sources.text(span).to_owned();
         let before = Span { end: head.start, ..head };
@@ -318,8 +319,8 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// What the next items leave. Another `#declare` may come before the first of them, and so on: only a
-    /// limit ends that.
+    /// Returns the value that the next items leave. Another `#declare` may precede the first of them,
+    /// recursively, bounded only by a limit.
     fn declared_value(&mut self, here: &Here, head: Span, target: &Target) -> Outcome<Value> {
         let limit = self.options.limits.macro_depth;
         // A macro that gives the value may declare something itself, and call itself for it.
@@ -353,8 +354,8 @@ impl Evaluator<'_> {
         value
     }
 
-    /// The number that comes next with its `;`, where no more than numbers make it, as they do most of what
-    /// loops declare. `here` is where the items stand that come next.
+    /// Returns the number that comes next, with its `;`, if it consists of numbers only, as do most
+    /// declarations in loops. `here` is the position of the next items.
     fn plain_value(&mut self, here: &Here) -> Option<f64> {
         if self.peeked.is_some() || self.halted {
             return None;
@@ -372,8 +373,8 @@ impl Evaluator<'_> {
         Some(number)
     }
 
-    /// Evaluates an expression for what it does. Its vectors may have any number of components: those
-    /// of shapes that are not built do.
+    /// Evaluates an expression for its side effects. Its vectors may have any number of components, as those
+    /// of unsupported shapes do.
     pub(super) fn run_expression(&mut self, here: &Here, id: ExpressionId) {
         match here.unit.expression(id).kind {
             ExpressionKind::Vector(components) => self.run_arguments(here, components),
@@ -381,7 +382,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Runs what is left of a block for its directives and calls only.
+    /// Runs the rest of a block for its directives and calls only.
     pub(super) fn run_items(&mut self) {
         let mut is_color = false;
         loop {

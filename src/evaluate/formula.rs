@@ -1,11 +1,12 @@
-//! The body of a function: an expression to a tape.
+//! Compilation of a function's body from an expression to a tape.
 //!
-//! What holds none of the parameters is evaluated at once, by the rules of the language; what holds
-//! one becomes operations, by the rules of functions: comparisons are exact, and what is undefined
-//! is not a number. **Invariant:** one formula is compiled at a time, and knows no other names than
-//! its parameters, its counters and what is declared when it is defined.
+//! Subexpressions without parameters are evaluated once, by the rules of the language. The others become
+//! operations by the rules of functions: comparisons are exact, and undefined results are NaN. **Invariant:**
+//! one formula is compiled at a time, and knows only its parameters, its counters and the names declared at
+//! its definition.
 //!
-//! **Source:** manual, section 3.3.1.8, with its list of what may stand in a function. `?:`, vectors'
+//! **Source:** manual, section 3.3.1.8, with its list of what a function may contain. As an extension, `?:`,
+//! components of vectors and built-in functions of constants are allowed.
 //! components and built-in functions of constants are allowed here beyond it.
 
 use crate::diagnostic::{Code, Diagnostic};
@@ -31,12 +32,12 @@ use mention::mention;
 pub(super) use operation::operation_of;
 use operation::{is_operation, operation};
 
-/// A formula on its way to a tape.
+/// A formula during compilation.
 pub(super) struct Formula {
     pub(super) builder: Builder,
-    /// The newest last: counters of loops hide parameters.
+    /// The names in scope, innermost last: counters of loops hide parameters.
     names: Vec<(ParameterName, Node)>,
-    /// Something in it is not built yet.
+    /// Set when part of the formula is unsupported.
     poison: Option<Poison>,
 }
 
@@ -47,7 +48,7 @@ impl Formula {
 }
 
 impl Evaluator<'_> {
-    /// The tape of a body, or what in it is not built yet.
+    /// Compiles a body to a tape; poison if part of it is unsupported.
     pub(super) fn formula(
         &mut self,
         here: &Here,
@@ -143,7 +144,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What the language itself makes of it, once, now.
+    /// Evaluates a constant subexpression once, by the rules of the language.
     fn constant(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
         let span = here.unit.expression(id).span;
         if let Some(parameter) = mention(here, formula, id) {
@@ -194,8 +195,9 @@ impl Evaluator<'_> {
         self.built(here, span, built)
     }
 
-    /// Operations lean to the left as deep as they are long: from the leftmost operand on. In a function `&` binds
-    /// more than `|` (measured), which elsewhere are alike.
+    /// Compiles a chain of operations iteratively from the leftmost operand: they nest to the left as deeply
+    /// as they are long. In a function `&` binds tighter than `|` (measured); elsewhere they have the same
+    /// precedence.
     fn sum_node(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
         let (mut operations, mut first) = (Vec::new(), id);
         while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {
@@ -224,7 +226,7 @@ impl Evaluator<'_> {
         self.either(here, formula, either, node)
     }
 
-    /// `last`, or what stands before it in a row of `|`.
+    /// Compiles `last`, or its disjunction with the operands before it in a chain of `|`.
     fn either(
         &mut self,
         here: &Here,
@@ -237,7 +239,7 @@ impl Evaluator<'_> {
         self.built(here, span, built)
     }
 
-    /// `F(x, y, z).red`; of anything else, a component now.
+    /// Compiles `F(x, y, z).red`; for other bases, evaluates the component now.
     fn component_node(
         &mut self,
         here: &Here,
@@ -372,7 +374,7 @@ impl Evaluator<'_> {
         self.built(here, span, built)
     }
 
-    /// `sum(i, 1, n, i * x)`.
+    /// Compiles `sum(i, 1, n, i * x)`.
     fn loop_node(
         &mut self,
         here: &Here,
