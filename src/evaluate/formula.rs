@@ -7,7 +7,6 @@
 //!
 //! **Source:** manual, section 3.3.1.8, with its list of what a function may contain. As an extension, `?:`,
 //! components of vectors and built-in functions of constants are allowed.
-//! components and built-in functions of constants are allowed here beyond it.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::function::{Binary, Builder, Function, Node, TooLong, Unary};

@@ -9,8 +9,9 @@ use crate::scene::Dialect;
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvaluateOptions {
     pub dialect: Dialect,
-    /// Value of `image_width` (and `height`, of `image_height`).
+    /// Value of `image_width`.
     pub width: u32,
+    /// Value of `image_height`.
     pub height: u32,
     /// `-D name=value` options, in order.
     pub declares: Vec<(String, f64)>,

@@ -1,8 +1,7 @@
 //! Constructs that POV-Ray 3.7 parses differently from how they look, in a `.pov` (both measured).
 //!
 //! * `scale V.x`: where a vector is expected, a number that begins with a component of `V` replaces x only; y
-//!   and z remain
-//!   those of `V`. In parentheses it is a number like any other.
+//!   and z remain those of `V`. In parentheses it is a number like any other.
 //! * `sphere { P (R) }`: a name that holds a number, a vector or a colour, and another value in parentheses.
 
 use crate::diagnostic::{Code, Diagnostic};

@@ -181,8 +181,8 @@ impl Evaluator<'_> {
         self.report_in(later.expansion, diagnostic);
     }
 
-    /// Reports a misspelt kind that was read as the subtrahend's left side of the first time: `cubic_spine
-    /// -1, x …`.
+    /// Reports a misspelt kind that reads as the left operand of a difference with the first time:
+    /// `cubic_spine -1, x …`.
     fn kind_less_time(&mut self, token: &Token) -> Option<Reported> {
         let TokenKind::Expression(id) = token.kind else { return None };
         let ExpressionKind::Binary(BinaryOperator::Subtract, first, _) =

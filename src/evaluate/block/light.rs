@@ -1,4 +1,4 @@
-//! `light_source`: a point, a beam, parallel rays, or the seed's direction.
+//! `light_source`: a point light, a beam, parallel rays, or the seed's direction.
 
 mod doubt;
 mod form;
@@ -64,7 +64,7 @@ impl Evaluator<'_> {
         self.add_object(Object { kind, modifiers, site, item: None })
     }
 
-    /// A declared light's own parts, and every modifier it has got, in order.
+    /// Returns a declared light's own parts, and every modifier applied to it, in order.
     fn light_of(&self, mut object: ObjectId) -> (Option<LightSource>, Vec<Modifier>) {
         let mut layers = Vec::new();
         loop {
@@ -92,8 +92,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The place and the colour; or, in a `.scene`, `direction` and the colour. Where another word of the
-    /// light stands instead of the colour, that may come late.
+    /// Reads the position and the colour; in a `.scene`, also `direction` and the colour. If another word of
+    /// the light precedes the colour, the colour may come late.
     fn light_parts(&mut self, opener: &Token) -> (Outcome<LightSource>, Option<Late>) {
         if self.at_color_word() {
             return (self.color_before_place(opener), None);
@@ -141,7 +141,7 @@ impl Evaluator<'_> {
         Ok(LightKind::Direction { to_light })
     }
 
-    /// The words after the place and the colour. `light` is `None` where there is none to change.
+    /// Reads the words after the position and the colour. `light` is `None` if there is none to modify.
     fn light_modifiers(
         &mut self,
         modifiers: &mut Vec<Modifier>,
@@ -258,7 +258,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The transforms among the modifiers of a light.
+/// Returns the transforms among the modifiers of a light.
 fn transforms_of(modifiers: &[Modifier]) -> Vec<TransformId> {
     let transform = |modifier: &Modifier| match modifier.kind {
         ModifierKind::Transform(id) => Some(id),
@@ -267,7 +267,7 @@ fn transforms_of(modifiers: &[Modifier]) -> Vec<TransformId> {
     modifiers.iter().filter_map(transform).collect()
 }
 
-/// A word that says how light leaves a place, or loses strength with the distance from it.
+/// Returns whether a word specifies how light leaves a position, or fades with the distance from it.
 fn is_of_a_place(token: &Token) -> bool {
     matches!(
         token.kind,

@@ -1,4 +1,4 @@
-//! A misspelt word where a colour or a value should stand.
+//! Diagnostics for a misspelt word where a colour or a value is expected.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::ExpressionId;
@@ -12,7 +12,7 @@ use super::Place;
 use super::custom::custom;
 use super::unknown::{UNKNOWN, meant};
 
-/// The words beside shapes and textures whose block is a value.
+/// The words other than shapes and textures whose block is a value.
 const OPENERS: &[Word] = &[
     Word::Camera,
     Word::LightSource,
@@ -27,7 +27,7 @@ const OPENERS: &[Word] = &[
 ];
 
 impl Evaluator<'_> {
-    /// `colr rgb 1` where a colour should stand, or `intensity 2`.
+    /// Reports `colr rgb 1` where a colour is expected, or `intensity 2`.
     pub(super) fn misspelt_color(&mut self, after: &Token) -> Option<Reported> {
         let token = self.peek()?.clone();
         let TokenKind::Expression(id) = token.kind else { return None };
@@ -67,7 +67,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// `color power 100`: a name that was never declared and its value, where a colour should stand.
+    /// Reports an undeclared name with a value where a colour is expected: `color power 100`.
     pub(super) fn unknown_part_of_color(&mut self) -> Option<Reported> {
         let token = self.peek()?.clone();
         let TokenKind::Expression(id) = token.kind else { return None };
@@ -94,7 +94,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// `camra { … }` where a value should stand.
+    /// Reports `camra { … }` where a value is expected.
     pub(in crate::evaluate) fn misspelt_block(
         &mut self,
         token: &Token,

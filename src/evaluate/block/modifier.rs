@@ -1,4 +1,4 @@
-//! What follows an object's parts: its transforms, textures, interior and flags, in written order.
+//! Object modifiers: transforms, textures, interior and flags, in source order.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{FinishId, Modifier, ModifierKind, ObjectId, ObjectKind};
@@ -10,7 +10,7 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 use super::place::is_before_modifiers;
 
-/// The first part behind the modifiers of its block, and how many others follow.
+/// The first part after the modifiers of its block, and the number of others that follow.
 struct Late {
     token: Token,
     diagnostic: Diagnostic,
@@ -18,8 +18,8 @@ struct Late {
 }
 
 impl Evaluator<'_> {
-    /// Everything after the parts. `used`: the declared object that is modified. Where it has a texture, a
-    /// pigment or finish alone changes that in part.
+    /// Reads everything after the parts. `used` is the declared object being modified; if it has a texture, a
+    /// pigment or finish alone modifies that texture.
     pub(super) fn modifiers(
         &mut self,
         word: Word,
@@ -129,7 +129,8 @@ impl Evaluator<'_> {
         if failed { Err(Reported) } else { Ok(()) }
     }
 
-    /// `union { sphere { 0, 1 } pigment { rgb 1 } box { … } }`: one message for all of them.
+    /// Reports children after a modifier, with one message for all: `union { sphere { 0, 1 } pigment { rgb 1
+    /// } box { … } }`.
     fn late_part(
         &mut self,
         token: &Token,
@@ -161,7 +162,7 @@ impl Evaluator<'_> {
         *late = Some(Late { token: token.clone(), diagnostic, others: 0 });
     }
 
-    /// `cylinder { 0, y, 1 pigment { … } open }`: a part of the shape behind the first of its modifiers.
+    /// Reports a part of the shape after its first modifier: `cylinder { 0, y, 1 pigment { … } open }`.
     fn too_late(&mut self, token: &Token, shape: Word, first: Site, late: &mut Option<Late>) {
         let TokenKind::Word(item) = token.kind else { return };
         if matches!(item.family(), Family::Shape | Family::Csg)
@@ -189,7 +190,7 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    /// The finish that another one after these modifiers starts from, as in POV-Ray (measured).
+    /// Returns the finish from which another one after these modifiers starts, as in POV-Ray (measured).
     fn finish_of(&self, modifiers: &[Modifier], used: Option<ObjectId>) -> FinishId {
         let (mut modifiers, mut used) = (modifiers, used);
         loop {
@@ -214,7 +215,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// One modifier; `None` when the token is none, `Some(Ok(None))` when it changes nothing.
+    /// Reads one modifier; returns `None` if the token is not one, `Some(Ok(None))` if it has no effect.
     fn modifier(
         &mut self,
         token: &Token,

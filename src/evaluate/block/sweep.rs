@@ -1,4 +1,4 @@
-//! Sphere sweeps: how it goes on, how many spheres, and each.
+//! `sphere_sweep`: its spline, the number of spheres, and the spheres.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 
 impl Evaluator<'_> {
-    /// `linear_spline | b_spline | cubic_spline  count, <centre>, radius, …`.
+    /// Reads `linear_spline | b_spline | cubic_spline  count, <centre>, radius, …`.
     pub(super) fn sphere_sweep(&mut self, token: &Token) -> Outcome<Solid> {
         self.skip_commas();
         let kinds = Kind::ALL.into_iter();

@@ -1,4 +1,4 @@
-//! What to say of an item that its block has no use for.
+//! Diagnostics for items that a block does not accept.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
@@ -16,7 +16,7 @@ use super::meant::{block_for, told_directive};
 use super::place::{is_of_no_part, stands_alone};
 
 impl Evaluator<'_> {
-    /// An item that the block does not know: says so, and passes over what belongs to it.
+    /// Reports an item that the block does not accept, and skips what belongs to it.
     pub(in crate::evaluate) fn unexpected(&mut self, token: &Token, place: Place) {
         // What stands behind a word that is not built may belong to it.
         let of_poison = self.poison.is_some();
@@ -165,7 +165,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `Column { translate x }`, where objects stand, of a name that was told to be wrong, or is not built.
+    /// Handles `Column { translate x }` where objects are expected, for a name that was reported or is
+    /// unsupported.
     fn named_block(&mut self, token: &Token, place: Place) -> bool {
         let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.peek().cloned()
         else {
@@ -325,8 +326,8 @@ impl Evaluator<'_> {
         self.skip_values();
     }
 
-    /// Passes over what changes an object, where it stands behind the object's name and not in its block; up to where
-    /// it goes on its line.
+    /// Skips the modifiers after an object's name that are outside its block; returns the span up to the last
+    /// one on its line.
     pub(super) fn line_of_modifiers(&mut self, name: Span) -> Span {
         let changes = |kind: &TokenKind| match kind {
             TokenKind::Word(word) => {
@@ -353,7 +354,7 @@ impl Evaluator<'_> {
         whole
     }
 
-    /// The braces that stand where a call has parentheses.
+    /// Skips the braces in the place of a call's parentheses.
     fn skip_block_of(&mut self, token: &Token) {
         let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.peek().cloned()
         else {
@@ -371,7 +372,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The first character of a bracketed span.
+/// Returns the first character of a bracketed span.
 pub(super) fn opener(span: Span) -> Span {
     Span { end: span.start + 1, ..span }
 }
