@@ -182,7 +182,7 @@ struct Evaluator<'a> {
     lacks_include: bool,
     /// Standard includes that were reported as assumed by an included file but not included.
     lacking: BTreeSet<String>,
-    /// The names of such includes, as they were written.
+    /// The includes that could not be read, as they were written.
     unread: BTreeSet<String>,
     /// Where a part was last reported missing: another missing part there adds nothing.
     missing_at: Option<Site>,

@@ -9,7 +9,7 @@ use crate::source::Span;
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 
-/// Number of rows of a matrix, which in other tools is also the number of columns.
+/// Dimensions of a matrix: its rows, and its columns here and in other tools.
 const ROWS: usize = 4;
 const COLUMNS: usize = 3;
 const COLUMNS_ELSEWHERE: usize = 4;

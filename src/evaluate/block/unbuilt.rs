@@ -308,7 +308,6 @@ impl Evaluator<'_> {
 
     /// As [`Self::is_of_place`], for a name whose declaration was reported: the word after its `=` shows what
     /// was intended.
-    /// was to be.
     pub(super) fn broken_of_place(&mut self, token: &Token, id: ExpressionId, place: Place) {
         let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return };
         if let Some((word, site)) = self.declared_as(token.here.symbol(name)) {

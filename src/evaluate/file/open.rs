@@ -1,4 +1,4 @@
-//! `#fopen`: what a name has to be, and whether its file can be had.
+//! `#fopen`: checks the name, and opens its file.
 
 use std::rc::Rc;
 
@@ -14,7 +14,7 @@ use super::super::{Evaluator, Here, Outcome, Reported};
 use super::{FileHandle, Opened, State};
 
 impl Evaluator<'_> {
-    /// `#fopen Name "file" read|write|append`.
+    /// Runs `#fopen Name "file" read|write|append`.
     pub(in crate::evaluate) fn open_file(
         &mut self,
         here: &Here,
@@ -76,7 +76,7 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
-    /// The name of a file. As in POV-Ray, backslashes of a literal stay as they are.
+    /// Evaluates the name of a file. As in POV-Ray, backslashes of a literal are kept.
     pub(in crate::evaluate) fn path(&mut self, here: &Here, file: ExpressionId) -> Outcome<String> {
         match here.unit.expression(file).kind {
             ExpressionKind::String => {

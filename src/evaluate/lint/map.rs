@@ -1,4 +1,4 @@
-//! Entries of a map that go down, or lie where a pattern has no values.
+//! Map entries in descending order, or outside the range of a pattern's values.
 
 use super::is_literal;
 use crate::diagnostic::{Code, Diagnostic};
@@ -7,18 +7,18 @@ use crate::evaluate::block::Given;
 use crate::scene::ColorMap;
 use crate::source::{Site, Sources};
 
-/// How far beyond 0 to 1 an entry may lie that only closes the map: `[1.001 …]` is an old habit.
+/// Distance outside 0 to 1 at which an entry only closes the map: `[1.001 …]` is an old habit.
 const BEYOND: f64 = 0.05;
-/// Entries that are remembered to be divided by a hundred.
+/// Maximum number of entries that are recorded to be divided by a hundred.
 const MOST_PERCENTAGES: usize = 64;
 
-/// The values of a map's entries, as they are read.
+/// The values of a map's entries, collected while they are read.
 #[derive(Default)]
 pub(in crate::evaluate) struct Rise {
     last: Option<f64>,
-    /// The first that is below the one before it, and that one.
+    /// The first value that is below the one before it, and that one.
     fall: Option<(f64, f64, Site)>,
-    /// The literal ones; of a map that has others, none.
+    /// The values, if all are literal; otherwise empty.
     literal: Vec<Given<f64>>,
     computed: bool,
 }
@@ -32,7 +32,7 @@ impl Rise {
         }
     }
 
-    /// All entries of a declared map.
+    /// Records all entries of a declared map.
     pub fn named(&mut self, map: &ColorMap, site: Site) {
         self.computed = true;
         map.0.iter().for_each(|(value, _)| self.value(*value, site));

@@ -16,7 +16,7 @@ use super::super::super::{Evaluator, Here, Outcome, Reported};
 use super::super::counted::entry_of;
 use super::flaw::{Flawed, Flaws, is_degenerate};
 
-/// What stands in a `mesh2`.
+/// Items of a `mesh2`.
 const OF_MESH2: &[Word] = &[
     Word::VertexVectors,
     Word::NormalVectors,
@@ -29,19 +29,19 @@ const OF_MESH2: &[Word] = &[
     Word::Hierarchy,
 ];
 
-/// The lists of a `mesh2`, each with what it was opened by.
+/// The lists of a `mesh2`, each with the token that opened it.
 #[derive(Default)]
 struct Lists {
     vertices: Option<(Token, Vec<Vector>)>,
-    /// How many vertices are to come.
+    /// The announced number of vertices.
     announced: usize,
     normals: Option<(Token, Vec<Vector>)>,
     uv_vectors: Option<(Token, Vec<Vector>)>,
     textures: Vec<TextureId>,
-    /// They were not understood.
+    /// The texture list could not be read.
     textures_lost: bool,
     faces: Option<(Token, Vec<[f64; 3]>)>,
-    /// Of each face, where there are textures.
+    /// The textures of each face, if there are any.
     paint: Vec<Option<[u32; 3]>>,
     face_normals: Option<(Token, Vec<[f64; 3]>)>,
     face_uv: Option<(Token, Vec<[f64; 3]>)>,
@@ -49,7 +49,7 @@ struct Lists {
 }
 
 impl Evaluator<'_> {
-    /// `mesh2 { vertex_vectors { … } … face_indices { … } … }`.
+    /// Reads `mesh2 { vertex_vectors { … } … face_indices { … } … }`.
     pub(in super::super) fn mesh2(&mut self, token: &Token) -> Outcome<Solid> {
         if let Some(reported) = self.file_unworded(token, Word::Mesh2) {
             return Err(reported);
@@ -176,7 +176,7 @@ impl Evaluator<'_> {
         self.whole_mesh(token, Word::Mesh2, triangles, flaws)
     }
 
-    /// Normals of length 0 among those that faces have; what no face has may be anything.
+    /// Returns the normals of length 0 that faces use; unused ones may be anything.
     fn aimless(&self, list: Option<&Token>, normals: &[Vector], faces: &[Face]) -> Flawed {
         let used = faces.iter().filter_map(|face| face.normals).flatten();
         let zero = used.filter(|&i| normals[i as usize] == Vector::ZERO);
@@ -233,8 +233,8 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// `{ count, <…>, <…>, … }`: that many vectors, each filled up with zeros to three numbers. There may
-    /// be megabytes of them.
+    /// Reads `{ count, <…>, <…>, … }`: that many vectors, each padded with zeros to three numbers. The list
+    /// may be megabytes long.
     fn entries(
         &mut self,
         list: &Token,
@@ -304,7 +304,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// A list goes on behind its last entry.
+    /// Reports entries after a list's announced end.
     pub(super) fn too_many(
         &mut self,
         list: Word,
@@ -337,7 +337,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic)
     }
 
-    /// Indices of a list of `count` entries; what follows the point of each is dropped, as in POV-Ray.
+    /// Converts numbers to indices into a list of `count` entries; fractions are truncated, as in POV-Ray.
     fn as_indices(
         &mut self,
         list: &Token,
@@ -370,7 +370,7 @@ impl Evaluator<'_> {
         Ok(indices.iter().map(|all| all.map(|index| index as u32)).collect())
     }
 
-    /// Where entry `entry` is written, in a list of plain vectors.
+    /// Returns the span of entry `entry` in a list of literal vectors.
     fn entry_in(&self, list: &Token, entries: usize, entry: usize) -> Option<Span> {
         let text = &self.sources.get(list.span.file).text;
         let rest = text.get(list.span.range().end..)?;
@@ -397,7 +397,7 @@ impl Evaluator<'_> {
         Some(Span::new(list.span.file, start, start + length))
     }
 
-    /// Where number `part` of entry `entry` is written, likewise.
+    /// Returns the span of number `part` of entry `entry`, likewise.
     fn place_in(&self, list: &Token, entries: usize, entry: usize, part: usize) -> Option<Span> {
         let entry = self.entry_in(list, entries, entry)?;
         let mut numbers = self.sources.text(entry).strip_prefix('<')?.strip_suffix('>')?.split(',');
