@@ -1,8 +1,8 @@
 //! Macro arguments that the macro's body cannot use. Each is one mistake of the call, reported once, however
 //! often the body uses the argument and whichever macros it is passed on to.
 //!
-//! **Invariant:** a diagnostic is suppressed as a repetition only if the earlier one was reported and still
-//! stands.
+//! **Invariant:** a diagnostic is suppressed as a repetition only if the earlier one was reported and not
+//! withdrawn.
 
 use crate::diagnostic::Diagnostic;
 use crate::source::{Expansion, ExpansionId, ExpansionKind, Site, Span};

@@ -49,7 +49,7 @@ impl Evaluator<'_> {
         span
     }
 
-    /// Returns the position of an empty argument: the sign that it should precede.
+    /// Returns where an empty argument belongs: the comma or bracket before which it is missing.
     pub(super) fn empty_argument(
         &self,
         here: &Here,

@@ -291,7 +291,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Reports why a built-in function has no value.
+    /// Returns the diagnostic for a call of a built-in function without a value.
     fn call_error(
         &self,
         here: &Here,

@@ -388,8 +388,8 @@ pub(super) fn count(range: &RangeInclusive<usize>, what: &str) -> String {
     }
 }
 
-/// Returns what a word without an effect denotes, with its verb. A word that is supported elsewhere is
-/// described by the use that is not.
+/// Returns the name of an unsupported feature, with its verb. A word that is supported elsewhere is described
+/// by its unsupported use.
 fn what_is_not_built(word: Word) -> String {
     let name = word.name();
     match word {

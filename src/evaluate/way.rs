@@ -213,7 +213,8 @@ fn start_of(one: &Diagnostic) -> u32 {
     one.primary().map_or(0, |label| label.span.start)
 }
 
-/// Returns a text blanked except for `span`, which is put in parentheses if there is room for them.
+/// Returns a text with parentheses around `span`, in place of the blanks on both sides; `None` without blanks
+/// there.
 fn in_parentheses(text: &str, span: Span) -> Option<String> {
     let (open, close) = ((span.start as usize).checked_sub(1)?, span.end as usize);
     let mut text = text.to_owned();

@@ -45,8 +45,8 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// Returns the number of entries that follow, limited to what fits into memory: missing entries are
-    /// reported as such.
+    /// Returns the announced number of entries, truncated and clamped to 32 bits. Warns of a literal fraction.
+    /// If fewer entries follow, they are reported as missing.
     pub(super) fn counted(&mut self, count: &Given<f64>) -> usize {
         self.lint_count(&count.here, count.span, count.value);
         count.value as u32 as usize

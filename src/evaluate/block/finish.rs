@@ -118,8 +118,8 @@ impl Evaluator<'_> {
         Ok(FinishId(self.scene.finishes.len() as u32 - 1))
     }
 
-    /// Marks the finishes from number `first` on as defaults, whose keywords yield to those of the other
-    /// vocabulary.
+    /// Clears the keywords recorded for the finishes from number `first` on. These are defaults, whose
+    /// keywords yield to those of the other vocabulary.
     pub(super) fn forget_words_of_finishes(&mut self, first: usize) {
         for origin in self.scene.finish_origins.iter_mut().skip(first) {
             (origin.seed, origin.classic) = (None, None);

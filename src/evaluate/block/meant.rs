@@ -168,7 +168,7 @@ pub(super) fn block_for(value: &Value, of: Word, text: &str) -> Option<String> {
     Some(format!("write `{} {{ {text} }}` {where_to} this `{}`", own.name(), of.name()))
 }
 
-/// Returns the keyword with a number, if it needs one and none follows: `finish { shiny }`.
+/// Returns a finish keyword with a typical number, for a misspelling without one: `finish { shiny }`.
 pub(super) fn with_number(near: &str) -> Option<&'static str> {
     Some(match Word::from_name(near)? {
         Word::Specular => "specular 0.5",

@@ -70,8 +70,8 @@ impl Evaluator<'_> {
         text.chars().all(signs) && words.clone().count() > 1 && !words.any(is_ours)
     }
 
-    /// Reports an item among the parts of a blob or a mesh that is not one: an undeclared name, or another
-    /// shape. The parts after it are read as usual.
+    /// Reports and skips an item among the parts of a blob or a mesh that is not one: an undeclared name, or
+    /// another shape. Returns whether there was one.
     pub(super) fn passes_no_part(&mut self, place: Place, parts: &[Word]) -> bool {
         let is_other = match self.peek().map(|next| &next.kind) {
             Some(TokenKind::Word(word)) => word.family() == Family::Shape && !parts.contains(word),
@@ -317,7 +317,7 @@ impl Evaluator<'_> {
         told.help(format!("write `{right}`")).fix(whole.span, right)
     }
 
-    /// Returns the span of the `#case` right before `token`, if no `#break` precedes it.
+    /// Returns the span of the `#case` right before `token`, if a block and no `#break` precedes it.
     fn runs_on_into(&self, token: &Token) -> Option<Span> {
         let before = self.sources.get(token.span.file).text.get(..token.span.start as usize)?;
         let start = before.rfind('#')?;

@@ -140,7 +140,7 @@ impl Evaluator<'_> {
         if code == Code::OpenOutline { Ok(()) } else { Err(reported) }
     }
 
-    /// Reports an unclosed curve. With Bézier pieces, POV-Ray omits the prism; with others, it stops.
+    /// Reports an unclosed curve. POV-Ray omits a prism of Bézier pieces, and aborts with any other.
     fn unclosed_curve(
         &mut self,
         token: &Token,

@@ -228,7 +228,8 @@ impl Evaluator<'_> {
     }
 }
 
-/// Returns a vector scaled from 0 to 255 whose transparency is a fraction already: `<255, 128, 0, 0.5>`.
+/// Returns a vector with its colour divided by 255 if its transparency is a fraction already:
+/// `<255, 128, 0, 0.5>`.
 fn clear_by_itself(vector: &str) -> Option<String> {
     let parts: Vec<&str> = vector.strip_prefix('<')?.strip_suffix('>')?.split(',').collect();
     let (colors, clear) = parts.split_at_checked(3)?;

@@ -66,7 +66,7 @@ impl Evaluator<'_> {
         self.report(here, told);
     }
 
-    /// Warns of a number as a condition of its own: `A = 1 | 2`.
+    /// Warns of a number as a condition of its own, `A = 1 | 2`; returns whether it did.
     fn lint_value_for_condition(&mut self, here: &Here, id: ExpressionId) -> bool {
         let (mut first, mut values) = (id, Vec::new());
         while let ExpressionKind::Binary(BinaryOperator::Or, left, right) =

@@ -10,7 +10,6 @@ use crate::vocabulary::Word;
 
 /// Literal `radius` or `falloff` of a beam in radians: from 6° to a right angle. Narrower beams in degrees
 /// are searchlights.
-/// searchlights.
 const RADIANS: std::ops::Range<f64> = 0.1..1.6;
 /// At least one angle of such a beam is this wide; a narrower beam in degrees may be intended.
 const WIDE: f64 = 0.4;

@@ -9,7 +9,7 @@ use crate::source::{Site, Sources};
 
 /// Distance outside 0 to 1 at which an entry only closes the map: `[1.001 …]` is an old habit.
 const BEYOND: f64 = 0.05;
-/// Maximum number of entries that are recorded to be divided by a hundred.
+/// Maximum number of literal values that are kept, to suggest dividing them by a hundred.
 const MOST_PERCENTAGES: usize = 64;
 
 /// The values of a map's entries, collected while they are read.
@@ -18,7 +18,7 @@ pub(in crate::evaluate) struct Rise {
     last: Option<f64>,
     /// The first value that is below the one before it, and that one.
     fall: Option<(f64, f64, Site)>,
-    /// The values, if all are literal; otherwise empty.
+    /// The literal values, up to [`MOST_PERCENTAGES`].
     literal: Vec<Given<f64>>,
     computed: bool,
 }
