@@ -187,8 +187,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Reports a `#version` newer than any release, which POV-Ray refuses as well, and warns of one newer than
-    /// the language implemented here.
+    /// Reports a `#version` newer than any release, which POV-Ray refuses as well, and warns of one newer
+    /// than the language implemented here.
     fn check_version(&mut self, here: &Here, span: Span) -> Outcome<()> {
         /// Newest version of POV-Ray.
         const NEWEST: f64 = 3.8;

@@ -194,9 +194,8 @@ impl Evaluator<'_> {
         self.built(here, span, built)
     }
 
-    /// Compiles a chain of operations iteratively from the leftmost operand: they nest to the left as deeply
-    /// as they are long. In a function `&` binds tighter than `|` (measured); elsewhere they have the same
-    /// precedence.
+    /// Compiles a chain of operations iteratively, from the leftmost operand, however deeply they nest. Only
+    /// in functions does `&` bind tighter than `|` (measured); elsewhere they have the same precedence.
     fn sum_node(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
         let (mut operations, mut first) = (Vec::new(), id);
         while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {

@@ -45,8 +45,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// Returns the announced number of entries, truncated and clamped to 32 bits. Warns of a literal fraction.
-    /// If fewer entries follow, they are reported as missing.
+    /// Returns the announced number of entries, truncated and clamped to 32 bits. Warns of a fraction.
     pub(super) fn counted(&mut self, count: &Given<f64>) -> usize {
         self.lint_count(&count.here, count.span, count.value);
         count.value as u32 as usize

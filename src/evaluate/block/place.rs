@@ -246,7 +246,8 @@ pub(super) fn is_at_top_level(word: Word) -> bool {
     Place::SCENE.holds(word) && !is_part(word)
 }
 
-/// Returns whether a block belongs to another one only through the word that names it there.
+/// Returns whether a word's block is independent: inside another block, it is valid only if that block names
+/// the word.
 pub(super) fn stands_alone(word: Word) -> bool {
     use Word as W;
     matches!(

@@ -18,7 +18,7 @@ pub(in crate::evaluate) struct Rise {
     last: Option<f64>,
     /// The first value that is below the one before it, and that one.
     fall: Option<(f64, f64, Site)>,
-    /// The literal values, up to [`MOST_PERCENTAGES`].
+    /// The literal values, up to `MOST_PERCENTAGES`.
     literal: Vec<Given<f64>>,
     computed: bool,
 }

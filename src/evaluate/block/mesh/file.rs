@@ -149,8 +149,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Returns the solid for a `mesh` with a `file`. Reports triangles of its `own`, which may only contribute
-    /// an `inside_vector`.
+    /// Returns the solid for a `mesh` with a `file`. Reports triangles of its `own`, which may only
+    /// contribute an `inside_vector`.
     pub(super) fn mesh_of_file(
         &mut self,
         token: &Token,
