@@ -1,4 +1,4 @@
-//! `global_settings`, `background` and `sky_sphere`.
+//! Settings of the whole scene: `global_settings`, `background` and `sky_sphere`.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! `texture` and `#default`.
+//! `texture`, and the default texture of `#default`.
 
 mod bare;
 mod pattern;

@@ -1,4 +1,4 @@
-//! `translate`, `rotate`, `scale`, `matrix` and `transform`.
+//! Transforms: `translate`, `rotate`, `scale`, `matrix` and `transform`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;

@@ -1,4 +1,4 @@
-//! `reflection` in a finish.
+//! `reflection` in a finish: a colour, or two for the limits of the angle.
 
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
