@@ -29,7 +29,7 @@ impl Evaluator<'_> {
         if self.sources.text(span).ends_with([')', '>', '}']) {
             return Span { start: span.end - 1, ..span };
         }
-        // The name alone of what is called.
+        // Only the name of the called function.
         let text = &self.sources.get(span.file).text;
         let behind = text.get(span.end as usize..).unwrap_or("");
         let (mut depth, mut quoted) = (0, false);
@@ -67,7 +67,7 @@ impl Evaluator<'_> {
             Some(_) => return call,
             None => text.find('(').unwrap_or(0),
         };
-        // Its own comma, behind the one that ends what stands before.
+        // The comma of this argument, after the one that ends the argument before it.
         let mut commas = text.get(from..).unwrap_or("").match_indices(',');
         match commas.nth(usize::from(before.is_some())) {
             Some((at, _)) => {

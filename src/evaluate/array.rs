@@ -101,7 +101,7 @@ fn place(array: &Array, indices: &[f64], from: usize) -> Result<usize, NoElement
     }
     let mut place = 0;
     for (at, (index, size)) in indices.iter().zip(&array.dimensions).enumerate() {
-        // What a calculation leaves over is no reason to miss by one.
+        // The rounding error of a calculation must not miss an element by one.
         let index = (index + 1e-10).floor();
         if !(0.0..f64::from(*size)).contains(&index) {
             return Err(NoElement::Outside(from + at, index, *size));
@@ -204,7 +204,7 @@ impl Evaluator<'_> {
             match filled {
                 Ok(Some(poison)) => return Ok(poison),
                 Ok(None) => {}
-                // It has its size all the same, and what it lacks was told.
+                // It has its size nevertheless, and what is missing was reported.
                 Err(Reported) => {
                     for element in array.elements.iter_mut().filter(|element| element.is_none()) {
                         *element = Some(Value::Broken);
@@ -250,7 +250,7 @@ impl Evaluator<'_> {
     fn array_size(&mut self, token: &Token, dimensions: &[u32]) -> Outcome<Option<usize>> {
         if dimensions.is_empty() {
             let round = self.next_if(|kind| matches!(kind, TokenKind::Expression(_)));
-            // `array { 1, 2, 3 }`: its values are no second mistake.
+            // `array { 1, 2, 3 }`: its values cause no second error.
             if let Some(Token { kind: TokenKind::Block(contents), here, span }) =
                 self.next_if(|kind| matches!(kind, TokenKind::Block(_)))
             {
@@ -311,7 +311,7 @@ impl Evaluator<'_> {
             found += 1;
             if found > size {
                 surplus = surplus.or(Some(token.span));
-                // What begins one value is no value more.
+                // The start of a value is not another value.
                 let _ = last.then(|| self.value_of(&token));
                 continue;
             }
@@ -347,7 +347,7 @@ impl Evaluator<'_> {
         if self.undecided {
             return Err(Reported);
         }
-        // What was written is there, so that asking for it is no second mistake.
+        // The values written exist, so that reading them causes no second error.
         if array.dimensions.len() == 1 && found > size {
             array.elements.resize(found, Some(Value::Broken));
             array.dimensions[0] = found as u32;

@@ -39,7 +39,7 @@ impl Evaluator<'_> {
             let end = item.span.end;
             let branch = match self.asked.get(&id) {
                 Some([false, true]) if otherwise.is_empty() => Some((head.end, end)),
-                // Up to its `#else`: what could not be read may be the last of it.
+                // Up to its `#else`: the text that could not be read may be at its end.
                 Some([false, true]) => {
                     ast.items(*otherwise).first().map(|first| (head.end, first.span.start))
                 }

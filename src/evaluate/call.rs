@@ -152,7 +152,7 @@ impl Evaluator<'_> {
         let list = here.unit.ast.arguments(arguments);
         match word {
             Word::Defined => {
-                // No word of the language is a name that is declared.
+                // No keyword is a declared name.
                 if let [Argument::Items(_)] = list {
                     return Ok(Value::truth(false));
                 }

@@ -24,7 +24,7 @@ impl Evaluator<'_> {
             ExpressionKind::Binary(BinaryOperator::Add, left, right) => Some((left, right)),
             _ => None,
         };
-        // The whole of it: what begins with this sum, and goes on.
+        // The whole sum, including the operators that follow.
         let whole = (0..ast.expressions.len() as u32)
             .map(ExpressionId)
             .filter(|id| adds(*id).is_some() && ast.expression(*id).span.start == sum.start)

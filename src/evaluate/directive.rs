@@ -36,7 +36,7 @@ impl Evaluator<'_> {
             DirectiveKind::If { test, then, otherwise } => {
                 let taken = match test {
                     Test::Condition(condition) => match self.asked_condition(here, *condition) {
-                        // `#if (Broken) merge { #else union { #end`: one of them opens it.
+                        // `#if (Broken) merge { #else union { #end`: one of the branches opens it.
                         Err(reported)
                             if is_bracket(here, *then) && is_bracket(here, *otherwise) =>
                         {
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
                 };
                 let symbol = here.symbol(*name);
                 let (Ok(from), Ok(to), Ok(step)) = (from, to, step_value) else {
-                    // How often it would turn is not known: the body is read once, for its own mistakes.
+                    // The number of turns is unknown: the body is read once, for its own mistakes.
                     self.scopes.note_declaration(symbol, here.site(*name_span), Owner::Other);
                     self.scopes.assign_local(symbol, Value::Number(from.unwrap_or(0.0)));
                     self.push_switch(here, *body);
@@ -103,7 +103,7 @@ impl Evaluator<'_> {
                 let chosen = match value.and_then(|value| self.chosen_case(here, value, cases)) {
                     Ok(chosen) => chosen.unwrap_or(cases.len()),
                     Err(reported) => {
-                        // Which case is meant is not known.
+                        // The intended case is unknown.
                         for case in cases {
                             self.declare_broken(here, case.body);
                         }
@@ -150,7 +150,7 @@ impl Evaluator<'_> {
                 self.say(here, Code::AuthorWarning, *text, directive.head)
             }
             DirectiveKind::Error(text) => {
-                // Behind a mistake it is rather what comes of that: the rest is read for its own.
+                // After an error it is probably a consequence: the rest is read for its own mistakes.
                 let goes_on = self.diagnostics.has_errors();
                 let said = self.say(here, Code::AuthorError, *text, directive.head);
                 self.halted = !goes_on;
@@ -201,7 +201,7 @@ impl Evaluator<'_> {
                 let diagnostic = Diagnostic::new(Code::OldVersion, message)
                     .at(span, format!("it is that of {BUILT}, with few words of what comes"))
                     .help(format!("write `#version {BUILT};`"));
-                // Nobody mends an installed file.
+                // Nobody edits an installed file.
                 let diagnostic = match span.file == FileId(0) {
                     true => diagnostic.fix(span, BUILT.to_string()),
                     false => diagnostic,
@@ -223,7 +223,7 @@ impl Evaluator<'_> {
         }
         let text = match self.expression(here, text)? {
             Value::String(text) => text,
-            // What an author wants said is not passed over.
+            // The author's own messages are not suppressed.
             Value::Poison(poison) => return Err(self.not_supported(poison, Some(head))),
             other => {
                 let span = here.unit.expression(text).span;
@@ -236,7 +236,7 @@ impl Evaluator<'_> {
             Severity::Error => "the scene stops itself here",
             Severity::Warning | Severity::Note => "said here",
         };
-        // A note may be one of several pieces of a line.
+        // A message may be one of several pieces of a line.
         let said = match code.severity() {
             Severity::Note => &*text,
             Severity::Error | Severity::Warning => text.trim_end_matches('\n'),
@@ -324,7 +324,7 @@ impl Evaluator<'_> {
     /// recursively, bounded only by a limit.
     fn declared_value(&mut self, here: &Here, head: Span, target: &Target) -> Outcome<Value> {
         let limit = self.options.limits.macro_depth;
-        // A macro that gives the value may declare something itself, and call itself for it.
+        // A macro that supplies the value may declare names, and call itself for it.
         if self.declaring >= limit.saturating_add(self.macro_depth) {
             let message = format!("values of `#declare` are nested more than {limit} deep");
             let diagnostic = Diagnostic::new(Code::NestingLimit, message)
@@ -364,7 +364,7 @@ impl Evaluator<'_> {
         let frame = self.frames.last()?;
         let items = here.unit.ast.items.get(frame.at as usize..frame.end as usize)?;
         let [Item { kind: ItemKind::Expression(id), .. }, end, ..] = *items else { return None };
-        // A second one is looked at more closely.
+        // A second one is handled by the general case.
         let twice = items.get(2).is_some_and(|item| item.kind == ItemKind::Semicolon);
         if end.kind != ItemKind::Semicolon || twice {
             return None;
@@ -394,7 +394,7 @@ impl Evaluator<'_> {
                 matches!(kind, TokenKind::Word(word) if word.family() == Family::Color),
             );
             match kind {
-                // A colour is one, whatever it is for.
+                // A colour is a colour, whatever its purpose.
                 TokenKind::Expression(id) if before && self.unknown_name(&here, id).is_none() => {
                     drop(self.expression(&here, id));
                 }

@@ -129,7 +129,7 @@ impl Evaluator<'_> {
     ) -> Outcome<()> {
         let numbers = match (indices?, self.scopes.read(symbol)) {
             (_, None) => return Err(self.array_missing(here, symbol, span)),
-            // What is set in something that is not built, or that was reported, is lost.
+            // Assignments into an unsupported or reported value are dropped.
             (Indices::Poison(_), _) | (_, Some(Value::Poison(_) | Value::Broken)) => return Ok(()),
             (Indices::Numbers(numbers), Some(_)) => numbers,
         };
@@ -157,7 +157,7 @@ impl Evaluator<'_> {
                 array.forget(at);
                 Ok(())
             }
-            // There is nothing to forget.
+            // There is nothing to remove.
             Err(NoElement::Unset | NoElement::NoArray(_, Value::Poison(_) | Value::Broken)) => {
                 Ok(())
             }
@@ -173,7 +173,7 @@ impl Evaluator<'_> {
         let Some(value) = self.scopes.read(here.symbol(target.name)) else { return false };
         match element(value, &numbers) {
             Ok(value) => *value != Value::Broken,
-            // Whether an element of something not built is set cannot be known.
+            // Whether an element of an unsupported value is set is unknown.
             Err(NoElement::NoArray(_, value)) => matches!(value, Value::Poison(_)),
             Err(NoElement::Unset) => false,
             Err(error) => {
@@ -227,7 +227,7 @@ impl Evaluator<'_> {
             return Ok(Value::Number(f64::from(*size)));
         }
         if self.options.dialect == Dialect::Pov {
-            // As POV-Ray 3.7 answers (measured).
+            // POV-Ray 3.7's result (measured).
             return Ok(Value::Number(0.0));
         }
         let count = count(&(array.dimensions().len()..=array.dimensions().len()), "dimension");
@@ -244,7 +244,7 @@ impl Evaluator<'_> {
         base: Span,
     ) -> Reported {
         let index = |at: usize| indices.get(at).map_or(base, |id| here.unit.expression(*id).span);
-        // Of what is assigned, the place is that of all of it.
+        // The target of an assignment has the span of the whole expression.
         let name = self.sources.text(base).split('[').next().unwrap_or("").trim().to_owned();
         let diagnostic = match error {
             NoElement::NoArray(0, Value::Broken)
@@ -272,7 +272,7 @@ impl Evaluator<'_> {
                 let told = Diagnostic::new(Code::OutOfRange, message)
                     .at(index(at), "outside of the array");
                 let counted = indices.get(at).and_then(|&index| self.counted_to(here, index));
-                // The end of one loop is one mistake, whatever is asked by its counter.
+                // The end of one loop is a single mistake, whatever its counter indexes.
                 if let Some((end, _)) = counted {
                     if self.ends_told.contains(&(end, size)) {
                         return Reported;

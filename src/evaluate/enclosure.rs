@@ -64,7 +64,7 @@ impl Evaluator<'_> {
         let closers = self.loose_closers;
         self.push(here, items, FrameKind::Block);
         self.enclosed(Enclosure::Block, consumer, |evaluator| {
-            // No loose brace has come between its own.
+            // No unpaired brace has come between its own.
             if evaluator.loose_closers == closers {
                 evaluator.drop_frames(depth);
             } else {
@@ -80,11 +80,11 @@ impl Evaluator<'_> {
         end: impl FnOnce(&mut Self),
     ) -> T {
         let (peeked, taken, silent) = (self.peeked.take(), self.taken, self.silent);
-        // What a `#declare` must not look at lies behind the block.
+        // The items that a `#declare` must not look at are after the block.
         let hold = self.hold.take();
         let undecided = std::mem::take(&mut self.undecided);
         self.enclosures.push(enclosure);
-        // Blocks in blocks in macros can go deeper than a thread's stack.
+        // Nested blocks and macros may exceed the depth of a thread's stack.
         let result = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || consumer(self));
         (self.peeked, self.taken) = (None, taken);
         end(self);
@@ -126,7 +126,7 @@ impl Evaluator<'_> {
         self.taken = taken;
         match self.frames.last_mut() {
             Some(Frame { kind: FrameKind::Block, at, end, .. }) if *at == *end => {
-                // The literal brace was another block's.
+                // The literal brace belongs to another block.
                 self.loose_closers += 1;
                 self.pop_frame();
             }

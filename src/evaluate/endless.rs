@@ -84,7 +84,7 @@ impl Evaluator<'_> {
             ExpressionKind::Call(Callee::Name(name, _), _) => is_inside(one.span) && is_macro(name),
             _ => false,
         });
-        // A parameter and what it was given are one.
+        // A parameter is an alias of its argument.
         let is_asked = |name: NameId| {
             let symbol = here.symbol(name);
             let slot = self.scopes.slot(symbol);

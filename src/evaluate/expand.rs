@@ -131,7 +131,7 @@ impl Evaluator<'_> {
         let span = here.unit.expression(id).span;
         let definition = self.macros[macro_id.0 as usize].clone();
         if !self.has_a_way(&definition) {
-            // Its value is what it lacks.
+            // Its missing value is the mistake.
             return Ok(false);
         }
         let expansion = self.enter_macro(here, &definition, arguments, span)?;
@@ -224,7 +224,7 @@ impl Evaluator<'_> {
             }
             false => Vec::new(),
         };
-        // With too many or too few the body is read all the same, for its own mistakes.
+        // With too many or too few, the body is read nevertheless, for its own mistakes.
         let wrong =
             spread.is_empty() && self.check_arguments(here, definition, list, span).is_err();
         if self.has_run_enough() {
@@ -237,7 +237,7 @@ impl Evaluator<'_> {
             let help = "a recursion needs a condition that ends it, as `#if (N > 0) … #end`; `--limit macro-depth=N` raises the limit";
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
-        // What stands around a call in each of them counts too: it is all waiting.
+        // The brackets around each nested call count too: all of them are waiting.
         let around = self.enclosures.len() as u64 + self.calculating;
         let Limits { nesting, macro_depth, .. } = self.options.limits;
         let most = u64::from(nesting) + MOST_AROUND * u64::from(macro_depth);
@@ -246,10 +246,10 @@ impl Evaluator<'_> {
             let help = "a recursion needs a condition that ends it, as `#if (N > 0) … #end`; `--limit macro-depth=N` raises the limit, which is a multiple of it";
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
-        // Kept from call to call; an argument that calls a macro itself makes do with another.
+        // Reused between calls; a nested call in an argument uses another buffer.
         let mut bound = std::mem::take(&mut self.bound);
         if wrong {
-            // Which is which is not known.
+            // Which argument belongs to which parameter is unknown.
             self.run_arguments(here, arguments);
             let broken = || Bound { slot: self.scopes.keep(Value::Broken), own: true };
             bound.extend(std::iter::repeat_with(broken).take(definition.parameters.len()));
@@ -303,7 +303,7 @@ impl Evaluator<'_> {
             let name = self.scopes.name(definition.name);
             let wanted = count(&wanted, "argument");
             let message = format!("macro `{name}` takes {wanted}, and is given {}", list.len());
-            // `#macro Ball(P, R = 1)`, as has been told.
+            // `#macro Ball(P, R = 1)`, which has been reported.
             if list.len() < definition.required && self.has_default(definition.defined) {
                 return Err(Reported);
             }
@@ -311,7 +311,7 @@ impl Evaluator<'_> {
             let at = more.unwrap_or_else(|| self.end_of_call(span));
             let told =
                 Diagnostic::new(Code::WrongArity, message).at(at, format!("expected {wanted}"));
-            // `Ball(0, 1, 2, 3)` of two: three numbers without their angle brackets.
+            // `Ball(0, 1, 2, 3)` with two parameters: a vector without its angle brackets.
             let vector = parameters
                 .len()
                 .checked_sub(1)

@@ -39,7 +39,7 @@ impl Evaluator<'_> {
             ExpressionKind::String => self.string_value(here, expression.span),
             ExpressionKind::Missing => Err(Reported),
             ExpressionKind::Joint => Err(self.nothing_joined(here, expression.span)),
-            // Brackets in brackets.
+            // Nested brackets.
             kind => {
                 if let ExpressionKind::Vector(components) = kind
                     && let Some(vector) = self.plain_triple(here, components)
@@ -315,7 +315,7 @@ impl Evaluator<'_> {
             }
             OperationError::NotNumeric(index) => {
                 let kind = values[index].kind();
-                // `strlen(S) + "1"`: a number in quotes is meant as one.
+                // `strlen(S) + "1"`: a number in quotes is meant as a number.
                 let is_sum = matches!(values[1 - index], Value::Number(_));
                 if let Value::String(found) = values[index]
                     && what == "`+`"

@@ -101,7 +101,7 @@ impl Evaluator<'_> {
     fn opened(&mut self, here: &Here, (name, span): (NameId, Span)) -> Outcome<FileHandle> {
         let symbol = here.symbol(name);
         let handle = match self.scopes.read(symbol) {
-            // No word of the language is a file.
+            // No keyword is a file.
             None => return Err(self.unknown_file(here, symbol, span)),
             Some(Value::Broken | Value::Poison(_)) => return Err(Reported),
             Some(Value::File(handle)) => *handle,
@@ -163,7 +163,7 @@ impl Evaluator<'_> {
         if let Some(declared) = declared {
             diagnostic = diagnostic.also(declared.site.span, format!("`{file}` is opened here"));
         }
-        // Known from now on, so that it is said once.
+        // Declared from now on, so that it is reported once.
         self.scopes.assign(symbol, Value::Broken);
         self.report(here, diagnostic)
     }

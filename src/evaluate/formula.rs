@@ -58,7 +58,7 @@ impl Evaluator<'_> {
         let Ok(builder) = Builder::new(parameters.len()) else {
             return Err(self.too_long(here, span));
         };
-        // Of two parameters of one name the first counts; of `x` and `u` the last (measured on POV-Ray 3.7).
+        // Of parameters with the same name the first counts; of `x` and `u` the last (measured).
         let names = parameters.iter().enumerate().filter(|(at, name)| {
             !(matches!(name, ParameterName::Name(_)) && parameters[..*at].contains(name))
         });
@@ -86,7 +86,7 @@ impl Evaluator<'_> {
         formula: &mut Formula,
         id: ExpressionId,
     ) -> Outcome<Node> {
-        // Brackets in brackets.
+        // Nested brackets.
         stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.node_of(here, formula, id))
     }
 
@@ -205,7 +205,7 @@ impl Evaluator<'_> {
         let mut node = self.node(here, formula, first);
         let mut either = None;
         for (operator, right, span) in operations.into_iter().rev() {
-            // Both sides may have something to complain of.
+            // Both sides may report errors.
             let right = self.node(here, formula, right);
             if operator == BinaryOperator::Or {
                 either = Some((self.either(here, formula, either, node), span));
@@ -304,7 +304,7 @@ impl Evaluator<'_> {
                 }
                 None => {
                     let reported = self.undeclared(here, here.symbol(name), name_span);
-                    // What its arguments lack is told, too.
+                    // Mistakes in its arguments are reported, too.
                     let _: Outcome<Vec<Node>> = self.argument_nodes(here, formula, arguments);
                     Err(reported)
                 }
@@ -329,7 +329,7 @@ impl Evaluator<'_> {
             Callee::Word(word, word_span) => match word {
                 Word::Sum | Word::Prod => self.loop_node(here, formula, word, word_span, arguments),
                 Word::Rand | Word::Seed => Err(self.no_stream(here, word, word_span)),
-                // No value, wherever it stands.
+                // Not a value in any position.
                 Word::Pwr | Word::Sqr => self.expression(here, id).and(Err(Reported)),
                 _ if is_operation(word) => {
                     self.operation_node(here, formula, word, word_span, arguments)

@@ -69,7 +69,7 @@ impl Evaluator<'_> {
     /// Reads `function [(a, b)] { … }`, after its keyword.
     pub(super) fn function(&mut self, token: &Token) -> Outcome<Value> {
         let Some(parameters) = self.parameters(token)? else {
-            // `function 500, 500 { pigment { … } }`: a picture.
+            // `function 500, 500 { pigment { … } }`: an image.
             self.skip_function();
             let site = token.here.site(token.span);
             return Ok(Value::Poison(Poison::new(Word::Function, site)));
@@ -219,7 +219,7 @@ impl Evaluator<'_> {
         };
         match [0, 1, 2].map(coordinate) {
             [Ok(x), Ok(y), Ok(z)] => Ok([x, y, z]),
-            // Seven operations are not too many.
+            // Seven operations never exceed the limit.
             _ => Err(Reported),
         }
     }
@@ -274,7 +274,7 @@ impl Evaluator<'_> {
                         .at(parameter.span, "the second of them")
                         .help("`u` and `x` are one parameter, and so are `v` and `y`");
                     if self.options.dialect == Dialect::Pov {
-                        // POV-Ray 3.7 takes both.
+                        // POV-Ray 3.7 accepts both.
                         self.report(&here, told.as_warning());
                         names.push(name);
                         continue;
@@ -394,7 +394,7 @@ impl Evaluator<'_> {
         };
         let diagnostic =
             Diagnostic::new(Code::WrongArity, message).at(at, format!("expected {wanted}"));
-        // `F(x, y)` of a function of a place.
+        // `F(x, y)` for a function of a point.
         let place: String = call.split_whitespace().collect();
         let diagnostic = match place.strip_suffix("(x,y)") {
             Some(name) if least == 3 => {

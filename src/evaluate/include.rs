@@ -87,7 +87,7 @@ impl Evaluator<'_> {
                         let told = Rc::new(diagnostic);
                         self.remembered.missing.insert(span, (name.clone(), told.clone()));
                         let reported = self.report_again(here, &told);
-                        // With the file that was meant nothing behind it is lacking.
+                        // With the intended file, nothing after it is missing.
                         let found = (!meant.is_empty()).then(|| self.found(&meant, &from));
                         match found {
                             Some(Ok(found)) => found,
@@ -191,14 +191,14 @@ impl Evaluator<'_> {
             .at(span, "included here");
             self.report(here, diagnostic);
         }
-        // How it came to be read, from the main file on.
+        // The chain of includes from the main file on.
         if !told.is_empty() {
             let (expansions, kind) = (&mut self.scene.expansions, ExpansionKind::Include);
             let named = expansions.named(name);
             let included = expansions.add(here.expansion, head.to(span), kind, named);
             let whole = head.to(span);
             let mesh = format!("mesh {{ file {} }}", self.sources.text(span));
-            // Where objects stand, it can be placed.
+            // Where objects are expected, it can be placed.
             let is_mesh = is_scene && self.blocks.is_empty() && mesh_file::is_named(name);
             for told in told.iter().cloned() {
                 self.lacks_include |= told.code == Code::ForeignFile;
@@ -282,7 +282,7 @@ pub(super) fn missing_file(
             let mut diagnostic =
                 Diagnostic::new(Code::MissingInclude, format!("`{name}` is not found"))
                     .at(span, "no file of this name");
-            // One that is built in lies in no folder.
+            // An embedded file is in no folder.
             let last = file_name(name);
             let stem = last.strip_suffix(".inc").unwrap_or(last);
             let same = || standard_includes().find(|include| *include == stem);

@@ -86,7 +86,7 @@ impl<T> Calculation<T> {
         let (first, operations) = spine(here, id);
         match here.unit.expression(first).kind {
             ExpressionKind::Joint if self.last.is_some() => {}
-            // There is nothing: that is told.
+            // There is no operand, which is reported.
             ExpressionKind::Joint => drop(of.evaluate(here, first)?),
             ExpressionKind::Unary(operator, operand)
                 if self.last.is_some()
@@ -328,7 +328,7 @@ impl Evaluator<'_> {
 
     /// Returns the next expression if it continues the one before, or if an operand is missing.
     fn next_joint(&mut self, wanted: bool) -> Option<(Here, ExpressionId)> {
-        // What is wanted stands before the end of a `#declare`.
+        // A required operand comes before the end of a `#declare`.
         let hold = if wanted { self.hold.take() } else { self.hold };
         self.peek_on();
         let first = self.frames.len();

@@ -96,7 +96,7 @@ impl Evaluator<'_> {
 
     /// Reports a second pigment in the block of an object or a texture.
     pub(super) fn lint_replaced(&mut self, token: &Token, first: Site, of: &str) {
-        // A loop whose `#end` is missing runs over what stands behind it.
+        // A loop without its `#end` includes the items after it.
         let is_lost = |one: &Diagnostic| one.code == Code::MissingEnd;
         if first.span == token.span && self.diagnostics.iter().any(is_lost) {
             return;
@@ -131,7 +131,7 @@ impl Evaluator<'_> {
                 }
                 Some(before) => before.take(),
             };
-            // The second declaration only; each look goes through the text.
+            // Only the second declaration; each search goes through the text.
             let Some(before) = before.filter(|_| looked < MOST_LOOKS) else { continue };
             looked += 1;
             let (known, rest) = text.split_at(span.range().start);

@@ -379,7 +379,7 @@ impl<'a> Evaluator<'a> {
             // Nobody looks at what there is of it.
             self.scene.roots.clear();
         }
-        // What a mistake kept from being run may be the use that is missing.
+        // The missing use may be in code that a mistake kept from running.
         if !self.halted && !self.diagnostics.has_errors() {
             self.lint_declarations(&here.unit);
             self.lint_options(&here.unit);

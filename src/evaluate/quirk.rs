@@ -83,7 +83,7 @@ impl Evaluator<'_> {
             ExpressionKind::Index(..) | ExpressionKind::Vector(_) => {
                 self.expression(here, whole).ok()?
             }
-            // Calling it twice may do something else the second time.
+            // Calling it twice may have different effects.
             _ => return None,
         };
         let numbers = match value {

@@ -26,7 +26,7 @@ impl Evaluator<'_> {
         expansion: ExpansionId,
         mut diagnostic: Diagnostic,
     ) -> Reported {
-        // After a limit, what is missing is missing because nothing more is read.
+        // After a limit, parts are missing because nothing more is read.
         if self.repeats(&diagnostic) || self.may_be_undecided(diagnostic.code) {
             return Reported;
         }
@@ -315,7 +315,7 @@ impl Evaluator<'_> {
             }
             _ => diagnostic.at(directive.head, label),
         };
-        // No limit helps a loop that is known not to end.
+        // No limit helps a loop that never ends.
         let limited = diagnostic.message.contains("turn") && !self.options.interrupt.is_set();
         let diagnostic = match limited {
             true => diagnostic.help("`--limit loop-turns=N` raises the limit"),
@@ -411,7 +411,7 @@ fn what_is_not_built(word: Word) -> String {
 /// Returns the supported words of a word's family that may replace it.
 fn built_beside(word: Word) -> Vec<String> {
     let beside = |other: Word| match other {
-        // Built of lights, and not of interiors.
+        // Supported in lights, but not in interiors.
         Word::FadeDistance | Word::FadePower => word.family() == Family::Light,
         // What the parts of a light stand in, and no part.
         Word::LightSource if word != Word::LightGroup => false,

@@ -228,7 +228,7 @@ impl Scopes {
     pub fn assign_in(&mut self, depth: u32, symbol: Symbol, value: Value) {
         let depth = depth.min(self.tables.len() as u32 - 1);
         let bindings = &self.states[symbol.0 as usize].bindings;
-        // Mostly it is the newest that is meant.
+        // Usually the newest is meant.
         if let Some(&(newest, slot)) = bindings.last()
             && newest == depth
             && slot != Slot::NONE
@@ -249,7 +249,7 @@ impl Scopes {
             _ => {
                 let slot = self.keep(value);
                 self.states[symbol.0 as usize].bindings.insert(at, (depth, slot));
-                // The main file's never closes.
+                // The main file's table never closes.
                 if depth > 0 {
                     self.tables[depth as usize].push((symbol, true));
                 }
@@ -336,7 +336,7 @@ impl Scopes {
     pub fn visible(&self) -> impl Iterator<Item = &str> {
         let bound = self.states.iter().map(|state| {
             let value = state.bindings.last().and_then(|&(_, slot)| self.value(slot));
-            // A name that is only known because it was reported is no suggestion for another.
+            // A name that is known only because it was reported is not a suggestion for another.
             value.is_some_and(|value| *value != Value::Broken || state.declared.is_some())
         });
         self.names.iter().zip(bound).filter(|(_, bound)| *bound).map(|(name, _)| name.as_str())

@@ -18,7 +18,7 @@ use super::{Evaluator, Here};
 impl Evaluator<'_> {
     /// Consumes the `;` after the value of a `#declare`, which is mandatory for a number.
     pub(super) fn end_of_declaration(&mut self, head: Span, value: Option<&Value>) {
-        // `#define A 1`, `int A = 1`: told as that.
+        // `#define A 1`, `int A = 1`: reported as such.
         let opening = self.sources.text(head);
         let named = opening.starts_with('#')
             && (opening.ends_with("declare") || opening.ends_with("local"));
@@ -41,7 +41,7 @@ impl Evaluator<'_> {
         if numeric && self.two_values(head) {
             return;
         }
-        // What else stands behind the value is a mistake of its own.
+        // Anything else after the value is a mistake of its own.
         let ends = matches!(
             self.peek_on().map(|token| &token.kind),
             None | Some(TokenKind::Word(_) | TokenKind::Block(_))
@@ -56,7 +56,7 @@ impl Evaluator<'_> {
             .at(self.sources.sign_before(place), "expected `;` after this")
             .help("POV-Ray refuses it without")
             .fix(place, ";");
-        // It may be told as an old form.
+        // It may be reported as an old form.
         let old_forms = self.remembered.old_forms.get_or_insert_with(|| {
             let told = self.diagnostics.iter().filter(|one| one.code == Code::LegacyForm);
             told.flat_map(|one| one.fixes.iter().map(|fix| fix.span)).collect()
@@ -195,7 +195,7 @@ impl Evaluator<'_> {
                 .fix(token.span, "");
         let statement = before.rsplit(['\n', '{']).next().unwrap_or("");
         let start = (before.len() - statement.len()) as u32;
-        // A value behind it is a mistake of its own.
+        // A value after it is a mistake of its own.
         let value =
             |next: &Token| matches!(next.kind, TokenKind::Expression(_) | TokenKind::Literal(_));
         if !self.peek_on().is_some_and(value) {

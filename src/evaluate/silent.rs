@@ -45,7 +45,7 @@ impl Evaluator<'_> {
             {
                 first.span
             }
-            // No value: the macro is to blame for that.
+            // No value: the macro is the cause.
             Some(_) | None => return,
         };
         let called = self.silent.take().and_then(|silent| silent.called);

@@ -174,7 +174,7 @@ impl Evaluator<'_> {
         let mut diagnostic = Diagnostic::new(Code::RepeatedTime, message)
             .at(later.span, label)
             .help("a jump lies between two times that differ by a little");
-        // Of a loop, both stand at one place.
+        // In a loop, both have the same span.
         if before.span != later.span {
             diagnostic = diagnostic.also(before.span, "the first is here");
         }

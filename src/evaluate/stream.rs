@@ -315,7 +315,7 @@ impl Evaluator<'_> {
             if self.halted {
                 return None;
             }
-            // A directive may have looked at what comes after its value.
+            // A directive may have looked past its value.
             if self.peeked.is_some() {
                 return self.peeked.take();
             }
@@ -384,7 +384,7 @@ impl Evaluator<'_> {
                     // Reported where it happened; the statement is the fault boundary.
                     let _: Outcome<()> = self.directive(&here, id);
                     (self.taken, self.silent) = (taken, silent);
-                    // Its `;` is no part of the block that it stands in.
+                    // Its `;` is not part of the enclosing block.
                     if let DirectiveKind::Version(_) = here.unit.ast.directive(id).kind {
                         self.pass(ItemKind::Semicolon);
                     }

@@ -58,13 +58,13 @@ impl Evaluator<'_> {
                 *turns += 1;
                 let (here, condition, body, turns, directive) =
                     (here.clone(), *condition, *body, *turns, *directive);
-                // What a mistake in it keeps from being computed may be what ends the loop.
+                // A mistake in the body may prevent the computation that ends the loop.
                 let faulty = worn_out || (turns > FAULTY_TURNS && self.misread);
                 let goes_on = if faulty { Ok(false) } else { self.condition(&here, condition) };
                 let unknown = goes_on.is_err()
                     || (goes_on == Ok(false) && self.asks_of_broken(&here, condition));
                 if unknown && turns == 1 {
-                    // What the condition would be is not known: the body is read once, for its own mistakes.
+                    // The condition's value is unknown: the body is read once, for its own mistakes.
                     self.pop_frame();
                     self.undecided = true;
                     return self.push_switch(&here, body);
@@ -95,7 +95,7 @@ impl Evaluator<'_> {
                         if told || !self.sources.text(head).ends_with("while") {
                             return self.pop_frame();
                         }
-                        // Nothing can change: this would only run into the limit.
+                        // Nothing can change: the loop would only run into the limit.
                         let message = "this loop does not end".to_owned();
                         let label = "its condition is always true";
                         let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
@@ -114,7 +114,7 @@ impl Evaluator<'_> {
                 let now = set.map_or(*value, |set| set + *step);
                 *value = now;
                 let apart = (now - *to).abs();
-                // What is no number is never reached.
+                // NaN is never reached.
                 let reached = !apart.is_nan() && comparison.same(now, *to)
                     // A step's worth of rounding: 0, 0.1 … 1 has eleven values.
                     || (step.is_finite() && apart <= 1e-9 * step.abs());

@@ -43,14 +43,14 @@ impl Evaluator<'_> {
         fits: impl Fn(Word) -> bool,
     ) -> Reported {
         let name = self.scopes.name(symbol).to_owned();
-        // `Arm_001`, where `Arm.001` is declared: that has been told.
+        // `Arm_001`, where `Arm.001` is declared: that has been reported.
         let is_dotted =
             |other: &str| other.contains(['.', '-']) && other.replace(['.', '-'], "_") == name;
         let is_looked_for = self.remembered.undeclared.len() < MOST_LOOKS;
         if is_looked_for && name.contains('_') && self.scopes.visible().any(is_dotted) {
             return Reported;
         }
-        // `T_Stone 21`: of that it was told as it was read.
+        // `T_Stone 21`: reported when it was parsed.
         if name.contains([' ', '-']) {
             self.scopes.assign(symbol, Value::Broken);
             return Reported;
@@ -76,7 +76,7 @@ impl Evaluator<'_> {
         if let Some(told) = told {
             self.report_again(here, &told);
         }
-        // Known from now on, so that it is said once.
+        // Declared from now on, so that it is reported once.
         self.scopes.assign(symbol, Value::Broken);
         self.assumed.push(symbol);
         Reported
@@ -100,7 +100,7 @@ impl Evaluator<'_> {
         span: Span,
         fits: impl Fn(Word) -> bool,
     ) -> Option<Diagnostic> {
-        // Its own declaration goes on to here for want of a brace.
+        // Its own declaration extends to here because of a missing brace.
         if self.misread && self.declared_now.contains(&symbol) {
             return None;
         }
@@ -132,7 +132,7 @@ impl Evaluator<'_> {
             .or_else(|| suggest::contracted(name, self.scopes.visible()))
             .or_else(|| self.one_alike(name))
             .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(name))
-            // `arctan(b, a)` is rather another language's function than a colour.
+            // `arctan(b, a)` is more likely another language's function than a colour.
             .filter(|close| {
                 let value = self.scopes.symbol(close).and_then(|symbol| self.scopes.look(symbol));
                 !of_others
@@ -226,7 +226,7 @@ impl Evaluator<'_> {
         } else if let Some(told) = number_as_a_name(name, span).filter(|_| !is_called) {
             diagnostic = told;
         } else if let Some((close, include)) =
-            // A colour is one only where some value may stand.
+            // A colour is one only where any value is allowed.
             self.lacking_near(name).filter(|_| fits(Word::X))
         {
             diagnostic = diagnostic
@@ -246,7 +246,7 @@ impl Evaluator<'_> {
         } else {
             diagnostic = diagnostic.at(span, "not declared up to here");
             diagnostic = self.by_uncalled_macro(symbol, diagnostic);
-            // `spline { catmull_rom_spline … }`: what begins a block is rather a word.
+            // `spline { catmull_rom_spline … }`: the first item of a block is probably a word.
             let theirs = suggest::foreign(name).filter(|_| !is_own).find(|ours| {
                 PREDECLARED.iter().any(|(known, _)| known == ours)
                     || Word::from_name(ours).is_some_and(|word| match word.role() {
@@ -259,7 +259,7 @@ impl Evaluator<'_> {
                 let meant = format!("did you mean `{ours}`?");
                 return Some(diagnostic.help(meant).fix(span, ours));
             }
-            // `box { center 0 size 2 }`: what was meant for a word of the block.
+            // `box { center 0 size 2 }`: the word meant in this block.
             let opener = self.openers.last().map(|opener| self.sources.text(*opener));
             if let Some(word) = opener.and_then(Word::from_name).filter(|_| names_a_value) {
                 diagnostic = diagnostic.help(self.form_of(word));
@@ -298,7 +298,7 @@ impl Evaluator<'_> {
             named = base;
         }
         let symbol = self.unknown_name(here, named)?;
-        // A name that nearly is one of the author's is meant as that.
+        // A name close to one of the author's means that one.
         let name = self.scopes.name(symbol).to_owned();
         if suggest::closest(&name, self.scopes.visible()).is_some()
             || here.unit.declaration_of(symbol).is_some()

@@ -311,7 +311,7 @@ impl Evaluator<'_> {
             return Ok(value.clone());
         }
         let (index, span) = match component {
-            // A number is its own first component, and has no other (measured).
+            // A number is its own first component, and has no others (measured).
             Component::Word(Word::Gray, _) if let Value::Number(red) = *value => {
                 return Ok(Value::Number(gray(Color::opaque(Rgb::new(red, 0.0, 0.0)))));
             }

@@ -56,7 +56,7 @@ impl Evaluator<'_> {
         let mut holds = Vec::with_capacity(forked.conditions.len());
         for (unit, condition) in &forked.conditions {
             let place = unit.expression(*condition).span.start as usize;
-            // What is not run on this way is not asked for.
+            // Conditions that are not reached on this path are not evaluated.
             let is_asked = forked.ways.reaches(place, &holds);
             let here = Here { unit: unit.clone(), expansion };
             holds.push(is_asked && self.condition(&here, *condition)?);

@@ -50,7 +50,7 @@ impl Evaluator<'_> {
             return Err(Reported);
         }
         self.stored += bytes;
-        // Another shape is told where it stands.
+        // Another shape is reported where it appears.
         let is_shape = |kind: &TokenKind| matches!(kind, TokenKind::Word(word) if word.family() == Family::Shape);
         if count == 0 && self.peek().is_some_and(|next| is_shape(&next.kind)) {
             return Err(Reported);
@@ -59,7 +59,7 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(Code::MissingPart, "this blob has no component")
                 .at(token.span, "nothing to melt together")
                 .help("a component is written `sphere { <center>, radius, strength }`");
-            // Unless its components stand too late.
+            // Unless its components come too late.
             self.owed = Some((token.here.clone(), diagnostic));
             return Err(Reported);
         }

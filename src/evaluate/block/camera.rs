@@ -125,7 +125,7 @@ impl Evaluator<'_> {
             };
             self.out_of_range_but_read(&given, Word::Angle, "more than 0", read)?;
         }
-        // A spherical camera has one across, and one from top to bottom.
+        // A spherical camera has a horizontal and a vertical angle.
         if self.poison.is_some_and(|poison| poison.word == Word::Spherical)
             && self.is_before_value()
         {

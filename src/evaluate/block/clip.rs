@@ -32,7 +32,7 @@ impl Evaluator<'_> {
             };
             if clips.is_empty() && evaluator.poison.is_none() {
                 if begins {
-                    // What is wrong with it was told.
+                    // The mistake in it was reported.
                     return Err(Reported);
                 }
                 let found = evaluator.next();

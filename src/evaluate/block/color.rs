@@ -164,10 +164,10 @@ impl Evaluator<'_> {
         let mut all = [0.0; 5];
         match *numbers.as_slice() {
             [gray] => all[..wanted].fill(gray),
-            // Also what is more than the word takes: `rgb Red` passes whole.
+            // Also more components than the word takes: `rgb Red` passes unchanged.
             ref written => all[..written.len()].copy_from_slice(written),
         }
-        // The fourth is the transmit, and a fifth is dropped, of a colour too: as POV-Ray does it.
+        // The fourth is the transmit and a fifth is dropped, also for a colour, as in POV-Ray.
         if takes_transmit(word) {
             (all[3], all[4]) = (0.0, all[3]);
         }
@@ -395,7 +395,7 @@ fn numbers_at(text: &str, first: Span) -> Option<(u32, Vec<f64>)> {
         let rest = text.get(at..)?;
         let digits = rest.len() - rest.trim_start_matches(plain).len();
         let Ok(number) = rest[..digits].parse::<f64>() else { break };
-        // `1e3`, `0.5*x`, `1 + 2`: no plain number.
+        // `1e3`, `0.5*x`, `1 + 2`: not plain numbers.
         let behind = &rest[digits..];
         if behind.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
             || behind.trim_start().starts_with(['*', '/', '+', '-'])

@@ -41,7 +41,7 @@ fn rising(entries: &[(f64, Color)]) -> Vec<(f64, Color)> {
             Some((start, first)) => first.lerp(color, (at - start) / (value - start)),
             None => color,
         };
-        // What lies between goes down.
+        // The entries between descend.
         if before != place.checked_sub(1) {
             rising.push((highest, at(highest)));
         }
@@ -198,7 +198,7 @@ impl Evaluator<'_> {
                     return Err(self.report(&token.here, diagnostic));
                 }
                 let last = self.written_color_after(token, "a second colour")?.value;
-                // POV-Ray's manual has it as a form of today.
+                // POV-Ray's manual lists it as a current form.
                 if self.options.dialect == Dialect::Scene {
                     self.lint_legacy(
                         &token.here,

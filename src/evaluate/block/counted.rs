@@ -81,7 +81,7 @@ impl Evaluator<'_> {
     ) -> Option<Reported> {
         let wanted =
             (count.value as u32 as usize).checked_mul(width).filter(|wanted| *wanted > 0)?;
-        // Most have their brackets, and may be megabytes.
+        // Most have their brackets, and may be megabytes long.
         let behind = self.sources.get(count.span.file).text.get(count.span.end as usize..)?;
         if behind.trim_start_matches(|c: char| c == ',' || c.is_whitespace()).starts_with('<') {
             return None;
@@ -89,7 +89,7 @@ impl Evaluator<'_> {
         let start = count.span.start;
         let rest = self.entries_from(Span { end: start, ..count.span })?;
         let numbers: Vec<(usize, &str)> = parted(rest).collect();
-        // Before the count of a prism stand its heights, in one piece with it.
+        // The heights of a prism precede its count, in one piece with it.
         let before = numbers.len().checked_sub(wanted + 1).filter(|before| *before < 3)?;
         let is_count = numbers[before].1.parse() == Ok(count.value);
         if !is_count || !numbers.iter().all(|(_, number)| number.parse::<f64>().is_ok()) {
@@ -199,7 +199,7 @@ impl Evaluator<'_> {
         let is_zero = |part: &str| part.parse::<f64>() == Ok(0.0);
         let flat =
             |axis: usize| points.iter().all(|(_, parts)| parts.len() == 3 && is_zero(parts[axis]));
-        // A prism stands on the plane of x and z, a lathe turns in that of x and y.
+        // A prism is based on the xz plane; a lathe's profile is in the xy plane.
         let axis = match list {
             Word::Prism if flat(1) => 1,
             _ if flat(2) => 2,

@@ -22,7 +22,7 @@ impl Evaluator<'_> {
             return false;
         }
         let Some(closer) = self.closer_before(token) else { return false };
-        // On a line of its own it may belong to what comes, as in other languages.
+        // On a line of its own it may belong to what follows, as in other languages.
         let gap = Span { start: closer.end, end: token.span.start, ..closer };
         if word.family() == Family::Transform && self.sources.text(gap).contains('\n') {
             return false;

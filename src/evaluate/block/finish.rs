@@ -57,7 +57,7 @@ impl Evaluator<'_> {
     /// Returns a finish, begun by `token`, into which items are read.
     pub(super) fn open_finish(&self, token: &Token, start: FinishId) -> OpenFinish {
         let origin = self.finish_origin(start);
-        // The default's words make way for those of the other vocabulary.
+        // The default's words yield to those of the other vocabulary.
         let origin = match start == self.scene.textures[self.default_texture.index()].finish {
             true => FinishOrigin { seed: None, classic: None, ..origin },
             false => origin,
@@ -80,7 +80,7 @@ impl Evaluator<'_> {
 
     pub(super) fn close_finish(&mut self, open: OpenFinish) -> Outcome<FinishId> {
         let OpenFinish { opener, mut finish, mut written, failed, told } = open;
-        // What failed may be what is missing.
+        // The missing word may be in the item that failed.
         if failed && written.classic.is_none() {
             return Err(Reported);
         }
@@ -92,7 +92,7 @@ impl Evaluator<'_> {
         if let Some(ambient) = &written.ambient {
             self.lint_ambient(ambient, &finish);
         }
-        // A word that is not known may be the one that is missing.
+        // An unknown word may be the missing one.
         if self.diagnostics.len() == told {
             self.lint_unlit_highlight(&finish, &written.highlights);
         }
@@ -188,7 +188,7 @@ impl Evaluator<'_> {
         }
         let mut classic = match finish {
             Finish::Classic(classic) => classic.clone(),
-            // POV-Ray's words replace a seed's finish that came by default.
+            // POV-Ray's words replace a seed finish that came from the default.
             Finish::Seed { .. } => ClassicFinish::default(),
         };
         written.pieces = None;
@@ -262,7 +262,7 @@ impl Evaluator<'_> {
             Word::ConserveEnergy => finish.conserve_energy = true,
             Word::Ior => {
                 let before = finish.ior.replace(self.index_of_refraction(token)?);
-                // What is as the air hides what was before it.
+                // An index like that of air hides the one before it.
                 if before == Some(1.0) || finish.ior == Some(1.0) {
                     written.origin.ior.clear();
                 }

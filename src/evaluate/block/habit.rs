@@ -251,7 +251,7 @@ impl Evaluator<'_> {
             found.push(Span::new(first.file, at + blank, at + blank + number.len()));
             at += blank + number.len();
         }
-        // `cone { 0, 0.6, 1.2*y, 0.25 }`: the last is the begin of a vector.
+        // `cone { 0, 0.6, 1.2*y, 0.25 }`: the last is the start of a vector.
         let goes_on = text.get(at..)?.trim_start();
         let is_product = goes_on.starts_with('*') || goes_on.starts_with('/');
         let is_comment = goes_on.starts_with("//") || goes_on.starts_with("/*");
@@ -329,7 +329,7 @@ impl Evaluator<'_> {
         if numbers.len() != 4 || alpha > 1.0 {
             return None;
         }
-        // `rgba(255, 0, 0, 0.5)`, as the web has it.
+        // `rgba(255, 0, 0, 0.5)`, as on the web.
         let most = if numbers[..3].iter().any(|c| *c > 1.0) { 255.0 } else { 1.0 };
         let short = |number: f64| format!("{}", (number * 1000.0).round() / 1000.0);
         let mut texts: Vec<String> = numbers[..3].iter().map(|c| short(c / most)).collect();

@@ -48,7 +48,7 @@ impl Evaluator<'_> {
             Some(function) => self.heights_of_function(function),
             None => self.heights_of_picture(token),
         };
-        // What follows is read for its own mistakes.
+        // The following items are read for their own mistakes.
         let (mut smooth, mut water) = (false, None);
         while let Some((item, word)) = self.next_item(&[Word::Smooth, Word::WaterLevel]) {
             match word {
@@ -184,7 +184,7 @@ impl Evaluator<'_> {
             if !(0.0..2.0).contains(&count) {
                 return Err(self.report(&given.here, diagnostic));
             }
-            // POV-Ray 3.7 draws nothing then (measured).
+            // POV-Ray 3.7 then draws nothing (measured).
             self.opinion(&given.here, diagnostic)?;
             Ok(count as usize)
         };
@@ -208,7 +208,7 @@ impl Evaluator<'_> {
                 .at(word.span, "expected a formula, a pattern or a pigment");
             return Err(self.report(&word.here, diagnostic));
         }
-        // Of a colour, red.
+        // The red of a colour.
         let id = outside_id(id, 0);
         if width.min(rows) < 2 {
             return Ok(("a function".to_owned(), Heights { width: 2, heights: Vec::new() }));
@@ -237,7 +237,7 @@ impl Evaluator<'_> {
             self.opinion(&word.here, diagnostic)?;
         }
         if low < 0.0 || high > 1.0 {
-            // As short as they are told apart.
+            // As short as they remain distinct.
             let (low, high) = (low as f32, high as f32);
             let message =
                 format!("the heights of this function go from {low} to {high}, not from 0 to 1");

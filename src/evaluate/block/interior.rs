@@ -30,7 +30,7 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::Ior) => {
                 let before = interior.ior;
                 interior.ior = self.index_of_refraction(token)?;
-                // What is as the air hides what was before it.
+                // An index like that of air hides the one before it.
                 if before == 1.0 || interior.ior == 1.0 {
                     interior.sites.clear();
                 }
@@ -40,7 +40,7 @@ impl Evaluator<'_> {
                 let given = self.number_after(token, "a number")?;
                 interior.caustics = (given.value != 0.0).then(|| token.here.site(token.span));
             }
-            // POV-Ray 3.7 has no use for it (measured).
+            // POV-Ray 3.7 ignores it (measured).
             TokenKind::Word(Word::Refraction) if self.options.dialect == Dialect::Pov => {
                 let given = self.number_after(token, "a number")?;
                 let message = "`refraction` has no effect in an `interior`";

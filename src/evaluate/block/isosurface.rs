@@ -39,7 +39,7 @@ const OF_PARAMETRIC: &[Word] =
 impl Evaluator<'_> {
     /// Reads an `isosurface`: `function { … }` first, then the other items in any order.
     pub(super) fn isosurface(&mut self, token: &Token) -> Outcome<Solid> {
-        // What follows is read for its own mistakes.
+        // The following items are read for their own mistakes.
         let word = self.function_word(token);
         let compared = word.as_ref().ok().and_then(|_| self.compared_surface());
         let function = word.and_then(|word| self.closed_function(&word));
@@ -67,7 +67,7 @@ impl Evaluator<'_> {
             };
             failed |= outcome.is_err();
         }
-        // Between 0 and 1 a threshold parts where an inequality holds from where it does not.
+        // A threshold between 0 and 1 separates where an inequality holds from where it does not.
         if let Some(Compared { here, diagnostic, is_equation }) = compared
             && (is_equation || threshold == 0.0)
         {
@@ -166,7 +166,7 @@ impl Evaluator<'_> {
 
     /// Reads a `parametric`: three functions of u and v, and the two corners of their range.
     pub(super) fn parametric(&mut self, token: &Token) -> Outcome<Solid> {
-        // What follows is read for its own mistakes.
+        // The following items are read for their own mistakes.
         let functions = [(); 3].map(|()| self.function_part(token));
         let first = self.corner(token, "a vector <u, v> for a corner")?;
         let second = self.corner(token, "a vector <u, v> for the opposite corner")?;
@@ -178,7 +178,7 @@ impl Evaluator<'_> {
                 Word::ContainedBy => {
                     self.contained_by(&item, container).map(|held| container = held)
                 }
-                // Every crossing is found as exactly as rounding allows.
+                // Every intersection is found as exactly as rounding allows.
                 Word::Accuracy => self.positive_after(&item, ACCURACY).map(drop),
                 _ => self.inert(&item, Place::shape(Word::Parametric)).unwrap_or(Ok(())),
             };
@@ -205,7 +205,7 @@ impl Evaluator<'_> {
         let given = self.given(token, wanted)?;
         match given.value.numbers().map(|numbers| numbers.as_slice().to_vec()).as_deref() {
             Some([u, v]) => Ok(given.with([*u, *v])),
-            // POV-Ray 3.7 takes it for both (measured).
+            // POV-Ray 3.7 uses it for both (measured).
             Some(&[both]) if self.options.dialect == Dialect::Pov => Ok(given.with([both; 2])),
             Some([_, _, ..]) => {
                 Err(self.too_wide(&given, Word::Parametric, "a corner of u and v", 2))

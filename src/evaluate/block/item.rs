@@ -40,7 +40,7 @@ impl Evaluator<'_> {
                     if let Some(word) = self.misspelt_part(shape, words) {
                         return Some((Token { kind: TokenKind::Word(word), ..token }, word));
                     }
-                    // What follows are its parts as before.
+                    // The following items are read as its parts.
                     self.next();
                     self.unexpected(&token, Place::shape(shape));
                 }

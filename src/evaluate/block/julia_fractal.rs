@@ -20,10 +20,10 @@ fn is_item(word: Word) -> bool {
 impl Evaluator<'_> {
     /// Reads a `julia_fractal`: `<x, y, z, w>` first, then the other items in any order.
     pub(super) fn julia_fractal(&mut self, token: &Token) -> Outcome<Solid> {
-        // What follows is read for its own mistakes.
+        // The following items are read for their own mistakes.
         let parameter = self.four_after(token, "a vector of four for the parameter");
         let mut fractal = JuliaFractal::default();
-        // The function as it was written: quaternions know two.
+        // The function as written: quaternions support two.
         let mut function = None;
         let mut failed = false;
         loop {
@@ -46,7 +46,7 @@ impl Evaluator<'_> {
                         function = Some((Word::Pwr, next));
                         continue;
                     }
-                    // A misspelt one.
+                    // A misspelt item.
                     _ => match self.next_part(Word::JuliaFractal, ITEMS) {
                         Some(part) => part,
                         None => break,
@@ -78,7 +78,7 @@ impl Evaluator<'_> {
                 Word::MaxIteration => {
                     self.iterations(&item).map(|iterations| fractal.iterations = iterations)
                 }
-                // Every crossing is found as exactly as rounding allows.
+                // Every intersection is found as exactly as rounding allows.
                 Word::Precision => self.precision(&item),
                 Word::Slice => self.slice(&item, &mut fractal),
                 _ => {

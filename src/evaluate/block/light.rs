@@ -36,7 +36,7 @@ impl Evaluator<'_> {
                     let _: Outcome<()> = evaluator.light_modifiers(&mut modifiers, None, None);
                     return Err(reported);
                 }
-                // A light of its own from here on: its words can change it.
+                // From here on an independent light, which its words can change.
                 let (mut light, mut modifiers) = evaluator.light_of(declared);
                 let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut(), None);
                 let kind = light.map_or(ObjectKind::Use(declared), |light| {
@@ -105,7 +105,7 @@ impl Evaluator<'_> {
         self.semicolon_for_comma();
         let late = self.late_color(opener);
         let color = match late {
-            // It is told where it comes, or that it never does.
+            // Reported where it appears, or as missing.
             Some(_) => Ok((Rgb::BLACK, None, None)),
             None => self.written_color_after(opener, "a colour for the light").map(|given| {
                 let black = given.value.without(|color| color.rgb.is_black());
@@ -235,11 +235,11 @@ impl Evaluator<'_> {
             let diagnostic =
                 Diagnostic::new(Code::ZeroVector, "this light points at its own place")
                     .at(token.span, "expected a `point_at` other than the light's place");
-            // It gives no light, as in POV-Ray 3.7 (measured).
+            // It emits no light, as in POV-Ray 3.7 (measured).
             failed = self.opinion(&token.here, diagnostic).is_err();
             light.color = Rgb::BLACK;
         }
-        // What failed may be the word that is missing.
+        // The missing word may be in the item that failed.
         if let Some(light) = light
             && !failed
         {

@@ -14,7 +14,7 @@ use super::place::is_at_top_level;
 impl Evaluator<'_> {
     /// Reads `Ball` as `object { Ball }`, as POV-Ray does; no modifiers may follow.
     pub(super) fn lone_object(&mut self, token: &Token, id: ExpressionId) -> Option<ObjectId> {
-        // Before anything behind it is run, which may declare it.
+        // Before anything after it runs, which may declare it.
         let object = match token.here.unit.expression(id).kind {
             ExpressionKind::Name(name) => match self.scopes.read(token.here.symbol(name)) {
                 Some(&Value::Object(object)) => object,

@@ -85,7 +85,7 @@ impl Evaluator<'_> {
             Diagnostic::new(Code::MissingPart, message).at(next.span, "expected `{` before this")
         };
         let without = Span { end: brace.start, ..next.span };
-        // It stands in the braces, first.
+        // It belongs first in the braces.
         let moved = |told: Diagnostic| {
             told.help(format!("write `{of} {{ {name} … }}`"))
                 .fix(without, "")

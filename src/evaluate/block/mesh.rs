@@ -87,7 +87,7 @@ impl Evaluator<'_> {
         let mut gathered = Gathered::default();
         if !gathered.add(token, triangle, Dress::default()) {
             let [first, .., last] = &triangle.0;
-            // POV-Ray tells it, too.
+            // POV-Ray reports it, too.
             let code = match self.options.dialect {
                 Dialect::Scene => Code::ZeroSize,
                 Dialect::Pov => Code::DegenerateTriangle,
@@ -266,7 +266,7 @@ impl Evaluator<'_> {
         match word {
             Word::InsideVector => {
                 let way = self.vector_after(token, "a vector for the way out")?;
-                // None at all is how a mesh has no inside.
+                // The zero vector is how a mesh has no inside.
                 *inside = (way.value != Vector::ZERO).then_some(way.value);
                 Ok(())
             }

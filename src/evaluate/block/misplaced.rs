@@ -110,7 +110,7 @@ impl Evaluator<'_> {
         }
         let is_part = match place.word {
             None => !is_at_top_level(word) && home(word).is_some_and(|home| home != word),
-            // The map of a texture is one of textures.
+            // The map of a texture consists of textures.
             Some(Word::Texture) => matches!(home(word), Some(Word::Pigment | Word::Normal)),
             Some(_) => false,
         };
@@ -128,7 +128,7 @@ impl Evaluator<'_> {
             return;
         }
         if self.missing_at == Some(token.here.site(token.span)) {
-            // Told: a value should stand here.
+            // Reported: a value is missing here.
             return self.skip_arguments(word);
         }
         let has_block = self.is_before_block();
@@ -162,9 +162,9 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(Code::UnknownWord, message)
                 .at(token.span, format!("did you mean `{meant}`?"))
                 .help(sentence.to_owned());
-            // What stands in the block of a `sky` is rarely what a `sky_sphere` takes.
+            // The contents of a `sky` block are rarely valid in a `sky_sphere`.
             if word == Word::Sky { diagnostic } else { diagnostic.fix(token.span, meant) }
-        // Of a `julia_fractal` it is a function, and everywhere else what others call a box.
+        // In a `julia_fractal` it is a function, and elsewhere other tools' name for a box.
         } else if let (Some(near), false) = (near, word.is_built() && word != Word::Cube) {
             Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
                 .at(token.span, format!("did you mean `{near}`?"))
@@ -361,7 +361,7 @@ impl Evaluator<'_> {
         let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len());
         let number = rest[..end].parse::<f64>().ok().filter(|n| (0.0..=1.0).contains(n))?;
         let end = token.span.end + (blanks + end) as u32;
-        // As many digits as it has.
+        // With as many digits as it has.
         let digits = rest[..(end - token.span.end) as usize - blanks].split_once('.');
         let digits = digits.map_or(0, |(_, digits)| digits.len());
         (word == Word::Alpha && self.version >= TODAY)

@@ -30,7 +30,7 @@ impl Evaluator<'_> {
                     .also(found.span_head(), format!("expected {wanted}"))
                     .also(after.span, "for this")
             }
-            // What is missing belongs at the end of the line before.
+            // The missing part belongs at the end of the line before.
             (Some(found), Some(end), None) if self.is_on_a_later_line(found, end) => {
                 Diagnostic::new(code, format!("{message}, found {}", self.describe(found)))
                     .at(self.sources.sign_before(end), format!("expected {wanted} after this"))
@@ -123,7 +123,7 @@ impl Evaluator<'_> {
             .fix(Span { end: next.span.start, ..next.span }, format!("{right} "))
             .fix(parts, "");
         let reported = self.report(&next.here, diagnostic);
-        // What stands too late is told.
+        // A part that comes too late is reported.
         self.missing_at = Some(after.here.site(next.span));
         Some(reported)
     }
@@ -203,7 +203,7 @@ impl Evaluator<'_> {
             if sign == ".-" && !is_point {
                 return None;
             }
-            // A word of blocks is no value.
+            // A word with a block is not a value.
             let last = before.trim_end_matches(of_name).len();
             let is_value =
                 Word::from_name(&before[last..]).is_none_or(|word| word.role() != Role::Statement);

@@ -52,7 +52,7 @@ impl Evaluator<'_> {
         let near = self.near(token.span, Asked::Color, || {
             word_like(&name, |word| word.family() == Family::Color)
         })?;
-        // Without a value behind it, it is rather the name of a colour.
+        // Without a value after it, it is more likely the name of a colour.
         let rest = self.sources.get(token.span.file).text.get(token.span.end as usize..)?;
         let has_value =
             rest.trim_start().starts_with(|c: char| c == '<' || c == '.' || c.is_alphanumeric());
@@ -114,7 +114,7 @@ impl Evaluator<'_> {
         };
         let message = format!("`{name}` is not a word that begins a value");
         let diagnostic = Diagnostic::new(Code::UnknownWord, message);
-        // Before a block a capital does not make it one of the author's names.
+        // Before a block, a capital does not make it one of the author's names.
         let near = self.near(token.span, Asked::Block, || {
             let in_case = || Word::from_name(&name.to_lowercase()).filter(|word| opens(*word));
             in_case().map(Word::name).or_else(|| word_like(&name.to_lowercase(), opens))
@@ -130,7 +130,7 @@ impl Evaluator<'_> {
             return Some(reported);
         }
         self.next();
-        // What is inside belongs to a word that is not known: run, but not judged.
+        // The contents belong to an unknown word: run, but not checked.
         let before = self.told();
         self.inside_block(&here, contents, block, Self::run_items);
         self.take_back(before);

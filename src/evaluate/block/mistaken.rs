@@ -53,7 +53,7 @@ impl Evaluator<'_> {
         if self.sources.text(opener) != solid.name() || !parts.iter().any(holds) {
             return None;
         }
-        // `cylinder { 0, y, 1 }`: a number stands for a point.
+        // `cylinder { 0, y, 1 }`: a number denotes a point.
         let begins = matches!(solid, Word::Cone | Word::Cylinder | Word::Disc);
         let letter = |(i, part): (usize, &Part)| {
             if part.is_point || begins && i == 0 { 'p' } else { 'n' }
@@ -180,7 +180,7 @@ impl Evaluator<'_> {
         if !matches!(frame.kind, FrameKind::Block) || unit.ast.file != block.file {
             return None;
         }
-        // The items of the block stand in one row, before it what is inside of them.
+        // The items of the block are contiguous, preceded by the contents of nested blocks.
         let items = &unit.ast.items;
         let mut first = frame.at as usize;
         while let Some(before) = first.checked_sub(1).and_then(|at| items.get(at))
@@ -215,7 +215,7 @@ impl Evaluator<'_> {
             ExpressionKind::Vector(_) | ExpressionKind::Word(Word::X | Word::Y | Word::Z) => {
                 Some(true)
             }
-            // In a macro the order of its arguments may be what is wrong.
+            // In a macro the order of its arguments may be the mistake.
             ExpressionKind::Name(_) if self.macro_depth > 0 => None,
             ExpressionKind::Name(name) => match self.scopes.look(here.symbol(name))? {
                 Value::Number(_) => Some(false),

@@ -102,7 +102,7 @@ impl Evaluator<'_> {
                 }
                 self.needs_poison()
             }
-            // After another directive the `#` may be left out, as in POV-Ray.
+            // After another directive the `#` is optional, as in POV-Ray.
             TokenKind::Word(Word::Default)
                 if self.options.dialect == Dialect::Pov
                     && matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) =>
@@ -203,7 +203,7 @@ impl Evaluator<'_> {
         };
         let inner = self.poison.take();
         self.poison = outer;
-        // What ended for want of something not built has told nothing: that is told where it is needed.
+        // Poison reports nothing by itself; it is reported where its value is needed.
         match inner {
             Some(poison) => Ok(Value::Poison(match token.kind {
                 TokenKind::Word(word) => Poison { of: Some(word), ..poison },
@@ -327,7 +327,7 @@ impl Evaluator<'_> {
                 let name = word.name();
                 let message = format!("expected `{{` after `{name}`, found {found}");
                 let diagnostic = Diagnostic::new(Code::MissingPart, message);
-                // Where its parts stand in parentheses, at these.
+                // If its parts are in parentheses, at these.
                 let group = next.as_ref().filter(|next| {
                     matches!(next.kind, TokenKind::Expression(_))
                         && self.sources.text(next.span).starts_with('(')
@@ -385,7 +385,7 @@ impl Evaluator<'_> {
             Some(Token { kind: TokenKind::Block(contents), here, span }) => {
                 self.openers.push(token.span);
                 self.blocks.push(here.site(span));
-                // What stands in here is no part of what is not built before it.
+                // The contents are not part of an unsupported item before the block.
                 let outer = self.poison.take();
                 let outcome = self.inside_block(&here, contents, span, consumer);
                 if let Some(inner) = std::mem::replace(&mut self.poison, outer) {

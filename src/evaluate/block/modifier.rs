@@ -59,7 +59,7 @@ impl Evaluator<'_> {
             match token.kind {
                 TokenKind::Word(Word::Pigment) => {
                     let site = token.here.site(token.span);
-                    // What a macro gives may be changed by who calls it.
+                    // A macro's result may be modified by its caller.
                     let of_texture = std::mem::take(&mut within);
                     if let Some(first) = painted.replace(site)
                         && first.expansion == site.expansion
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
                 TokenKind::Word(Word::Texture) => {
                     let inner = self.pigment_within(&token);
                     let before = painted.filter(|_| !within);
-                    // Through a clear one it is seen.
+                    // It is visible through a transparent one.
                     if let (Some(first), Some(inner)) = (before, inner)
                         && first.expansion == inner.expansion
                         && self.is_opaque_as_written(inner)
@@ -88,7 +88,7 @@ impl Evaluator<'_> {
                 Some(Ok(kind)) => {
                     if let Some(kind) = kind {
                         let site = match kind {
-                            // With its `on`: a piece that can be taken out.
+                            // With its `on`, as a removable piece.
                             ModifierKind::NoImage(_)
                             | ModifierKind::NoReflection(_)
                             | ModifierKind::DoubleIlluminate(_) => self.whole(&token),
@@ -102,7 +102,7 @@ impl Evaluator<'_> {
                     Some(outcome) => failed |= outcome.is_err(),
                     None => {
                         self.unexpected(&token, place());
-                        // Behind an object by a misspelt word, or a camera, others may follow.
+                        // After an object with a misspelt word, or a camera, others may follow.
                         let no_modifier = match token.kind {
                             TokenKind::Expression(_) => true,
                             TokenKind::Word(of) => modifiers.is_empty() && !place().holds(of),
@@ -230,7 +230,7 @@ impl Evaluator<'_> {
         let site = token.here.site(token.span);
         let start_texture =
             |evaluator: &Self, modifiers: &mut Vec<Modifier>, textured: &mut bool| {
-                // A pigment or finish alone changes a copy of the default texture.
+                // A pigment or finish alone modifies a copy of the default texture.
                 if !*textured {
                     let kind = ModifierKind::Texture(evaluator.default_texture);
                     modifiers.push(Modifier { kind, site });
@@ -273,7 +273,7 @@ impl Evaluator<'_> {
             Word::DoubleIlluminate => {
                 self.optional_flag(token).map(|on| Some(ModifierKind::DoubleIlluminate(on)))
             }
-            // It tells where fog and media are, and there are none yet.
+            // It affects fog and media, which are unsupported.
             Word::Hollow => self.optional_flag(token).map(|_| None),
             Word::Inverse => {
                 self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse))

@@ -89,7 +89,7 @@ impl Evaluator<'_> {
         endings: &[&str],
     ) -> Result<Found, FileError> {
         let found = self.found_named(file, endings)?;
-        // It is no text, and has its name among what was read alone.
+        // It is not scene text, so the sources hold only its name.
         if self.sources.iter().all(|(_, source)| source.name != found.name) {
             self.sources.add(Source::new(found.name.clone(), ""));
         }

@@ -155,7 +155,7 @@ impl Evaluator<'_> {
             }
             Value::Broken => {
                 let token = self.next()?;
-                // Its own mistake is told; what it was to be is known.
+                // Its own mistake was reported; its intended kind is known.
                 let symbol = self.scopes.symbol(self.sources.text(token.span));
                 let own = symbol.and_then(|symbol| self.declared_as(symbol)).map(|(own, _)| own);
                 let is_object = |own: &Word| matches!(own.family(), Family::Shape | Family::Csg);
@@ -250,7 +250,7 @@ impl Evaluator<'_> {
                     None => self.expression(&next.here, id)?,
                 }
             }
-            // What an object may have stays, and is read as what it is.
+            // Items that an object accepts remain, and are read as such.
             _ => {
                 if let TokenKind::Word(word) = next.kind
                     && word.family() == Family::Pattern
@@ -316,7 +316,7 @@ impl Evaluator<'_> {
             evaluator.lint_light_of_csg(word, operation, &children);
             Ok(ObjectKind::Csg { operation, children })
         });
-        // Where a part was misread, that is what is told.
+        // If a part was misread, that is reported.
         if count == 1 && self.diagnostics.len() == told && self.lost_children == lost {
             self.lint_lone_child(token, operation);
         }
@@ -349,7 +349,7 @@ impl Evaluator<'_> {
         }
         let diagnostic = Diagnostic::new(Code::DegenerateShape, "this union has nothing in it")
             .at(token.span, "no object stands in its block");
-        // Unless they stand too late.
+        // Unless they come too late.
         self.owed = Some((token.here.clone(), diagnostic));
     }
 

@@ -38,7 +38,7 @@ impl Evaluator<'_> {
     pub(super) fn lathe(&mut self, token: &Token) -> Outcome<Solid> {
         let (spline, _) = self.spline_and_sweep(false);
         let points = self.points(token, Word::Lathe, spline)?;
-        // Measured: POV-Ray takes the first and the last as they are.
+        // Measured: POV-Ray uses the first and the last as they are.
         let inner = points.get(1..points.len() - 1).unwrap_or(&[]);
         let left = inner.iter().find(|point| point.value[0] < 0.0);
         if let Some(left) = left
@@ -60,7 +60,7 @@ impl Evaluator<'_> {
                 Diagnostic::new(self.sizeless(), message).at(last.span, "expected another place");
             self.nothing(token, &last.here, diagnostic)?;
         } else if points.iter().all(|point| point.value[1] == last.value[1]) {
-            // POV-Ray draws a flat ring: it is not left out without a word.
+            // POV-Ray draws a flat ring, so it is not omitted silently.
             let message = "a lathe whose points have one height is flat, and has no size";
             let diagnostic = Diagnostic::new(Code::ZeroSize, message)
                 .at(last.span, "expected another height")
@@ -101,7 +101,7 @@ impl Evaluator<'_> {
         }
         match spline {
             Spline::Bezier => self.pieces_meet(token, &mut points)?,
-            // Where one more point follows, that is what is told.
+            // If one more point follows, that is reported.
             Spline::Linear if !self.goes_on() => self.lint_open_prism(&points),
             Spline::Linear | Spline::Quadratic | Spline::Cubic => {}
         }
@@ -202,7 +202,7 @@ impl Evaluator<'_> {
             format!("the outline of this {name} does not end where it began; it is closed");
         let diagnostic =
             Diagnostic::new(Code::OpenOutline, message).at(end, "the outline ends here");
-        // Of many points in a run, the text of one has no place of its own.
+        // In a run of many points, a single one has no span of its own.
         let diagnostic = match point.matches('<').count() > 1 {
             true => diagnostic.help("add its first point at its end, and count it"),
             false => diagnostic
@@ -236,7 +236,7 @@ impl Evaluator<'_> {
 
     /// Reads `sor { count, <radius, height> … open }`.
     pub(super) fn sor(&mut self, token: &Token) -> Outcome<Solid> {
-        // Of its points, too, the first and the last tell slopes.
+        // Of its points, too, the first and the last define slopes.
         let points = self.points(token, Word::Sor, Spline::Cubic)?;
         for pair in points[1..points.len() - 1].windows(2) {
             let [below, above] = pair else { continue };
@@ -390,7 +390,7 @@ impl Evaluator<'_> {
                 Value::Vector(numbers) if numbers.as_slice().len() == 2 => {
                     [numbers.as_slice()[0], numbers.as_slice()[1]]
                 }
-                // POV-Ray 3.7 takes it for both (measured).
+                // POV-Ray 3.7 uses it for both (measured).
                 &Value::Number(both) if self.options.dialect == Dialect::Pov => [both; 2],
                 Value::Vector(_) => {
                     let what = format!("a point of a {}", word.name());

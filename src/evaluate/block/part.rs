@@ -45,7 +45,7 @@ impl Evaluator<'_> {
         let between = Span { end: b.span.start, ..a.span };
         if a.span.file != b.span.file || self.sources.text(between).contains('#') {
             let all = a.span.to(b.span);
-            // A macro may have been left while looking ahead; what is written in its file is not.
+            // Lookahead may have left a macro; what is written in its file has not.
             let unit = self.frames.iter().rev().map(|frame| &frame.here.unit);
             let unit = unit.into_iter().find(|unit| unit.ast.file == all.file);
             return match unit.and_then(|unit| unit.ast.around(all)) {
@@ -73,7 +73,7 @@ impl Evaluator<'_> {
     /// Takes and returns the token of the value after `after` (a keyword of the block, or what opened it).
     fn value_token(&mut self, after: &Token, wanted: &str) -> Outcome<Token> {
         let passed = self.silent.is_none() && self.pass(ItemKind::Comma);
-        // As most are written.
+        // The most common form.
         if passed && self.peeks_value() {
             return self.next().ok_or(Reported);
         }
@@ -244,7 +244,7 @@ impl Evaluator<'_> {
         let second = self.given(after, number);
         if let (Ok(a), Ok(b)) = (&first, &second)
             && let (Value::Number(a_number), Value::Vector(_)) = (&a.value, &b.value)
-            // A sphere of radius 0 was not meant.
+            // A sphere of radius 0 is not intended.
             && (*a_number != 0.0 || after.kind != TokenKind::Word(Word::Sphere))
         {
             let reported = match self.arguments_behind([a, b]) {
@@ -332,7 +332,7 @@ impl Evaluator<'_> {
 
     /// Reads an optional number.
     pub(super) fn optional_number(&mut self, after: &Token, otherwise: f64) -> Outcome<f64> {
-        // Rather the next word, misspelt.
+        // Probably the next word, misspelt.
         if self.peeks_unknown_name() {
             return Ok(otherwise);
         }

@@ -65,7 +65,7 @@ impl WrittenColor {
         if n > MOST_COMPONENTS {
             return suits(self.color()).then(Vec::new);
         }
-        // Something of a colour has to stay.
+        // Part of a colour has to remain.
         let has_base = u32::from(self.base.is_some());
         let all = (1_u32 << (n + 1)) - 2 + has_base;
         let fixed = u32::from(self.base_piece.is_none());
@@ -156,7 +156,7 @@ pub(super) fn without_pattern(parts: &[Part]) -> Option<Vec<Site>> {
     if let [Part { named: Some([_, pattern]), .. }] = parts {
         return pattern.clone();
     }
-    // One entry stays, the first or else the last.
+    // One entry remains, the first or else the last.
     let mut entries = parts.iter().filter(|part| part.named.is_none());
     let (first, last) = (entries.next(), entries.next_back());
     first.into_iter().chain(last).find_map(|staying| {
@@ -168,7 +168,7 @@ pub(super) fn without_pattern(parts: &[Part]) -> Option<Vec<Site>> {
 /// Returns the pieces of each part, or the whole part; `None` if nothing would remain of the map.
 fn pieces(parts: &[Part], of: impl Fn(&Part) -> Option<Vec<Site>>) -> Option<Vec<Site>> {
     let mut all: Vec<Site> = Vec::new();
-    // A loop comes to one entry again and again, and it goes for all turns.
+    // A loop may visit one entry repeatedly; the removal applies to all turns.
     let mut gone: HashSet<Span> = HashSet::new();
     for part in parts {
         match of(part) {

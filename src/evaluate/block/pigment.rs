@@ -89,7 +89,7 @@ impl Evaluator<'_> {
                 *map = given;
                 Ok(())
             }
-            // The pattern is one that is not built.
+            // The pattern is unsupported.
             PigmentKind::Color(_) | PigmentKind::Faces(_) if self.poison.is_some() => Ok(()),
             PigmentKind::Color(_) | PigmentKind::Faces(_) => {
                 let diagnostic = Diagnostic::new(
@@ -117,7 +117,7 @@ impl Evaluator<'_> {
     ) {
         match &given.clear {
             Some(pieces) => pigment.clear.clone_from(pieces),
-            // The pattern's own colours show again.
+            // The pattern's own colours become visible again.
             None => list_once(&mut pigment.clear, item),
         }
         match (&given.pattern, pattern) {
@@ -261,7 +261,7 @@ impl Evaluator<'_> {
                         self.alone_in_pigment(token, None, written)?;
                         self.color_of(pigment, &color, token);
                     }
-                    // Not an error: what it lacks is told where it is needed.
+                    // Not an error: what it lacks is reported where it is needed.
                     Value::Poison(poison) => {
                         self.is_of_place(token, poison, Place::PIGMENT);
                         self.set_poison(poison);
@@ -273,7 +273,7 @@ impl Evaluator<'_> {
                     }
                 }
             }
-            // Of a colour too many, which is told.
+            // The site of a surplus colour, which is reported.
             TokenKind::Comma if written.first.is_some() && self.at_color() => {}
             _ => {
                 if let Some(outcome) = self.inert(token, Place::PIGMENT) {
@@ -324,7 +324,7 @@ impl Evaluator<'_> {
         let mut clear = Vec::new();
         let mut said: Vec<WrittenColor> = Vec::new();
         let (mut given, mut pigments) = (0, 0);
-        // All before the last colour.
+        // All items before the last colour.
         let mut lead = self.whole(token);
         for color in &mut colors {
             let before = self.whole(token);

@@ -74,7 +74,7 @@ impl Place {
     pub const INTERIOR: Self = Self {
         word: Some(Word::Interior),
         families: &[Family::Interior],
-        // Built for lights.
+        // Supported for lights.
         others: &[Word::FadeDistance, Word::FadePower],
     };
     pub const MATERIAL: Self = Self {
@@ -160,13 +160,13 @@ impl Place {
             (Some(Word::LightSource), Word::NoShadow) => Some(Word::Shadowless),
             (Some(Word::LightSource), Word::LookAt) => Some(Word::PointAt),
             (Some(Word::Camera), Word::PointAt) => Some(Word::LookAt),
-            // Its block of the oldest versions.
+            // Its block in the oldest versions.
             (Some(_), Word::Refraction)
                 if has_block && self.families.contains(&Family::Modifier) =>
             {
                 Some(Word::Interior)
             }
-            // As modellers call where an object is.
+            // Modellers' name for the position of an object.
             (Some(_), Word::Location) if self.families.contains(&Family::Transform) => {
                 Some(Word::Translate)
             }
@@ -183,7 +183,7 @@ impl Place {
 
     /// Returns whether a word is valid: by its family, and by its block if it has one.
     pub(super) fn holds(self, word: Word) -> bool {
-        // `samples` of a medium is no setting of the scene.
+        // `samples` of a medium is not a setting of the scene.
         let is_of_a_setting = self.word == Some(Word::GlobalSettings)
             && home(word).is_some_and(|home| home != word && home != Word::GlobalSettings);
         let is_of_family = self.families.contains(&word.family()) && !is_of_a_setting;
@@ -205,7 +205,7 @@ impl Place {
         let fits = move |word: &&Word| {
             self.holds(**word)
                 && (dialect == Dialect::Scene || word.block().is_none())
-                // Of the families that have one opener, only that stands at the top level.
+                // Of the families with one opener, only that is valid at the top level.
                 && (self.word.is_some() || !is_part(**word))
                 && !self.is_of_another_shape(**word)
         };
@@ -262,7 +262,7 @@ pub(super) fn home(word: Word) -> Option<Word> {
     Some(match word {
         _ if word.block().is_some() => return word.block(),
         W::IridWavelength => W::GlobalSettings,
-        // Reserved, and nobody knows what for.
+        // Reserved for an unknown purpose.
         W::Size | W::Altitude | W::Tile2 => return None,
         W::Bumps | W::BumpMap | W::BumpSize | W::Dents | W::Facets | W::Wrinkles => W::Normal,
         W::SlopeMap | W::NormalMap | W::NoBumpScale => W::Normal,

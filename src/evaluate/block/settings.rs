@@ -42,7 +42,7 @@ impl Evaluator<'_> {
                     Some(_) => Gamma::Srgb,
                     None => Gamma::Power(self.more_than_zero(token, Word::AssumedGamma)?),
                 };
-                // Said twice, the first counts, as in POV-Ray.
+                // If repeated, the first counts, as in POV-Ray.
                 if !std::mem::replace(&mut self.says_gamma, true) {
                     if let Some(site) = self.srgb_before_gamma
                         && gamma != Gamma::LINEAR

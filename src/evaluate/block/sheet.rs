@@ -110,7 +110,7 @@ impl Evaluator<'_> {
         let lone = lone_stray(places);
         let of = if lone.is_some() { "the others" } else { "others" };
         let point = crate::math::vector::written(lone.map_or(*point, |(point, _)| point));
-        // Of many points in a run, the text of one has no place of its own.
+        // In a run of many points, a single one has no span of its own.
         let is_one = |span: &Span| self.sources.text(*span).matches('<').count() <= 1;
         let place = lone.map(|(_, span)| span).filter(is_one).unwrap_or(token.span);
         let message = format!("this polygon is not flat: {point} lies beside the plane of {of}");
@@ -138,7 +138,7 @@ impl Evaluator<'_> {
                 Word::Type => {
                     let kind = self.number_after(&item, "0 or 1")?;
                     if ![0.0, 1.0].contains(&kind.value) {
-                        // How it is divided changes nothing here. POV-Ray drops fractions (measured).
+                        // The subdivision has no effect here. POV-Ray drops fractions (measured).
                         if kind.value.trunc() < 0.0 {
                             return Err(self.out_of_range(&kind, word, "0 or 1"));
                         }
@@ -213,6 +213,6 @@ fn is_same(a: Vector, b: Vector, size: f64) -> bool {
 fn unclosed_before(line: &[Vector]) -> Option<usize> {
     let (last, before) = line.split_last()?;
     let begins = before.iter().position(|point| point == last)?;
-    // Both have three corners at least.
+    // Both have at least three corners.
     (begins >= 3 && before.len() >= begins + 3).then_some(begins)
 }

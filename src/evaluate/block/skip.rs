@@ -160,7 +160,7 @@ impl Evaluator<'_> {
                 Some((TokenKind::Comma | TokenKind::Literal(_), _)) => drop(self.next()),
                 Some((TokenKind::Expression(id), here)) => {
                     let id = *id;
-                    // A name that is not declared is the next mistake, not a part of this one.
+                    // An undeclared name is the next mistake, not a part of this one.
                     let here = here.clone();
                     if self.unknown_callee(&here, id) || self.unknown_name(&here, id).is_some() {
                         return;
@@ -195,7 +195,7 @@ impl Evaluator<'_> {
                 Some(TokenKind::Comma | TokenKind::Literal(_)) => drop(self.next()),
                 Some(&TokenKind::Expression(id)) => {
                     let Some(Token { here, .. }) = self.peek().cloned() else { return };
-                    // Rather a misspelt word than a part of this one.
+                    // Probably a misspelt word, not a part of this one.
                     if self.unknown_name(&here, id).is_some() {
                         return;
                     }

@@ -81,7 +81,7 @@ impl Evaluator<'_> {
         if let TokenKind::Word(word) = shape.kind {
             self.scene.sizeless.push((word.name(), shape.here.site(shape.span)));
         }
-        // `0,5`: the rest of the number comes next, and is told.
+        // `0,5`: the rest of the number comes next, and is reported.
         let number = |kind: &TokenKind| {
             matches!(kind, TokenKind::Comma | TokenKind::Expression(_) | TokenKind::Literal(_))
         };
@@ -148,7 +148,7 @@ impl Evaluator<'_> {
     fn plane(&mut self, token: &Token) -> Outcome<Solid> {
         const WANTED: (&str, &str) = ("a vector for the normal", "a number for the distance");
         let (normal, distance) = self.vector_and_number(token, WANTED);
-        // `plane { <0, 0, 0>, y }`: where the two are mistaken, that is what is told.
+        // `plane { <0, 0, 0>, y }`: if the two are swapped, that is reported.
         let distance = distance?;
         let normal = self.as_direction(normal?, "the normal")?;
         Ok(Solid::Plane { normal: normal.value, distance: distance.value })
@@ -212,7 +212,7 @@ impl Evaluator<'_> {
         }
         let message =
             format!("a {name} whose ends are the same point has no length, and is nothing");
-        // POV-Ray refuses it, too.
+        // POV-Ray refuses it as well.
         let diagnostic = Diagnostic::new(Code::ZeroSize, message)
             .at(cap.span, "expected another place")
             .also(base.span, "the base")
@@ -273,7 +273,7 @@ impl Evaluator<'_> {
         };
         let hole_radius = hole.as_ref().map_or(0.0, |hole| hole.value);
         if normal.value == Vector::ZERO {
-            // Told, and left out.
+            // Reported and omitted.
             let (centre, normal) = (centre.value, Vector::Y);
             return Ok(Solid::Disc { centre, normal, radius: 0.0, hole: 0.0 });
         }
@@ -329,7 +329,7 @@ impl Evaluator<'_> {
             self.nothing(token, &minor.here, diagnostic)?;
         }
         self.lint_spindle(&major, &minor);
-        // Asked by pictures of POV-Ray 3.7: of a negative minor radius it draws nothing.
+        // Measured in POV-Ray 3.7: with a negative minor radius it draws nothing.
         if minor.value < 0.0 && self.options.dialect == Dialect::Pov {
             let message = "POV-Ray draws nothing of a torus whose minor radius is negative";
             let diagnostic = Diagnostic::new(Code::DegenerateShape, message)

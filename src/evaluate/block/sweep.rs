@@ -18,7 +18,7 @@ impl Evaluator<'_> {
             kinds.filter_map(|kind| Some((kind, self.take_word(kind.word())?))).next()
         else {
             let found = self.peek().cloned();
-            // A misspelt kind is told as that.
+            // A misspelt kind is reported as such.
             if let Some(Token { kind: TokenKind::Expression(id), here, .. }) = &found
                 && self.unknown_name(here, *id).is_some()
             {

@@ -43,7 +43,7 @@ impl Evaluator<'_> {
             None => (self.given(token, wanted), None),
         };
         if given.is_err() && is_written && !self.is_before_value() {
-            // A mistake in the string hides none behind it.
+            // A mistake in the string does not hide those after it.
             self.number_after(token, "a number for the thickness")?;
         }
         let given = given?;
@@ -76,7 +76,7 @@ impl Evaluator<'_> {
             Ok(font) => {
                 (font.set(&string, [offset.x, offset.y], fits), font.first_missing(&string))
             }
-            // It was when it was read.
+            // It was valid when it was read.
             Err(_) => (Some(Vec::new()), None),
         };
         let Some(letters) = letters else {
@@ -96,7 +96,7 @@ impl Evaluator<'_> {
                 .at(given.span, "expected what is to be written");
             self.nothing(token, &given.here, diagnostic)?;
         } else if text.is_nothing() {
-            // A blank need not be told: loops set letter by letter.
+            // A blank need not be reported: loops may write letter by letter.
             self.scene.sizeless.push((Word::Text.name(), token.here.site(token.span)));
         }
         Ok(Solid::Text { text: Arc::new(text) })
@@ -119,7 +119,7 @@ impl Evaluator<'_> {
             }
             first = left;
         }
-        // What begins with `+` is more of the string to those who wrote it.
+        // An operand after `+` is meant as part of the string.
         let is_number = terms.last().is_some_and(|(sign, _)| *sign < 0.0);
         let value = match here.unit.expression(first).kind {
             ExpressionKind::String if is_number => self.expression(&here, first)?,

@@ -17,7 +17,7 @@ impl Evaluator<'_> {
     /// Reads `texture { [Name] … }`, starting from the default texture.
     pub(super) fn texture(&mut self, token: &Token) -> Outcome<TextureId> {
         let texture = self.one_texture(token);
-        // Several in a row are layers, which are not built yet.
+        // Several in a row are layers, which are unsupported.
         while let Some(Token { kind: TokenKind::Word(Word::Texture), .. }) = self.peek_on()
             && let Some(next) = self.next()
         {
@@ -92,7 +92,7 @@ impl Evaluator<'_> {
                     return Err(Reported);
                 }
                 Some(Value::Texture(id)) => *texture = self.scene.textures[id.index()].clone(),
-                // As in POV-Ray, their words may be left out here.
+                // As in POV-Ray, their keywords are optional here.
                 Some(Value::Pigment(id)) => texture.pigment = id,
                 Some(Value::Finish(id)) => texture.finish = id,
                 Some(Value::Poison(poison)) => {

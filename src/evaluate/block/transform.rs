@@ -39,7 +39,7 @@ impl Evaluator<'_> {
             return whole;
         }
         self.scene.transform_sites.push(self.whole(token));
-        // Lowering keeps a map for each.
+        // Lowering stores a map for each.
         self.stored += 256 + size_of_val(&steps[..]) as u64;
         self.scene.transforms.push(steps);
         TransformId(self.scene.transforms.len() as u32 - 1)
@@ -103,7 +103,7 @@ impl Evaluator<'_> {
     /// Reports transforms written as in other tools: `rotate y 45`, `rotate 45, y`, `translate x 2 y 3`,
     /// `scale y 2`.
     fn no_number_after(&mut self, word: Word, given: &Given<Vector>) -> Outcome<()> {
-        // `sphere { translate x 0, 1 }`: the parts that come too late were told.
+        // `sphere { translate x 0, 1 }`: the late parts were reported.
         if self.lacks_part() {
             return Ok(());
         }
@@ -150,7 +150,7 @@ impl Evaluator<'_> {
         let right = match pairs.as_slice() {
             [] => format!("{}*{}", text(self, span), text(self, given.span)),
             [pair] if word != Word::Scale => one(pair),
-            // Turns are made about x first, and then y.
+            // Rotations are applied about x first, and then y.
             pairs if in_order => {
                 let mut all = [if word == Word::Scale { "1" } else { "0" }; 3];
                 for (axis, number) in pairs {
@@ -187,7 +187,7 @@ impl Evaluator<'_> {
         };
         let kind = |here: &Here, id| here.unit.expression(id).kind;
         let is_number = |here: &Here, id| matches!(kind(here, id), ExpressionKind::Number(_));
-        // `z -2` is read as a difference.
+        // `z -2` parses as a difference.
         if let ExpressionKind::Binary(BinaryOperator::Subtract, axis, number) = kind(&here, id) {
             let axis = axis_of(kind(&here, axis)).filter(|_| is_number(&here, number))?;
             let number = self.sources.text(here.unit.expression(number).span);
@@ -246,7 +246,7 @@ impl Evaluator<'_> {
             let place = match lost.first() {
                 Some((at, _)) => *at,
                 None if numbers.len() < 12 => self.end_of_call(next.span),
-                // The first that is too many.
+                // The first surplus number.
                 None => {
                     let more = unit.ast.arguments(components).get(12..);
                     more.and_then(|more| surplus(&next.here, more)).unwrap_or(next.span)
@@ -262,7 +262,7 @@ impl Evaluator<'_> {
                     .help("the fourth column is always 0, 0, 0, 1, and is left out")
                     .fix(next.span, right),
                 (0, None) => diagnostic.help("the last row is the translation: `matrix <1,0,0, 0,1,0, 0,0,1, 0,0,0>` changes nothing"),
-                // Of several differences only the author knows which are meant.
+                // With several differences, only the author knows which are meant.
                 (n, None) if n + numbers.len() != 12 => diagnostic.help("`0 -2` is one number, and `0, -2` are two"),
                 _ => lost.iter().fold(diagnostic, |told, (at, pair)| {
                     told.help(format!("`{pair}` is one number: a comma is missing in it")).fix(*at, ",")
@@ -273,7 +273,7 @@ impl Evaluator<'_> {
         let row = |i: usize| Vector::new(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
         let rows = [row(0), row(1), row(2), row(3)];
         match self.options.dialect {
-            // Whether it flattens everything is decided in lowering, exactly.
+            // Whether it is singular is decided exactly in lowering.
             Dialect::Scene => Ok(Step::Matrix(rows)),
             Dialect::Pov => self.with_columns(&next, rows),
         }
@@ -291,7 +291,7 @@ impl Evaluator<'_> {
             };
             return Ok(id);
         }
-        // In POV-Ray 3.7 it inverts all of the block, wherever it stands and however often (measured).
+        // In POV-Ray 3.7 it inverts the whole block, at any position and if repeated (measured).
         let inverts_all = self.options.dialect == Dialect::Pov;
         let steps = self.block(token, Word::TransformWord, |evaluator| {
             let (mut steps, mut inverse) = (Vec::new(), None);

@@ -95,12 +95,12 @@ impl Evaluator<'_> {
             self.openers.pop();
             return;
         }
-        // `density_file df3 "smoke.df3" interpolate 1`: any number will do there.
+        // `density_file df3 "smoke.df3" interpolate 1`: any number is valid there.
         if word != Word::Interpolate && self.modifier_not_built(token, word) {
             return;
         }
         self.block_is_missing(token, word);
-        // An object, which has mistakes as any other.
+        // An object, which may have mistakes like any other.
         if let Word::LooksLike | Word::ProjectedThrough = word
             && self.is_before_block()
             && self.judge_block(token, Word::Union)
@@ -259,7 +259,7 @@ impl Evaluator<'_> {
         });
         let inside = self.poison.take();
         self.set_poison(poison);
-        // `open` and the like go with their shape.
+        // `open` and the like belong to their shape.
         if let Some(inside) = inside.filter(|inside| inside.word.family() != Family::ShapeItem) {
             self.set_poison(inside);
         }
@@ -272,7 +272,7 @@ impl Evaluator<'_> {
             self.peek_declared(),
             Some(Value::Object(_) | Value::Poison(_) | Value::Broken)
         );
-        // A name alone, not the first of several values.
+        // A single name, not the first of several values.
         let alone = declared
             && !matches!(
                 self.peek_on().map(|next| &next.kind),

@@ -18,12 +18,12 @@ use super::place::{is_of_no_part, stands_alone};
 impl Evaluator<'_> {
     /// Reports an item that the block does not accept, and skips what belongs to it.
     pub(in crate::evaluate) fn unexpected(&mut self, token: &Token, place: Place) {
-        // What stands behind a word that is not built may belong to it.
+        // Items after an unsupported word may belong to it.
         let of_poison = self.poison.is_some();
         match &token.kind {
             TokenKind::Comma => self.warn_of_comma(token, place),
             TokenKind::Semicolon => self.warn_of_semicolon(token, place),
-            // What comes next is looked at for no name: it may declare it.
+            // The next item is not checked for a name: it may declare it.
             TokenKind::Word(word) if of_poison && stands_alone(*word) && self.is_before_block() => {
                 self.unexpected_word(token, *word, place);
             }
@@ -37,7 +37,7 @@ impl Evaluator<'_> {
                     true => self.pass_not_built(token, *word),
                     false => self.skip_arguments(*word),
                 }
-                // What a pattern that is not built has goes with it.
+                // Items of an unsupported pattern belong to it.
                 if place.holds(*word) && !word.is_built() && word.family() != Family::PatternItem {
                     self.set_poison(poison);
                 }
@@ -98,7 +98,7 @@ impl Evaluator<'_> {
                                 let dialect = self.options.dialect;
                                 let words = || place.words(dialect);
                                 let near = self.near(span, Asked::Call, || {
-                                    // What takes no block.
+                                    // A word without a block.
                                     let moves = |word: Word| word.family() == Family::Transform;
                                     let ours = |word: &&str| {
                                         Word::from_name(word).is_some_and(moves)
@@ -202,7 +202,7 @@ impl Evaluator<'_> {
         {
             return self.skip_values();
         }
-        // An argument of a macro that was told, or two that changed places.
+        // An argument of a macro that was reported, or two that were swapped.
         if let TokenKind::Expression(_) = token.kind
             && self.is_refused_again(&token.here, token.span, value)
         {
@@ -210,7 +210,7 @@ impl Evaluator<'_> {
         }
         let told = match (place.word, value) {
             (Some(Word::Object), Value::Object(_)) => self.second_of_object(token.span),
-            // A decimal comma is told as that.
+            // A decimal comma is reported as such.
             (Some(solid), Value::Number(_) | Value::Vector(_))
                 if self.comma_before(token.span).is_none() =>
             {

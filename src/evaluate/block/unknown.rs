@@ -55,7 +55,7 @@ impl Evaluator<'_> {
     ) {
         let meant = near.filter(|_| has_block).and_then(Word::from_name);
         let meant = meant.filter(|word| !has_other_parts(self.sources.text(token.span), *word));
-        // A blob's parts are not those of shapes.
+        // A blob's parts differ from those of shapes.
         if let Some(word) = meant.filter(|_| place.word != Some(Word::Blob))
             && self.judge_block(token, word)
         {
@@ -72,7 +72,7 @@ impl Evaluator<'_> {
             self.skip_color(token);
         }
         if self.is_before_block() {
-            // What is inside belongs to a word that is not known: run, but not judged.
+            // The contents belong to an unknown word: run, but not checked.
             let before = self.told();
             if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next() {
                 self.inside_block(&here, contents, span, Self::run_items);
@@ -240,7 +240,7 @@ impl Evaluator<'_> {
         if here.is_some_and(is_word) {
             return false;
         }
-        // A name with a capital is rather one of the author's.
+        // A capitalized name is probably one of the author's.
         if here.is_some_and(is_built) && !name.starts_with(char::is_uppercase) {
             return false;
         }

@@ -42,7 +42,7 @@ pub fn rendered(word: Word, values: &[Value]) -> Option<Value> {
         }
         Word::VaxisRotate => return Some(Value::vector3(Vector::NAN)),
         Word::Substr => return (number(1)?.trunc() == 0.0).then(|| Value::string("")),
-        // Half a character.
+        // Half a surrogate pair.
         Word::Chr => {
             let is_half = (55_296.0..57_344.0).contains(&number(0)?);
             return is_half.then(|| Value::string("\u{fffd}"));

@@ -129,12 +129,12 @@ impl Format {
 
     fn append(&self, number: f64, text: &mut String) {
         let Self { width, decimals, .. } = *self;
-        // As POV-Ray writes it, but for a sign.
+        // As POV-Ray writes it, except for the sign.
         if number.is_nan() {
             let _ = write!(text, "{:>width$}", "nan");
             return;
         }
-        // Whole numbers are written much faster as such.
+        // Integers are formatted much faster as such.
         let whole = number as i64;
         let is_whole = whole as f64 == number && whole != 0 && whole.unsigned_abs() < 1 << 53;
         // Writing into a string cannot fail.

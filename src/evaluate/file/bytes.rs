@@ -39,7 +39,7 @@ impl WordType {
             true => (-(1_i64 << (self.bits - 1)), (1_i64 << (self.bits - 1)) - 1),
             false => (0, (1_i64 << self.bits) - 1),
         };
-        // Halves go up, also below zero. (The conversion saturates.)
+        // Halves are rounded up, also below zero. (The conversion saturates.)
         let whole = ((number + 0.5).floor() as i64).clamp(least, most);
         let eight = whole.to_be_bytes();
         let needed = &eight[eight.len() - self.bits as usize / 8..];

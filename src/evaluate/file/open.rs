@@ -38,7 +38,7 @@ impl Evaluator<'_> {
         });
         let value = match &state {
             Ok(_) => Value::File(FileHandle(self.opened.len() as u32)),
-            // What is done with a file that could not be had says nothing more.
+            // Uses of a file that could not be opened report nothing more.
             Err(Reported) => Value::Broken,
         };
         if free.is_ok() {
@@ -138,7 +138,7 @@ impl Evaluator<'_> {
                 path.to_owned()
             }
             Err(error) => {
-                // What allows one allows all.
+                // The option that allows one allows all.
                 let told = error == WriteError::NotAllowed && !self.unwritten.is_empty();
                 self.unwritten.insert(path.to_owned());
                 if told {
@@ -161,7 +161,7 @@ impl Evaluator<'_> {
             return Err(self.report(here, diagnostic));
         }
         self.authored.insert(name.clone());
-        // What was read under this name is not what it holds from now on.
+        // The cached contents under this name are outdated from now on.
         self.parsed.remove(&name);
         self.found.retain(|(other, _), _| other != path);
         self.remembered.missing.clear();

@@ -44,7 +44,7 @@ impl Evaluator<'_> {
                     return Err(self.other_way(here, handle, name.1, "write", "read"));
                 }
             };
-            // POV-Ray 3.7 passes over any sign behind a value (measured).
+            // POV-Ray 3.7 ignores any sign after a value (measured).
             let commas = match self.options.dialect {
                 Dialect::Scene => &[','][..],
                 Dialect::Pov => &[',', ';'],
@@ -117,7 +117,7 @@ impl Evaluator<'_> {
                 return Err(self.report(here, diagnostic));
             }
         }
-        // What a file holds beside what a scene needs has to be read, too.
+        // Values that a scene does not need must be read, too.
         self.scopes.note_declaration(symbol, here.site(target.span), Owner::Other);
         self.scopes.assign(symbol, value);
         Ok(())

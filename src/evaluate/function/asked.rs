@@ -97,7 +97,7 @@ impl Outside for Functions<'_> {
             Some(AuthorFunction::Noise(noise)) => noise.bounds(self.noise, arguments),
             Some(AuthorFunction::Pattern(_)) => Interval::UNDECIDED,
             Some(AuthorFunction::Pigment(pigment)) => {
-                // A colour lies between those of the map.
+                // A colour is interpolated between those of the map.
                 let parts = pigment.colors().map(|color| part(color.single(), component));
                 let range = parts.map(Interval::point).reduce(Interval::hull);
                 range.unwrap_or(Interval::EVERYTHING)

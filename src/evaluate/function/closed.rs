@@ -34,7 +34,7 @@ impl Evaluator<'_> {
             }
             AuthorFunction::Pattern(pigment) => mapped(pigment, 0),
             AuthorFunction::Pigment(pigment) => mapped(pigment, component),
-            // A tape holds their operations.
+            // The tape contains their operations.
             AuthorFunction::Formula(_) | AuthorFunction::Transform(_) => return None,
         })
     }
@@ -52,7 +52,7 @@ fn asking(id: FunctionId, parameters: usize) -> Option<Function> {
 fn mapped(pigment: &Pigment, component: usize) -> Asked {
     match pigment {
         Pigment::Color(color) => Asked::Constant(part(color.single(), component)),
-        // It belongs to a mesh alone.
+        // It applies to meshes only.
         Pigment::Faces(_) => Asked::Constant(0.0),
         Pigment::Patterned { pattern, pattern_from_texture, map } => Asked::Pattern {
             pattern: *pattern,

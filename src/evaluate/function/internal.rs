@@ -128,7 +128,7 @@ impl Evaluator<'_> {
         let number = self.number(here, id)?;
         let last = NAMES.len() - 1;
         let known = (0.0..NAMES.len() as f64).contains(&number).then_some(number as usize);
-        // The one that is not there is 0 everywhere in POV-Ray 3.7 (measured).
+        // In POV-Ray 3.7 the missing one is 0 everywhere (measured).
         let is_pov = self.options.dialect == Dialect::Pov;
         if is_pov && known.is_some_and(|known| NAMES[known].is_empty()) {
             return self.zero_everywhere(here, span);
@@ -148,7 +148,7 @@ impl Evaluator<'_> {
             self.internals = self.compile_internals();
         }
         let found = self.internals.get(known).copied().flatten();
-        // They are all there (a test asks each).
+        // All of them exist (a test checks each).
         found.ok_or(Reported)
     }
 

@@ -58,7 +58,7 @@ impl Evaluator<'_> {
         if given.value == Vector::ZERO || !is_number {
             return;
         }
-        // `rotate 45 degrees` is told as that.
+        // `rotate 45 degrees` is reported as such.
         let behind = self.sources.get(given.span.file).text.get(given.span.end as usize..);
         if behind.is_some_and(|text| text.trim_start().starts_with("deg")) {
             return;
@@ -185,7 +185,7 @@ impl Evaluator<'_> {
             }
             _ if is_number => vec![(whole, id)],
             _ => {
-                // `y*pi/4`: all that follows the axis.
+                // `y*pi/4`: everything after the axis.
                 let (mut at, mut rest) = (id, None);
                 while let ExpressionKind::Binary(
                     operator @ (BinaryOperator::Multiply | BinaryOperator::Divide),
@@ -223,7 +223,7 @@ impl Evaluator<'_> {
         id: ExpressionId,
         angle: f64,
     ) {
-        // Nothing else is worth a look, and these are often called.
+        // Nothing else needs a check, and these are called often.
         let is_small = angle.abs() < FEWEST_DEGREES;
         if is_small || !matches!(word, Word::Sin | Word::Cos | Word::Tan) {
             return;
@@ -303,7 +303,7 @@ impl Evaluator<'_> {
         if !is_angle || !(2.0 * FULL_TURN..=360.0).contains(&whole.abs()) {
             return false;
         }
-        // What is computed, or counted, may go round often.
+        // A computed or counted angle may exceed a turn.
         self.scopes.declared(symbol).is_some_and(|declared| {
             let Site { span, .. } = declared.site;
             let text = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
@@ -332,7 +332,7 @@ impl Evaluator<'_> {
             _ => None,
         });
         let Some((there, directive)) = counter else { return false };
-        // In a macro that the loop calls, the name may be its own.
+        // In a macro that the loop calls, the name may be local.
         if there.expansion != here.expansion {
             return false;
         }

@@ -73,7 +73,7 @@ impl Evaluator<'_> {
                 let told = diagnostic.help(format!(
                     "`{base}ft` takes red, green, blue, filter and transmit"
                 ));
-                // A name may stand for fewer in another call.
+                // A name may have fewer components in another call.
                 match self.sources.text(given.span).starts_with('<') {
                     true => told.fix(token.span, format!("{base}ft")),
                     false => told,
@@ -85,7 +85,7 @@ impl Evaluator<'_> {
 
     /// Warns of `rgbt Glass` with a colour, whose fourth component is its filter.
     fn lint_swapped_color(&mut self, name: &str, color: &Color, given: &Given<Value>) {
-        // As they were written: what a name gives back has single precision.
+        // As written: a value read back from a name has single precision.
         let [filter, transmit] = [color.filter as f32, color.transmit as f32];
         if filter == 0.0 && transmit == 0.0 {
             return;
@@ -191,12 +191,12 @@ impl Evaluator<'_> {
     /// Warns of a transparent background: there is nothing behind it, so it shows black.
     pub(in crate::evaluate) fn lint_background(&mut self, given: &Given<Color>) {
         let Color { rgb, transmit, .. } = given.value;
-        // Of numbers too many, which were told.
+        // For surplus numbers, which were reported.
         let is_told = self.diagnostics.iter().any(|one| {
             let place = one.primary().filter(|_| one.code == Code::ExtraComponent);
             place.is_some_and(|place| self.taken.is_some_and(|taken| taken.span == place.span))
         });
-        // In a scene for an older version a background is never clear.
+        // In a scene for an older version a background is never transparent.
         if rgb.is_black() || transmit <= 0.0 || is_told || self.is_old() {
             return;
         }
@@ -205,7 +205,7 @@ impl Evaluator<'_> {
         let text = self.sources.text(whole);
         let number = ["color", "colour"].iter().find_map(|word| text.strip_prefix(word));
         let number = number.unwrap_or(text).trim();
-        // A part that is written as such is meant.
+        // A component that is written explicitly is intended.
         if transmit < 1.0 && !is_literal(number) {
             return;
         }

@@ -61,7 +61,7 @@ impl Evaluator<'_> {
             .at(sign, "a comparison takes two values")
             .also(left, "this is 1 or 0")
             .help(format!("write `{right}`"));
-        // What is called may give another value the second time.
+        // A called function may return another value the second time.
         let told = if middle_text.contains('(') { told } else { told.fix(whole, right) };
         self.report(here, told);
     }
@@ -113,7 +113,7 @@ impl Evaluator<'_> {
             return;
         }
         let span = here.unit.expression(id).span;
-        // `#switch (1) #case (N < 3)` asks each in turn.
+        // `#switch (1) #case (N < 3)` tests each in turn.
         let before = self.sources.get(span.file).text.get(..span.start as usize).unwrap_or("");
         let Some(switch) = before.rfind("#switch") else { return };
         let head = before[switch + 1..].split('#').next().unwrap_or("");

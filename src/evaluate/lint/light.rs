@@ -91,7 +91,7 @@ impl Evaluator<'_> {
     /// Warns of beam keywords on an omnidirectional light.
     fn lint_no_beam(&mut self, cone: &Cone) {
         let Some(first) = cone.words.first() else { return };
-        // What makes it a beam may stand in a branch that was not run.
+        // The keyword that makes it a beam may be in a branch that was not run.
         let text = self.within_block().map(|site| self.sources.text(site.span));
         let may_be_one = text.is_none_or(|text| {
             ["#", "spotlight", "cylinder", "parallel"].iter().any(|word| text.contains(word))

@@ -44,7 +44,7 @@ impl Evaluator<'_> {
             let first = items.first().map_or(*head, |first| first.span);
             let before = Span { start: first.start, end: head.start, ..first };
             let behind = Span { start: value.span.end, end: last.end.max(value.span.end), ..last };
-            // What is called behind it sees the name, too.
+            // Macros called after it see the name, too.
             let text = self.sources.text(behind);
             let calls = text.contains('(') || text.contains("#include");
             if words(before) > 0 || words(behind) > 0 || calls {

@@ -79,7 +79,7 @@ impl Evaluator<'_> {
                     self.lint_loose_operand(here, operator, side, operand);
                 }
             }
-            // As deep as there are ranks.
+            // Recursion is as deep as there are ranks.
             holds |= self.holds_bare_operation(here, right);
             first = left;
         }
@@ -101,7 +101,7 @@ impl Evaluator<'_> {
             ItemKind::Expression(left) => {
                 matches!(unit.expression(left).kind, ExpressionKind::Binary(..))
             }
-            // What a branch leaves.
+            // Items left by a branch.
             ItemKind::Directive(_) => true,
             _ => false,
         };

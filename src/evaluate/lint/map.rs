@@ -51,7 +51,7 @@ impl Evaluator<'_> {
     pub(in crate::evaluate) fn lint_map(&mut self, rise: Rise) {
         let within = -BEYOND..=1.0 + BEYOND;
         let outside = rise.literal.iter().find(|given| !within.contains(&given.value));
-        // What goes down from beyond 1 is out of its range first.
+        // A descent from beyond 1 is reported as out of range first.
         let is_high = |before: f64| outside.is_some_and(|given| given.value == before);
         let (fall, code) = match rise.fall {
             Some((before, ..)) if before > 1.0 && is_high(before) => (None, Code::UnsortedMap),
@@ -80,7 +80,7 @@ impl Evaluator<'_> {
                 }),
             false => diagnostic.help("a pattern goes from 0 to 1; beyond it colours are cut off"),
         };
-        // `[0.4 …] [5 …] [1 …]`: a point was lost.
+        // `[0.4 …] [5 …] [1 …]`: a decimal point was lost.
         let at = rise.literal.iter().position(|given| std::ptr::eq(given, outside)).unwrap_or(0);
         let before = at.checked_sub(1).map_or(0.0, |at| rise.literal[at].value);
         let behind = rise.literal.get(at + 1).map_or(1.0, |given| given.value);

@@ -50,7 +50,7 @@ impl Evaluator<'_> {
             return;
         }
         let (span, text) = (expression.span, self.sources.text(expression.span));
-        // One that is never closed was told.
+        // An unclosed vector was reported.
         if !text.ends_with('>') {
             return;
         }
@@ -197,7 +197,7 @@ impl Evaluator<'_> {
         let name = word.name();
         let opaque = name.trim_end_matches(['f', 't']);
         let text = self.sources.text(given.span);
-        // `rgbt <1, 0, 0>, 0.5` is told as that.
+        // `rgbt <1, 0, 0>, 0.5` is reported as such.
         let rest = self.sources.get(given.span.file).text.get(given.span.end as usize..);
         let number = rest.and_then(|rest| rest.trim_start().strip_prefix(',')).map(str::trim_start);
         let goes_on =

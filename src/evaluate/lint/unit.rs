@@ -146,7 +146,7 @@ impl Walk<'_> {
                     }
                 }
                 DirectiveKind::For { name: other, .. } if *other == name => 0,
-                // What calls give for it is not looked at.
+                // Values that calls pass for it are not examined.
                 DirectiveKind::Macro { parameters, .. }
                     if parameters.iter().any(|parameter| parameter.name == name) =>
                 {

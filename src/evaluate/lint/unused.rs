@@ -30,7 +30,7 @@ impl Evaluator<'_> {
             own.extend(one.help.iter().chain(one.labels.iter().map(|label| &label.text)).cloned());
         }
         let known: HashSet<&str> = own.iter().flat_map(|text| words(text)).collect();
-        // It may be meant by what is not declared.
+        // An undeclared name may be a misspelling of it.
         let lacking = self.diagnostics.iter().filter(|one| one.code == Code::UndeclaredName);
         let lacking = lacking.filter_map(|one| Some(self.sources.text(one.primary()?.span)));
         let lacking: Vec<String> = lacking.map(str::to_owned).collect();
@@ -66,12 +66,12 @@ impl Evaluator<'_> {
             if has_errors && !only_declared.contains(name) {
                 continue;
             }
-            // What is wrong on its line comes first.
+            // Another mistake on its line has priority.
             let is_object = matches!(value, Some(Value::Object(_)));
             if !is_object && faulty.contains(&self.line_of(declared.site.span)) {
                 continue;
             }
-            // A word of the language cannot be declared; that has been told.
+            // A keyword cannot be declared, which has been reported.
             if Word::from_name(name).is_some() {
                 continue;
             }

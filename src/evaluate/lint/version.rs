@@ -37,7 +37,7 @@ impl Evaluator<'_> {
         let own = self.sources.iter().filter(|(_, source)| !is_standard_source(&source.name));
         let own: Vec<&str> = own.map(|(_, source)| source.text.as_str()).collect();
         let says = |part: &str| own.iter().any(|text| text.contains(part));
-        // `assumed_gama` is told as that.
+        // `assumed_gama` is reported as such.
         let says_version = own.iter().any(|text| {
             let mut directives = text.split('#').skip(1);
             directives.any(|directive| directive.trim_start().starts_with("version"))
@@ -129,7 +129,7 @@ impl Evaluator<'_> {
             _ => Span::new(file, 0, 0),
         };
         let mut diagnostic = Diagnostic::new(Code::OldVersion, message).at(place, label).help(help);
-        // What is included is not a scene, and says nothing for itself.
+        // An included file is not a scene, and needs no version of its own.
         if !self.sources.get(file).name.to_lowercase().ends_with(".inc") {
             let old = old.filter(|_| !looks_old);
             diagnostic = old.into_iter().fold(diagnostic, |told, old| told.fix(old, "3.7"));
@@ -182,7 +182,7 @@ impl Preamble {
         };
         let directive = (!says_version).then(|| (0, format!("#version {version};\n")));
         match gamma {
-            // Two insertions at one place are one.
+            // Two insertions at one position are merged.
             Some((0, _)) if !says_version => vec![(0, format!("#version {version}; {block}\n"))],
             gamma => directive.into_iter().chain(gamma).collect(),
         }

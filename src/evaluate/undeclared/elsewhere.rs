@@ -70,7 +70,7 @@ impl Evaluator<'_> {
                 Some(Value::String(_)) => Some(Call::renamed(span, "strlen")),
                 None if argument.starts_with('"') => Some(Call::renamed(span, "strlen")),
                 Some(Value::Vector(_) | Value::Color(_)) => Some(Call::renamed(span, "vlength")),
-                // `length(x, y, z)`: of three numbers.
+                // `length(x, y, z)` with three numbers.
                 None if inner.matches(',').count() == 2 && !inner.contains('<') => stays(
                     "the length of a vector: `vlength(<x, y, z>)`; in a function, `sqrt(x*x + y*y + z*z)`",
                 ),

@@ -19,7 +19,7 @@ impl Evaluator<'_> {
     /// Returns the standard include that declares `name`, if it was not read.
     pub(in crate::evaluate) fn lacking_include(&self, name: &str) -> Option<String> {
         standard_include_of(name).filter(|include| {
-            // An author's own name of one letter is likelier.
+            // A single-letter name is more likely the author's own.
             name.len() > 1 && !self.has_read(include)
         })
     }
@@ -36,7 +36,7 @@ impl Evaluator<'_> {
         if name.len() < 3 {
             return None;
         }
-        // Of all names of the includes too many are close to a short one: only those of colours are.
+        // Too many names of the includes are close to a short one: only colours are searched.
         let near = suggest::closest(name, standard_names(COLORS))?;
         let begins = near.get(..name.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(name));
         if name.len() < 4 && !begins {

@@ -69,7 +69,7 @@ impl Evaluator<'_> {
                     _ => evaluator.unexpected(&token, Place::REFLECTION),
                 }
             }
-            // With one colour only, nothing is the least (measured on POV-Ray 3.7).
+            // With only one colour, the minimum is zero (measured on POV-Ray 3.7).
             if reflection.fresnel && !both {
                 reflection.minimum = Rgb::BLACK;
             }

@@ -74,7 +74,7 @@ impl Written {
         origin.zeros.clear();
         let zero = self.ks_items.iter().rposition(|(weight, _)| *weight == 0.0);
         if ks == 0.0 || before == Some(0.0) || (before.is_some() && zero.is_some()) {
-            // What was before stays hidden, or is nothing.
+            // The earlier words stay hidden, or have no weight.
             origin.highlights.clear();
             origin.reflection.clear();
             origin.all_of_seed = false;
@@ -88,7 +88,7 @@ impl Written {
                 let since = self.ks_items.iter().skip(zero.map_or(0, |zero| zero + 1));
                 since.map(|(_, item)| *item).collect()
             }
-            // All of them, or some would be left alone.
+            // All of them, or some would remain alone.
             _ => {
                 origin.all_of_seed = true;
                 vec![item]

@@ -19,7 +19,7 @@ struct Doubt<'a>(&'a Given<f64>, String, &'static str);
 impl Evaluator<'_> {
     /// Warns of a second number that was probably meant as the power: `fade_distance 3, 2`.
     pub(super) fn power_behind_distance(&mut self, token: &Token) {
-        // Without a comma it may be a colour of grey.
+        // Without a comma it may be a grey colour.
         let rest = self.taken.and_then(|taken| {
             let text = &self.sources.get(taken.span.file).text;
             text.get(taken.span.end as usize..)?.trim_start().strip_prefix(',')

@@ -52,7 +52,7 @@ impl Evaluator<'_> {
         light: Option<&mut LightSource>,
     ) -> Outcome<()> {
         let color = self.color_from(token)?;
-        // Without a light there was a mistake already.
+        // Without a light there has been an error already.
         let Some(light) = light else { return Err(Reported) };
         let Some(late) = late else {
             let diagnostic = Diagnostic::new(Code::ExtraPart, "this light has a colour already")
@@ -90,7 +90,7 @@ impl Evaluator<'_> {
         let name = self.describe(&late.opener);
         let found = match &late.found {
             Some(found) => format!(", found {}", self.describe(found)),
-            // It is taken, and that told, behind the block.
+            // It is taken and reported after the block.
             None if self.closer_before_color().is_some() => return Err(Reported),
             None => String::new(),
         };
@@ -179,7 +179,7 @@ impl Evaluator<'_> {
         self.skip_values();
         self.take_back(before);
         let (message, label) = match light.map(|light| &light.kind) {
-            // Without a light there was a mistake already.
+            // Without a light there has been an error already.
             None => return Err(Reported),
             Some(LightKind::Direction { .. }) => {
                 ("this light has a `direction` already", "expected one")

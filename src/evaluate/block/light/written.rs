@@ -112,10 +112,10 @@ impl Written {
         let zero = self.distances.iter().rposition(|(distance, _)| *distance == 0.0);
         let since = self.distances.iter().skip(zero.map_or(0, |zero| zero + 1));
         if zero.is_some() || light.fade.is_none() {
-            // What was before is hidden, or nothing.
+            // The earlier fade is hidden, or none.
             light.fade_sites.clear();
         } else if self.said(Word::FadePower).is_none() {
-            // It goes with the power that was before.
+            // It combines with the earlier power.
             return;
         }
         since.for_each(|(_, piece)| list_once(&mut light.fade_sites, *piece));
@@ -126,7 +126,7 @@ impl Written {
         let round = self.round(light);
         let parallel = matches!(light.kind, LightKind::Parallel { .. });
         if parallel || self.shapes.contains(&Word::Parallel) {
-            // What is parallel is no spotlight.
+            // A parallel light is not a spotlight.
             light.beam_sites.retain(|(word, _)| *word == Word::Cylinder);
         }
         self.note_fade(light);
@@ -138,7 +138,7 @@ impl Written {
             LightKind::Parallel { location, .. }
             | LightKind::Spotlight { location, .. }
             | LightKind::Cylinder { location, .. } => (location, true),
-            // Light from infinitely far has neither a distance nor an axis.
+            // A light at infinity has neither a distance nor an axis.
             LightKind::Direction { .. } => {
                 light.fade = None;
                 return None;

@@ -98,7 +98,7 @@ impl Evaluator<'_> {
         if let Some(read) = self.meshes.found.get(&found.name) {
             return Ok(read.clone());
         }
-        // It is no text, and has its name there alone.
+        // It is not scene text, so the sources hold only its name.
         self.sources.add(Source::new(found.name.clone(), ""));
         let mut beside = |other: &str| {
             let file = files.read(other, &found.name);

@@ -73,13 +73,13 @@ impl Evaluator<'_> {
         let mesh = token.here.site(token.span);
         if left == 0 && self.poison.is_none() {
             self.scene.sizeless.push((word.name(), mesh));
-            // Of a mesh2 POV-Ray 3.7 draws nothing then, and refuses a mesh (measured).
+            // POV-Ray 3.7 then draws nothing for a mesh2, and refuses a mesh (measured).
             if word == Word::Mesh2 && degenerate.count > 0 && self.options.dialect == Dialect::Pov {
                 let diagnostic = without_triangles(token, word, degenerate.count);
                 self.report(&token.here, diagnostic.as_warning());
                 return;
             }
-            // Unless its triangles stand too late.
+            // Unless its triangles come too late.
             self.owed =
                 Some((token.here.clone(), without_triangles(token, word, degenerate.count)));
         } else if degenerate.count > 0 {

@@ -88,14 +88,14 @@ impl Evaluator<'_> {
             let message = format!("this mesh2 has no `{}`", missing.join("` and no `"));
             let diagnostic =
                 Diagnostic::new(Code::MissingPart, message).at(token.span, Word::Mesh2.sentence());
-            // Unless they stand too late.
+            // Unless they come too late.
             self.owed = Some((token.here.clone(), diagnostic));
             return Err(Reported);
         };
         self.expect_entries(&of_vertices, vertices.len(), "vertices")?;
         self.expect_entries(&of_faces, faces.len(), "faces")?;
         let is_pov = self.options.dialect == Dialect::Pov;
-        // Of lists without an entry POV-Ray 3.7 takes no notice (measured).
+        // POV-Ray 3.7 ignores lists without an entry (measured).
         let is_said = |list: &(Token, Vec<Vector>)| !is_pov || !list.1.is_empty();
         let (normals, uv_vectors) =
             (normals.filter(is_said), uv_vectors.filter(|list| is_said(list) || face_uv.is_some()));
@@ -108,7 +108,7 @@ impl Evaluator<'_> {
             (Some((_, normals)), Some((of_indices, indices))) => {
                 let indices =
                     self.as_indices(&of_indices, &indices, normals.len(), "normal_vectors")?;
-                // Those that have none are flat, and the last.
+                // Faces without normals are flat, and come last.
                 if indices.len() > corners.len() {
                     let found = (indices.len(), "normals");
                     self.one_for_each(&of_indices, found, ("face", corners.len()))?;
@@ -137,7 +137,7 @@ impl Evaluator<'_> {
                 self.one_for_each(&of_indices, found, ("face", corners.len()))?;
                 Some((uvs, indices))
             }
-            // One place for all (measured).
+            // One coordinate for all (measured).
             (Some((_, uvs)), None) if is_pov && uvs.len() == 1 => {
                 Some((uvs, vec![[0; 3]; corners.len()]))
             }
@@ -162,7 +162,7 @@ impl Evaluator<'_> {
             (!flat).then_some(Face { vertices: all, normals, paint, uvs })
         });
         let faces: Vec<Face> = faces.collect();
-        // Those of faces that are left out.
+        // Those of omitted faces.
         let somewhere = |vertex: Vector| if vertex.is_finite() { vertex } else { Vector::ZERO };
         let vertices = vertices.into_iter().map(somewhere).collect();
         let first = first.and_then(|first| self.entry_in(&of_faces, count, first));
@@ -382,7 +382,7 @@ impl Evaluator<'_> {
             let (open, _) = block.match_indices('<').nth(entry)?;
             (open, block[open..].find('>')? + 1)
         } else {
-            // `-z` among them: what stands between commas, behind the count.
+            // `-z` may be among them: entries are separated by commas, after the count.
             let mut depth = 0;
             let parts = block.split(|c| {
                 depth += i32::from(c == '<') - i32::from(c == '>');

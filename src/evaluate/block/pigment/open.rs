@@ -52,7 +52,7 @@ impl Evaluator<'_> {
         open: OpenPigment,
     ) -> Outcome<PigmentId> {
         let OpenPigment { mut pigment, is_default, written, mut failed } = open;
-        // A map may stand before its pattern.
+        // A map may precede its pattern.
         if let Some((given, token, item)) = written.map
             && !failed
         {

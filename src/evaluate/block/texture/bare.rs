@@ -37,7 +37,7 @@ impl Evaluator<'_> {
             return None;
         }
         let block = self.block_of(token)?;
-        // A scene of that time is full of them: the first is told.
+        // A scene of that time is full of them: only the first is reported.
         if !std::mem::replace(&mut self.has_bare_textures, true) {
             let name = self.sources.text(token.span);
             let message = format!("`{name}` has no meaning in `texture` since version 3.0");

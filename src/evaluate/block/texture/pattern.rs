@@ -58,7 +58,7 @@ impl Evaluator<'_> {
                     Some(count) => {
                         Some(self.map_of_list(token, (pattern, count), &opener, written))
                     }
-                    // It goes with its pattern.
+                    // It belongs to its pattern.
                     None => {
                         self.pass_not_built(token, word);
                         Some(Ok(()))
@@ -164,7 +164,7 @@ impl Evaluator<'_> {
         };
         written.told = told.code == Code::WrongType;
         self.report(&token.here, told);
-        // More of them are the same mistake.
+        // Further ones are the same mistake.
         loop {
             self.skip_commas();
             if let Some(extra) = self.next_texture() {
