@@ -1,7 +1,8 @@
-//! What a call of a macro was given and its body cannot use: one mistake of the call, however often the body
-//! has it, and whatever other macros the body hands it to.
+//! Macro arguments that the macro's body cannot use. Each is one mistake of the call, reported once, however
+//! often the body uses the argument and whichever macros it is passed on to.
 //!
-//! **Invariant:** only what was told, and still is, makes anything else its repetition.
+//! **Invariant:** a diagnostic is suppressed as a repetition only if the earlier one was reported and not
+//! withdrawn.
 
 use crate::diagnostic::Diagnostic;
 use crate::source::{Expansion, ExpansionId, ExpansionKind, Site, Span};
@@ -11,7 +12,7 @@ use super::block::Given;
 use super::value::Value;
 use super::{Evaluator, Here, Symbol};
 
-/// An argument of so many characters is quoted.
+/// Longest argument that a message quotes, in characters.
 const LONGEST: usize = 40;
 
 /// An argument of a call that its macro could not use.
@@ -19,25 +20,25 @@ const LONGEST: usize = 40;
 pub(super) struct Refused {
     parameter: Symbol,
     kind: &'static str,
-    /// Where that was told.
+    /// Where the error was reported.
     told: Span,
 }
 
-/// The parameter that a value came by, and the call that it was written in.
+/// The parameter that a value came from, and the call that supplied its argument.
 #[derive(Debug, Clone, Copy)]
 struct Origin {
     call: Span,
-    /// What the call stands in.
+    /// The expansion that contains the call.
     within: ExpansionId,
     parameter: Symbol,
-    /// The argument itself, where it is found.
+    /// The argument itself, if it can be located.
     argument: Option<Span>,
 }
 
 impl Evaluator<'_> {
-    /// Whether `found`, which is of no use at `span`, comes of a parameter of the macro that is being run, and says
-    /// nothing new: that parameter was told, or another one of another kind, so that the two arguments rather
-    /// changed places.
+    /// Returns whether the unusable value `found` at `span` comes from a parameter of the running macro and
+    /// adds no news: this parameter has been reported, or another one of a different kind has, which suggests
+    /// that the two arguments were swapped.
     pub(super) fn is_refused_again(&mut self, here: &Here, span: Span, found: &Value) -> bool {
         let Some(Origin { call, parameter, .. }) = self.origin(here, span, found) else {
             return false;
@@ -55,7 +56,7 @@ impl Evaluator<'_> {
         repeats
     }
 
-    /// Names the argument that a value of no use came by.
+    /// Adds a label for the argument that an unusable value came from.
     pub(super) fn given_by_call(
         &self,
         here: &Here,
@@ -76,7 +77,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The two arguments of one call that two values came by.
+    /// Returns the two arguments of one call that the two values came from.
     pub(super) fn arguments_behind(&self, values: [&Given<Value>; 2]) -> Option<[Site; 2]> {
         let [a, b] = values.map(|given| {
             let origin = self.origin(&given.here, given.span, &given.value)?;
@@ -86,8 +87,8 @@ impl Evaluator<'_> {
         (call == other && a.span != b.span).then_some([a, b])
     }
 
-    /// Where `found`, which `span` came to, entered the macro that is being run; through the calls that only hand
-    /// it on.
+    /// Returns where `found`, the value of `span`, entered the running macro, followed through calls that
+    /// only pass it on.
     fn origin(&self, here: &Here, span: Span, found: &Value) -> Option<Origin> {
         let mut calls = self.scene.expansions.chain(here.expansion);
         let mut call = calls.find(|call| call.kind == ExpansionKind::Macro)?;
@@ -104,7 +105,8 @@ impl Evaluator<'_> {
         Some(Origin { call: call.call, within: call.parent, parameter, argument })
     }
 
-    /// The parameter in a text that a value of this kind came by: its only name, or the one that is of that kind.
+    /// Returns the parameter in a text that a value of this kind came from: its only name, or the only one of
+    /// that kind.
     fn parameter_within(&self, span: Span, found: &Value) -> Option<Symbol> {
         let text = self.sources.text(span);
         let known =
@@ -125,7 +127,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// What a call has for a parameter.
+    /// Returns the argument that a call passes for a parameter.
     fn argument(&self, call: &Expansion, parameter: Symbol) -> Option<Span> {
         let units = self.frames.iter().rev().map(|frame| &frame.here.unit);
         let unit = units.into_iter().find(|unit| unit.ast.file == call.call.file)?;
@@ -151,7 +153,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The names, and whatever is written like them, of a text.
+/// Returns the words of a text that have the form of a name.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }

@@ -1,4 +1,4 @@
-//! What to say of a call with too few or too many arguments.
+//! Diagnostics for calls with too few or too many arguments.
 
 use std::ops::RangeInclusive;
 
@@ -10,7 +10,7 @@ use crate::vocabulary::Word;
 use super::report::count;
 use super::{Evaluator, Here, Reported};
 
-/// Where arguments stand that are too many.
+/// Returns the span of the surplus arguments.
 pub(super) fn surplus(here: &Here, more: &[Argument]) -> Option<Span> {
     let place = |argument: &Argument| match argument {
         Argument::Expression(id) => Some(here.unit.expression(*id).span),
@@ -23,13 +23,13 @@ pub(super) fn surplus(here: &Here, more: &[Argument]) -> Option<Span> {
 }
 
 impl Evaluator<'_> {
-    /// The bracket that closes a call, a vector or an array, where what is missing belongs; all of it where it does not
-    /// end with one.
+    /// Returns the closing bracket of a call, a vector or an array, where a missing argument belongs, or the
+    /// whole span if it does not end with a bracket.
     pub(super) fn end_of_call(&self, span: Span) -> Span {
         if self.sources.text(span).ends_with([')', '>', '}']) {
             return Span { start: span.end - 1, ..span };
         }
-        // The name alone of what is called.
+        // Only the name of the called function.
         let text = &self.sources.get(span.file).text;
         let behind = text.get(span.end as usize..).unwrap_or("");
         let (mut depth, mut quoted) = (0, false);
@@ -49,7 +49,7 @@ impl Evaluator<'_> {
         span
     }
 
-    /// Where an argument is empty: the sign before which it should stand.
+    /// Returns where an empty argument belongs: the comma or bracket before which it is missing.
     pub(super) fn empty_argument(
         &self,
         here: &Here,
@@ -67,7 +67,7 @@ impl Evaluator<'_> {
             Some(_) => return call,
             None => text.find('(').unwrap_or(0),
         };
-        // Its own comma, behind the one that ends what stands before.
+        // The comma of this argument, after the one that ends the argument before it.
         let mut commas = text.get(from..).unwrap_or("").match_indices(',');
         match commas.nth(usize::from(before.is_some())) {
             Some((at, _)) => {
@@ -78,7 +78,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether the macro whose name is defined here gives a parameter a value, as other languages do.
+    /// Returns whether the macro whose name is defined here gives a parameter a default value, as other
+    /// languages do.
     pub(super) fn has_default(&self, name: Span) -> bool {
         let behind = self.sources.get(name.file).text.get(name.end as usize..).unwrap_or("");
         let parameters = behind.split(')').next().unwrap_or("");

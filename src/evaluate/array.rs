@@ -1,10 +1,10 @@
-//! Arrays: `array[2][3] { {1, 2, 3}, {4, 5, 6} }`, and what an index leads to.
+//! Arrays (`array[2][3] { {1, 2, 3}, {4, 5, 6} }`) and indexing into them.
 //!
-//! **Invariant:** an array is copied when it is assigned, and only when one of the two changes; a
-//! parameter refers to its caller's. Its elements are of one kind, that of the first one set.
+//! **Invariant:** an array is copied on write: assignment shares it until one of the two changes. A parameter
+//! refers to the caller's array. All elements have the kind of the first one set.
 //!
-//! **Source:** manual, section 3.3.1.11 ("Array Identifiers"); measured: an index is cut off to a
-//! whole number, 0.9999999999 counts as 1, and an initialiser has a value for each element.
+//! **Source:** manual, section 3.3.1.11 ("Array Identifiers"). Measured: an index is truncated to a whole
+//! number, 0.9999999999 counts as 1, and an initializer has a value for each element.
 
 use std::sync::Arc;
 
@@ -17,21 +17,21 @@ use super::stream::{Token, TokenKind};
 use super::value::Value;
 use super::{Evaluator, Here, Outcome, Reported};
 
-/// An array has no more dimensions.
+/// Maximum number of dimensions of an array.
 const MOST_DIMENSIONS: usize = 5;
 
-/// Values by whole numbers, in one to five dimensions.
+/// An array of one to five dimensions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Array {
     dimensions: Vec<u32>,
-    /// The last index runs fastest; `None` where nothing was set.
+    /// In row-major order (the last index varies fastest); `None` for an element that was never set.
     elements: Vec<Option<Value>>,
-    /// Of the first element that was set.
+    /// Kind of the first element that was set.
     kind: Option<&'static str>,
 }
 
 impl Array {
-    /// Whether there is an object in it, and so nothing else.
+    /// Returns whether the array holds objects (and so nothing else).
     pub(super) fn holds_objects(&self) -> bool {
         self.elements.iter().flatten().next().is_some_and(|one| matches!(one, Value::Object(_)))
     }
@@ -44,7 +44,11 @@ impl Array {
         &self.elements
     }
 
-    /// Sets an element. What is of another kind than those before is not taken; the two kinds are
+    /// Sets an element.
+    ///
+    /// # Errors
+    ///
+    /// If the value is of another kind than the elements before, it is rejected and the two kinds are
     /// returned.
     pub(super) fn set(&mut self, at: usize, value: Value) -> Result<(), [&'static str; 2]> {
         let kind = value.kind();
@@ -62,7 +66,7 @@ impl Array {
     }
 }
 
-/// Arrays within arrays are taken apart one by one: a call for each would overflow the stack.
+/// Drops nested arrays iteratively; recursion would overflow the stack.
 impl Drop for Array {
     fn drop(&mut self) {
         let mut left = std::mem::take(&mut self.elements);
@@ -76,27 +80,28 @@ impl Drop for Array {
     }
 }
 
-/// Why an element is not there.
+/// Why an element does not exist.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum NoElement {
-    /// The index at this place of the list, which is this, is outside of its dimension with so many entries.
+    /// The index at this position in the list, with this value, is outside its dimension, which has this
+    /// size.
     Outside(usize, f64, u32),
-    /// There are fewer indices than dimensions, or more.
+    /// The number of indices differs from the number of dimensions.
     Count { wanted: usize },
-    /// Nothing was set.
+    /// The element was never set.
     Unset,
-    /// Before the index of this place stands no array but this.
+    /// The value before the index at this position is not an array, but this.
     NoArray(usize, Value),
 }
 
-/// Where in an array some indices lead; those left over belong to the element.
+/// Returns the offset of the element that some indices select; surplus indices apply to the element itself.
 fn place(array: &Array, indices: &[f64], from: usize) -> Result<usize, NoElement> {
     if indices.len() < array.dimensions.len() {
         return Err(NoElement::Count { wanted: array.dimensions.len() });
     }
     let mut place = 0;
     for (at, (index, size)) in indices.iter().zip(&array.dimensions).enumerate() {
-        // What a calculation leaves over is no reason to miss by one.
+        // The rounding error of a calculation must not miss an element by one.
         let index = (index + 1e-10).floor();
         if !(0.0..f64::from(*size)).contains(&index) {
             return Err(NoElement::Outside(from + at, index, *size));
@@ -106,7 +111,7 @@ fn place(array: &Array, indices: &[f64], from: usize) -> Result<usize, NoElement
     Ok(place)
 }
 
-/// The element that indices lead to, through arrays of arrays.
+/// Returns the element that the indices select, through arrays of arrays.
 pub(super) fn element<'v>(mut value: &'v Value, indices: &[f64]) -> Result<&'v Value, NoElement> {
     let mut from = 0;
     while from < indices.len() {
@@ -120,7 +125,7 @@ pub(super) fn element<'v>(mut value: &'v Value, indices: &[f64]) -> Result<&'v V
     Ok(value)
 }
 
-/// The place of an element, to be set; arrays on the way are copied if they are shared.
+/// Returns the slot of an element for assignment, copying shared arrays on the path to it.
 pub(super) fn element_place<'v>(
     mut value: &'v mut Value,
     indices: &[f64],
@@ -140,14 +145,14 @@ pub(super) fn element_place<'v>(
     }
 }
 
-/// The element that indices lead to, to be changed.
+/// Returns the element that the indices select, mutably.
 pub(super) fn element_mut<'v>(value: &'v mut Value, indices: &[f64]) -> Option<&'v mut Value> {
     let (array, at) = element_place(value, indices, 0).ok()?;
     array.elements[at].as_mut()
 }
 
 impl Evaluator<'_> {
-    /// `array[] { 1, 2, 3 }`: takes the values, too.
+    /// Reports `array[] { 1, 2, 3 }`, an array without a size, and consumes its values.
     fn no_size(&mut self, here: &Here, brackets: Span) -> Reported {
         let values = self.next_if(|kind| matches!(kind, TokenKind::Block(_)));
         let told = Diagnostic::new(Code::MissingPart, "an array says how many elements it has")
@@ -163,7 +168,7 @@ impl Evaluator<'_> {
         self.report(here, told)
     }
 
-    /// `array[n] … { … }`, after its word.
+    /// Reads `array[n] … { … }`, after its keyword.
     pub(super) fn array(&mut self, token: &Token) -> Outcome<Value> {
         let mut dimensions = Vec::new();
         while let Some(Token { kind: TokenKind::Entry(items), here, span }) =
@@ -199,7 +204,7 @@ impl Evaluator<'_> {
             match filled {
                 Ok(Some(poison)) => return Ok(poison),
                 Ok(None) => {}
-                // It has its size all the same, and what it lacks was told.
+                // It has its size nevertheless, and what is missing was reported.
                 Err(Reported) => {
                     for element in array.elements.iter_mut().filter(|element| element.is_none()) {
                         *element = Some(Value::Broken);
@@ -210,7 +215,8 @@ impl Evaluator<'_> {
         Ok(Value::Array(Arc::new(array)))
     }
 
-    /// As [`Self::next_if`], where the array may have ended: what stands behind it may ask for it.
+    /// As [`Self::next_if`], at a point where the array may have ended: the text after it may already use the
+    /// array.
     fn next_of_array(&mut self, suits: impl FnOnce(&TokenKind) -> bool) -> Option<Token> {
         let follows = match self.calls_for_block() {
             true => self.peek(),
@@ -219,7 +225,8 @@ impl Evaluator<'_> {
         if follows.is_some_and(|token| suits(&token.kind)) { self.next() } else { None }
     }
 
-    /// `array[2] Values()`, of a macro that leaves `{ 1, 2 }`.
+    /// Returns whether the initializer is a macro call that leaves a block, as in `array[2] Values()` where
+    /// the macro leaves `{ 1, 2 }`.
     fn calls_for_block(&self) -> bool {
         let Some(frame) = self.frames.last().filter(|frame| frame.at < frame.end) else {
             return false;
@@ -243,7 +250,7 @@ impl Evaluator<'_> {
     fn array_size(&mut self, token: &Token, dimensions: &[u32]) -> Outcome<Option<usize>> {
         if dimensions.is_empty() {
             let round = self.next_if(|kind| matches!(kind, TokenKind::Expression(_)));
-            // `array { 1, 2, 3 }`: its values are no second mistake.
+            // `array { 1, 2, 3 }`: its values cause no second error.
             if let Some(Token { kind: TokenKind::Block(contents), here, span }) =
                 self.next_if(|kind| matches!(kind, TokenKind::Block(_)))
             {
@@ -279,8 +286,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Reads the values of one dimension, those after it in braces of their own. Something that is
-    /// not built yet makes the whole array so.
+    /// Reads the values of one dimension; further dimensions are in nested braces. One unsupported value
+    /// makes the whole array unsupported.
     fn fill(
         &mut self,
         array: &mut Array,
@@ -304,7 +311,7 @@ impl Evaluator<'_> {
             found += 1;
             if found > size {
                 surplus = surplus.or(Some(token.span));
-                // What begins one value is no value more.
+                // The start of a value is not another value.
                 let _ = last.then(|| self.value_of(&token));
                 continue;
             }
@@ -340,7 +347,7 @@ impl Evaluator<'_> {
         if self.undecided {
             return Err(Reported);
         }
-        // What was written is there, so that asking for it is no second mistake.
+        // The values written exist, so that reading them causes no second error.
         if array.dimensions.len() == 1 && found > size {
             array.elements.resize(found, Some(Value::Broken));
             array.dimensions[0] = found as u32;
@@ -367,7 +374,7 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
-    /// `{ 1, , 3 }`
+    /// Reports a missing value, as in `{ 1, , 3 }`.
     fn value_missing_here(&mut self, behind_comma: bool) -> Option<Reported> {
         let Some(Token { kind: TokenKind::Comma, .. }) = self.peek() else { return None };
         let comma = self.next()?;
@@ -392,7 +399,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// How many values stand side by side in braces, where commas part them and no directive makes more.
+/// Counts the values in braces, if commas separate them and no directive adds any.
 fn count_values(block: &str) -> Option<usize> {
     let inside = block.strip_prefix('{')?.strip_suffix('}')?.trim().trim_end_matches(',');
     let (mut depth, mut commas) = (0, 0);

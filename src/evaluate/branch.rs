@@ -1,15 +1,15 @@
-//! Branches of conditions: which were never run, so that a mistake of form in one is none of the picture; and
-//! which open a block that only their own end closes.
+//! Branches of conditions: those that were never run, whose syntax errors do not affect the image, and those
+//! that open a block that only their own end closes.
 //!
-//! **Invariant:** a branch that was not run is noted only of the main file, and where its text has mistakes; one
-//! in a macro that was not called, or in a loop that had no turn, is not among them.
+//! **Invariant:** a branch that was not run is recorded only for the main file, and only if its text has
+//! mistakes. Branches in a macro that was not called, or in a loop that had no turn, are not recorded.
 
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{Ast, DirectiveId, DirectiveKind, ItemKind, Items, Test};
 
 use super::{Evaluator, Here};
 
-/// Whether a branch opens or closes what pairs only after it has run.
+/// Returns whether a branch opens or closes brackets that pair only after it has run.
 pub(super) fn is_bracket(here: &Here, branch: Items) -> bool {
     let items = here.unit.ast.items(branch);
     items.iter().any(|item| matches!(item.kind, ItemKind::Open | ItemKind::Close))
@@ -39,7 +39,7 @@ impl Evaluator<'_> {
             let end = item.span.end;
             let branch = match self.asked.get(&id) {
                 Some([false, true]) if otherwise.is_empty() => Some((head.end, end)),
-                // Up to its `#else`: what could not be read may be the last of it.
+                // Up to its `#else`: the text that could not be read may be at its end.
                 Some([false, true]) => {
                     ast.items(*otherwise).first().map(|first| (head.end, first.span.start))
                 }

@@ -1,4 +1,4 @@
-//! Calls: of built-in functions, macros and functions of the author's, and what their arguments are.
+//! Calls of built-in functions, macros and user-defined functions, and the evaluation of their arguments.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -84,7 +84,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `A[1](x, y, z)`: a function or a spline kept in an array.
+    /// Calls a function or a spline stored in an array: `A[1](x, y, z)`.
     fn call_element(
         &mut self,
         here: &Here,
@@ -117,7 +117,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `A(3)`, `A(I, J)`: the element as it is written.
+    /// Returns the array element that `A(3)` or `A(I, J)` probably means, as it is written.
     fn element_meant(&self, call: Span, name: Span) -> Option<String> {
         let rest = self.sources.text(call).strip_prefix(self.sources.text(name))?.trim();
         let inside = rest.strip_prefix('(')?.strip_suffix(')')?;
@@ -127,7 +127,7 @@ impl Evaluator<'_> {
         plain.then(|| format!("{}{indices}", self.sources.text(name)))
     }
 
-    /// Evaluates arguments for what they do (draw from a stream, set a parameter), not for their values.
+    /// Evaluates arguments for their side effects only (drawing from a random stream, setting a parameter).
     pub(super) fn run_arguments(&mut self, here: &Here, arguments: Arguments) {
         for argument in here.unit.ast.arguments(arguments) {
             match *argument {
@@ -152,7 +152,7 @@ impl Evaluator<'_> {
         let list = here.unit.ast.arguments(arguments);
         match word {
             Word::Defined => {
-                // No word of the language is a name that is declared.
+                // No keyword is a declared name.
                 if let [Argument::Items(_)] = list {
                     return Ok(Value::truth(false));
                 }
@@ -291,7 +291,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Why a built-in function has no value.
+    /// Returns the diagnostic for a call of a built-in function without a value.
     fn call_error(
         &self,
         here: &Here,

@@ -1,20 +1,23 @@
-//! Comparison: how near two numbers are that count as one, and which are true.
+//! Comparison of numbers: the tolerance within which two are equal, and which are true.
 //!
-//! **Invariant:** exactly one of `a = b` and `a != b` holds; `a <= b` where either `a < b` or `a = b`.
+//! **Invariant:** exactly one of `a = b` and `a != b` holds; `a <= b` holds if and only if
+//! `a < b` or `a = b`.
 
 use crate::vocabulary::Dialect;
 
-/// What a calculation in decimals leaves over.
+/// Tolerance, absolute or relative, that absorbs the rounding error of decimal arithmetic.
 const LEFT_OVER: f64 = 1e-10;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Comparison {
-    /// As POV-Ray: 1e-10 in any unit, so that `#while (I)` ends where `I` is counted down by tenths.
+    /// As POV-Ray: an absolute tolerance of 1e-10 in any unit, so that `#while (I)` ends when `I` is counted
+    /// down by tenths.
     ///
-    /// **Source:** measured: `0.9999e-10 = 0` and `!0.9999e-10` are 1, and of 1.0001e-10 they are 0. What is
-    /// no number is the same as any number, and false.
+    /// **Source:** measured: `0.9999e-10 = 0` and `!0.9999e-10` are 1; for 1.0001e-10 both are 0. NaN equals
+    /// every number, and is false.
     Absolute,
-    /// 1e-10 of the larger number, and zero alone is false: small scenes can tell their numbers apart.
+    /// A tolerance of 1e-10 relative to the larger number, and only zero is false, so that small scenes can
+    /// distinguish their numbers.
     Relative,
 }
 
@@ -26,7 +29,7 @@ impl Comparison {
         }
     }
 
-    /// `0.1 + 0.2 = 0.3`.
+    /// Returns whether two numbers count as equal: `0.1 + 0.2 = 0.3` holds.
     pub fn same(self, a: f64, b: f64) -> bool {
         match self {
             Self::Absolute => {

@@ -1,4 +1,4 @@
-//! Strings joined with `+`, as other languages do: `"frame " + N + ".png"`.
+//! Strings joined with `+`, as in other languages: `"frame " + N + ".png"`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -8,8 +8,8 @@ use super::value::Value;
 use super::{Evaluator, Here};
 
 impl Evaluator<'_> {
-    /// What to say of the sum at `sum`, of `operands` of which one is a string: all that is added is joined by one
-    /// `concat`.
+    /// Reports the sum at `sum`, one of whose `operands` is a string, and suggests one `concat` of everything
+    /// that is added.
     pub(super) fn joined_strings(
         &self,
         here: &Here,
@@ -24,7 +24,7 @@ impl Evaluator<'_> {
             ExpressionKind::Binary(BinaryOperator::Add, left, right) => Some((left, right)),
             _ => None,
         };
-        // The whole of it: what begins with this sum, and goes on.
+        // The whole sum, including the operators that follow.
         let whole = (0..ast.expressions.len() as u32)
             .map(ExpressionId)
             .filter(|id| adds(*id).is_some() && ast.expression(*id).span.start == sum.start)
@@ -49,7 +49,7 @@ impl Evaluator<'_> {
         )
     }
 
-    /// A part as it stands in a `concat`: a number needs a `str`.
+    /// Returns an operand as an argument of `concat`: a number needs a `str`.
     fn as_string(&self, here: &Here, part: ExpressionId) -> String {
         let expression = here.unit.expression(part);
         let text = self.sources.text(expression.span);

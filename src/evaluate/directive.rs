@@ -1,4 +1,4 @@
-//! Directives: run where they stand, between two items of whoever is reading.
+//! Directives, run at their position between two items of the current consumer.
 
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::source::{FileId, Span};
@@ -36,7 +36,7 @@ impl Evaluator<'_> {
             DirectiveKind::If { test, then, otherwise } => {
                 let taken = match test {
                     Test::Condition(condition) => match self.asked_condition(here, *condition) {
-                        // `#if (Broken) merge { #else union { #end`: one of them opens it.
+                        // `#if (Broken) merge { #else union { #end`: one of the branches opens it.
                         Err(reported)
                             if is_bracket(here, *then) && is_bracket(here, *otherwise) =>
                         {
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
                 };
                 let symbol = here.symbol(*name);
                 let (Ok(from), Ok(to), Ok(step)) = (from, to, step_value) else {
-                    // How often it would turn is not known: the body is read once, for its own mistakes.
+                    // The number of turns is unknown: the body is read once, for its own mistakes.
                     self.scopes.note_declaration(symbol, here.site(*name_span), Owner::Other);
                     self.scopes.assign_local(symbol, Value::Number(from.unwrap_or(0.0)));
                     self.push_switch(here, *body);
@@ -103,7 +103,7 @@ impl Evaluator<'_> {
                 let chosen = match value.and_then(|value| self.chosen_case(here, value, cases)) {
                     Ok(chosen) => chosen.unwrap_or(cases.len()),
                     Err(reported) => {
-                        // Which case is meant is not known.
+                        // The intended case is unknown.
                         for case in cases {
                             self.declare_broken(here, case.body);
                         }
@@ -150,7 +150,7 @@ impl Evaluator<'_> {
                 self.say(here, Code::AuthorWarning, *text, directive.head)
             }
             DirectiveKind::Error(text) => {
-                // Behind a mistake it is rather what comes of that: the rest is read for its own.
+                // After an error it is probably a consequence: the rest is read for its own mistakes.
                 let goes_on = self.diagnostics.has_errors();
                 let said = self.say(here, Code::AuthorError, *text, directive.head);
                 self.halted = !goes_on;
@@ -187,11 +187,12 @@ impl Evaluator<'_> {
         }
     }
 
-    /// POV-Ray, too, refuses a scene of a version to come.
+    /// Reports a `#version` newer than any release, which POV-Ray refuses as well, and warns of one newer
+    /// than the language implemented here.
     fn check_version(&mut self, here: &Here, span: Span) -> Outcome<()> {
-        /// The newest version of POV-Ray that there is.
+        /// Newest version of POV-Ray.
         const NEWEST: f64 = 3.8;
-        /// The one whose language this is.
+        /// The version whose language is implemented.
         const BUILT: f64 = 3.7;
         if self.version <= NEWEST {
             // Includes save the scene's version, and set it again.
@@ -200,7 +201,7 @@ impl Evaluator<'_> {
                 let diagnostic = Diagnostic::new(Code::OldVersion, message)
                     .at(span, format!("it is that of {BUILT}, with few words of what comes"))
                     .help(format!("write `#version {BUILT};`"));
-                // Nobody mends an installed file.
+                // Nobody edits an installed file.
                 let diagnostic = match span.file == FileId(0) {
                     true => diagnostic.fix(span, BUILT.to_string()),
                     false => diagnostic,
@@ -222,7 +223,7 @@ impl Evaluator<'_> {
         }
         let text = match self.expression(here, text)? {
             Value::String(text) => text,
-            // What an author wants said is not passed over.
+            // The author's own messages are not suppressed.
             Value::Poison(poison) => return Err(self.not_supported(poison, Some(head))),
             other => {
                 let span = here.unit.expression(text).span;
@@ -235,7 +236,7 @@ impl Evaluator<'_> {
             Severity::Error => "the scene stops itself here",
             Severity::Warning | Severity::Note => "said here",
         };
-        // A note may be one of several pieces of a line.
+        // A message may be one of several pieces of a line.
         let said = match code.severity() {
             Severity::Note => &*text,
             Severity::Error | Severity::Warning => text.trim_end_matches('\n'),
@@ -254,7 +255,8 @@ impl Evaluator<'_> {
         self.is_known(symbol)
     }
 
-    /// What `defined` and `#ifdef` ask. A file that is closed, or read to its end, is not.
+    /// Returns whether `defined` and `#ifdef` hold for a name. They do not for a file that is closed or read
+    /// to its end.
     pub(super) fn is_known(&mut self, symbol: Symbol) -> bool {
         match self.scopes.read(symbol) {
             Some(Value::Broken) | None => false,
@@ -266,7 +268,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `#declare Name = …`: the value is what the next items leave.
+    /// Runs `#declare Name = …`, whose value is what the next items leave.
     fn declare(&mut self, here: &Here, head: Span, local: bool, target: &Target) -> Outcome<()> {
         let symbol = here.symbol(target.name);
         let (home, in_main) = (self.scopes.home(symbol, local), self.in_main());
@@ -299,8 +301,8 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// POV-Ray takes no other value for the name of a function or a macro, and no macro for that of a value; the
-    /// new one is used.
+    /// Reports a redeclaration that POV-Ray refuses: another kind of value for the name of a function or a
+    /// macro, or a macro for the name of a value. The new one is used.
     pub(super) fn redeclared(&mut self, here: &Here, (head, span): (Span, Span), kind: &str) {
         let name = self.sources.text(span).to_owned();
         let before = Span { end: head.start, ..head };
@@ -318,11 +320,11 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// What the next items leave. Another `#declare` may come before the first of them, and so on: only a
-    /// limit ends that.
+    /// Returns the value that the next items leave. Another `#declare` may precede the first of them,
+    /// recursively, bounded only by a limit.
     fn declared_value(&mut self, here: &Here, head: Span, target: &Target) -> Outcome<Value> {
         let limit = self.options.limits.macro_depth;
-        // A macro that gives the value may declare something itself, and call itself for it.
+        // A macro that supplies the value may declare names, and call itself for it.
         if self.declaring >= limit.saturating_add(self.macro_depth) {
             let message = format!("values of `#declare` are nested more than {limit} deep");
             let diagnostic = Diagnostic::new(Code::NestingLimit, message)
@@ -353,8 +355,8 @@ impl Evaluator<'_> {
         value
     }
 
-    /// The number that comes next with its `;`, where no more than numbers make it, as they do most of what
-    /// loops declare. `here` is where the items stand that come next.
+    /// Returns the number that comes next, with its `;`, if it consists of numbers only, as do most
+    /// declarations in loops. `here` is the position of the next items.
     fn plain_value(&mut self, here: &Here) -> Option<f64> {
         if self.peeked.is_some() || self.halted {
             return None;
@@ -362,7 +364,7 @@ impl Evaluator<'_> {
         let frame = self.frames.last()?;
         let items = here.unit.ast.items.get(frame.at as usize..frame.end as usize)?;
         let [Item { kind: ItemKind::Expression(id), .. }, end, ..] = *items else { return None };
-        // A second one is looked at more closely.
+        // A second one is handled by the general case.
         let twice = items.get(2).is_some_and(|item| item.kind == ItemKind::Semicolon);
         if end.kind != ItemKind::Semicolon || twice {
             return None;
@@ -372,8 +374,8 @@ impl Evaluator<'_> {
         Some(number)
     }
 
-    /// Evaluates an expression for what it does. Its vectors may have any number of components: those
-    /// of shapes that are not built do.
+    /// Evaluates an expression for its side effects. Its vectors may have any number of components, as those
+    /// of unsupported shapes do.
     pub(super) fn run_expression(&mut self, here: &Here, id: ExpressionId) {
         match here.unit.expression(id).kind {
             ExpressionKind::Vector(components) => self.run_arguments(here, components),
@@ -381,7 +383,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Runs what is left of a block for its directives and calls only.
+    /// Runs the rest of a block for its directives and calls only.
     pub(super) fn run_items(&mut self) {
         let mut is_color = false;
         loop {
@@ -392,7 +394,7 @@ impl Evaluator<'_> {
                 matches!(kind, TokenKind::Word(word) if word.family() == Family::Color),
             );
             match kind {
-                // A colour is one, whatever it is for.
+                // A colour is a colour, whatever its purpose.
                 TokenKind::Expression(id) if before && self.unknown_name(&here, id).is_none() => {
                     drop(self.expression(&here, id));
                 }

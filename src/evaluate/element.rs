@@ -1,6 +1,6 @@
-//! The elements of arrays: `A[i][j]` read, assigned, forgotten, asked for and passed on.
+//! Array elements: `A[i][j]` read, assigned, undefined, tested and passed by reference.
 //!
-//! **Source:** measured: the indices of what is assigned are evaluated before its value.
+//! **Source:** measured: the indices of an assignment's target are evaluated before its value.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -15,7 +15,7 @@ use super::value::Value;
 use super::{Evaluator, Here, Outcome, Reported, Symbol};
 
 impl Evaluator<'_> {
-    /// `a[i][j]` as a value.
+    /// Evaluates `a[i][j]`.
     pub(super) fn indexed(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         let (base, indices) = chain(here, id);
         let span = here.unit.expression(base).span;
@@ -38,8 +38,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What an argument `A[i]` refers to: the caller's variable, and the indices. `None` when it does
-    /// not begin with one, or is not there.
+    /// Returns what an argument `A[i]` refers to: the caller's variable and the indices. Returns `None` if it
+    /// does not begin with a variable, or the element does not exist.
     pub(super) fn referred(
         &mut self,
         here: &Here,
@@ -87,12 +87,12 @@ impl Evaluator<'_> {
         Ok(poison.map_or(Indices::Numbers(numbers), Indices::Poison))
     }
 
-    /// The indices of what is assigned, read before the value is.
+    /// Evaluates the indices of an assignment's target, before its value.
     pub(super) fn target_indices(&mut self, here: &Here, target: &Target) -> Outcome<Indices> {
         self.indices(here, &target.indices, true)
     }
 
-    /// `#declare A[i] = …`.
+    /// Runs `#declare A[i] = …`.
     pub(super) fn assign_element(
         &mut self,
         here: &Here,
@@ -104,7 +104,7 @@ impl Evaluator<'_> {
         self.assign_at(here, place, (&target.indices, indices), value)
     }
 
-    /// Sets what an expression `A[i]` stands for.
+    /// Assigns to the element that an expression `A[i]` denotes.
     pub(super) fn assign_indexed(
         &mut self,
         here: &Here,
@@ -129,7 +129,7 @@ impl Evaluator<'_> {
     ) -> Outcome<()> {
         let numbers = match (indices?, self.scopes.read(symbol)) {
             (_, None) => return Err(self.array_missing(here, symbol, span)),
-            // What is set in something that is not built, or that was reported, is lost.
+            // Assignments into an unsupported or reported value are dropped.
             (Indices::Poison(_), _) | (_, Some(Value::Poison(_) | Value::Broken)) => return Ok(()),
             (Indices::Numbers(numbers), Some(_)) => numbers,
         };
@@ -147,7 +147,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `#undef A[i]`.
+    /// Runs `#undef A[i]`.
     pub(super) fn forget_element(&mut self, here: &Here, target: &Target) -> Outcome<()> {
         let symbol = here.symbol(target.name);
         let Indices::Numbers(numbers) = self.target_indices(here, target)? else { return Ok(()) };
@@ -157,7 +157,7 @@ impl Evaluator<'_> {
                 array.forget(at);
                 Ok(())
             }
-            // There is nothing to forget.
+            // There is nothing to remove.
             Err(NoElement::Unset | NoElement::NoArray(_, Value::Poison(_) | Value::Broken)) => {
                 Ok(())
             }
@@ -167,13 +167,13 @@ impl Evaluator<'_> {
         outcome.map_err(|error| self.no_element(here, error, &target.indices, target.span))
     }
 
-    /// `#ifdef (A[i])`; an index outside of the array is a mistake here too.
+    /// Evaluates `#ifdef (A[i])`. Even here, an index outside the array is an error.
     pub(super) fn is_element_set(&mut self, here: &Here, target: &Target) -> bool {
         let Ok(Indices::Numbers(numbers)) = self.target_indices(here, target) else { return false };
         let Some(value) = self.scopes.read(here.symbol(target.name)) else { return false };
         match element(value, &numbers) {
             Ok(value) => *value != Value::Broken,
-            // Whether an element of something not built is set cannot be known.
+            // Whether an element of an unsupported value is set is unknown.
             Err(NoElement::NoArray(_, value)) => matches!(value, Value::Poison(_)),
             Err(NoElement::Unset) => false,
             Err(error) => {
@@ -183,7 +183,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `defined(A[1])`
+    /// Evaluates `defined(A[1])`.
     pub(super) fn is_set(&mut self, here: &Here, id: ExpressionId) -> bool {
         let before = self.told();
         let value = self.expression(here, id);
@@ -191,7 +191,7 @@ impl Evaluator<'_> {
         !matches!(value, Err(Reported) | Ok(Value::Broken))
     }
 
-    /// `dimensions(A)` and `dimension_size(A, 1)`.
+    /// Evaluates `dimensions(A)` and `dimension_size(A, 1)`.
     pub(super) fn dimensions(
         &mut self,
         here: &Here,
@@ -227,7 +227,7 @@ impl Evaluator<'_> {
             return Ok(Value::Number(f64::from(*size)));
         }
         if self.options.dialect == Dialect::Pov {
-            // As POV-Ray 3.7 answers (measured).
+            // POV-Ray 3.7's result (measured).
             return Ok(Value::Number(0.0));
         }
         let count = count(&(array.dimensions().len()..=array.dimensions().len()), "dimension");
@@ -244,7 +244,7 @@ impl Evaluator<'_> {
         base: Span,
     ) -> Reported {
         let index = |at: usize| indices.get(at).map_or(base, |id| here.unit.expression(*id).span);
-        // Of what is assigned, the place is that of all of it.
+        // The target of an assignment has the span of the whole expression.
         let name = self.sources.text(base).split('[').next().unwrap_or("").trim().to_owned();
         let diagnostic = match error {
             NoElement::NoArray(0, Value::Broken)
@@ -272,7 +272,7 @@ impl Evaluator<'_> {
                 let told = Diagnostic::new(Code::OutOfRange, message)
                     .at(index(at), "outside of the array");
                 let counted = indices.get(at).and_then(|&index| self.counted_to(here, index));
-                // The end of one loop is one mistake, whatever is asked by its counter.
+                // The end of one loop is a single mistake, whatever its counter indexes.
                 if let Some((end, _)) = counted {
                     if self.ends_told.contains(&(end, size)) {
                         return Reported;
@@ -323,7 +323,8 @@ impl Evaluator<'_> {
 }
 
 impl Evaluator<'_> {
-    /// `A[I]` in `#for (I, 0, dimension_size(A, 1))`, `A[frame_number - 1]` in a still: why the index is outside.
+    /// Explains why an index is outside the array, for `A[I]` in `#for (I, 0, dimension_size(A, 1))` and for
+    /// `A[frame_number - 1]` in a still image.
     fn one_too_far(
         &self,
         (here, index): (&Here, Option<ExpressionId>),
@@ -353,7 +354,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Where the end of the `#for` is written whose counter is this index, and what it is.
+    /// Returns the end value, and its span, of the `#for` whose counter is this index.
     fn counted_to(&self, here: &Here, index: ExpressionId) -> Option<(Span, f64)> {
         let ExpressionKind::Name(name) = here.unit.expression(index).kind else { return None };
         let symbol = here.symbol(name);
@@ -371,10 +372,10 @@ impl Evaluator<'_> {
     }
 }
 
-/// So many loops are looked at.
+/// Maximum number of loops that are examined.
 const MOST_LOOPS: usize = 64;
 
-/// What is in front of all brackets, and what is in them, in written order.
+/// Splits an indexing chain into its base and the expressions in brackets, in source order.
 fn chain(here: &Here, id: ExpressionId) -> (ExpressionId, Vec<ExpressionId>) {
     let (mut base, mut indices) = (id, Vec::new());
     while let ExpressionKind::Index(inner, index) = here.unit.expression(base).kind {
@@ -385,7 +386,7 @@ fn chain(here: &Here, id: ExpressionId) -> (ExpressionId, Vec<ExpressionId>) {
     (base, indices)
 }
 
-/// The numbers in brackets, unless one is not built yet.
+/// Evaluated indices, unless one is unsupported.
 pub(super) enum Indices {
     Numbers(Vec<f64>),
     Poison(Value),

@@ -1,9 +1,9 @@
-//! What is open now: blocks, and whatever else has items of its own.
+//! Enclosures: the blocks, and other sequences of items, that are open at the moment.
 //!
-//! **Invariant:** a consumer sees the items of its own enclosure and no others, and whatever it leaves
-//! behind is dropped. A `}` closes the innermost block, be it the literal one of a block that was nested
-//! when its file was parsed, or a loose one from a macro: so blocks pair as they are run, and those that
-//! were nested before cost nothing for it.
+//! **Invariant:** a consumer sees only the items of its own enclosure, and items that it does not read are
+//! dropped. A `}` closes the innermost block, whether that block was nested when its file was parsed or was
+//! opened by an unpaired brace from a macro: blocks pair at run time, and blocks that were nested when parsed
+//! incur no cost for it.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
@@ -12,25 +12,25 @@ use crate::syntax::ast::{ItemKind, Items};
 use super::stream::{Frame, FrameKind, TokenKind};
 use super::{Evaluator, Here};
 
-/// What a block holds.
+/// The contents of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Contents {
     Items(Items),
-    /// Whatever comes next, up to a `}` that has no partner where it is written.
+    /// The following items, up to a `}` that has no partner where it is written.
     Following,
 }
 
-/// Something that is read to its end and no further.
+/// A sequence of items that is read to its end and no further.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Enclosure {
-    /// An argument, a group, a file: no `}` reaches out of it.
+    /// An argument, a group or a file, which no `}` can close.
     Own,
     /// A block.
     Block,
 }
 
 impl Evaluator<'_> {
-    /// Runs `consumer` on some items, and on nothing but these: no brace reaches out of them.
+    /// Runs `consumer` on these items only; no brace can leave them.
     pub(super) fn inside<T>(
         &mut self,
         here: &Here,
@@ -42,7 +42,7 @@ impl Evaluator<'_> {
         self.enclosed(Enclosure::Own, consumer, |evaluator| evaluator.drop_frames(depth))
     }
 
-    /// Runs `consumer` on the contents of a block, whose `{` is at the start of `span`.
+    /// Runs `consumer` on the contents of a block whose `{` is at the start of `span`.
     pub(super) fn inside_block<T>(
         &mut self,
         here: &Here,
@@ -64,7 +64,7 @@ impl Evaluator<'_> {
         let closers = self.loose_closers;
         self.push(here, items, FrameKind::Block);
         self.enclosed(Enclosure::Block, consumer, |evaluator| {
-            // No loose brace has come between its own.
+            // No unpaired brace has come between its own.
             if evaluator.loose_closers == closers {
                 evaluator.drop_frames(depth);
             } else {
@@ -80,11 +80,11 @@ impl Evaluator<'_> {
         end: impl FnOnce(&mut Self),
     ) -> T {
         let (peeked, taken, silent) = (self.peeked.take(), self.taken, self.silent);
-        // What a `#declare` must not look at lies behind the block.
+        // The items that a `#declare` must not look at are after the block.
         let hold = self.hold.take();
         let undecided = std::mem::take(&mut self.undecided);
         self.enclosures.push(enclosure);
-        // Blocks in blocks in macros can go deeper than a thread's stack.
+        // Nested blocks and macros may exceed the depth of a thread's stack.
         let result = stacker::maybe_grow(128 * 1024, 2 * 1024 * 1024, || consumer(self));
         (self.peeked, self.taken) = (None, taken);
         end(self);
@@ -102,7 +102,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether a `}` without a partner in its text, which comes next, closes the innermost block.
+    /// Returns whether the next `}`, which has no partner in its text, closes the innermost block.
     pub(super) fn may_close(&mut self, here: &Here, span: Span) -> bool {
         if self.enclosures.last() == Some(&Enclosure::Block) {
             self.loose_closers += 1;
@@ -115,7 +115,7 @@ impl Evaluator<'_> {
         false
     }
 
-    /// Passes over what a consumer has left, and takes the `}` behind it.
+    /// Skips what a consumer has left, and consumes the `}` after it.
     fn close_block(&mut self, opened: Site) {
         let taken = self.taken;
         while let Some(token) = self.next() {
@@ -126,7 +126,7 @@ impl Evaluator<'_> {
         self.taken = taken;
         match self.frames.last_mut() {
             Some(Frame { kind: FrameKind::Block, at, end, .. }) if *at == *end => {
-                // The literal brace was another block's.
+                // The literal brace belongs to another block.
                 self.loose_closers += 1;
                 self.pop_frame();
             }

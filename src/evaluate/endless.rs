@@ -1,8 +1,8 @@
-//! Loops that are known not to end.
+//! Detection of loops that certainly never end.
 //!
-//! **In:** a loop's body and condition. **Out:** whether anything in them could end it.
-//! **Invariant:** says so only when it is certain: a condition of names that nothing in the body assigns to never
-//! changes, and only a `#break`, an `#error` or a macro that holds one leaves a loop early.
+//! **In:** a loop's body and condition. **Out:** whether anything in them could end it. **Invariant:** a loop
+//! is reported only when it is certain: a condition whose names are not assigned in the body never changes,
+//! and only a `#break`, an `#error` or a macro that contains one leaves a loop early.
 
 use std::collections::HashSet;
 use std::rc::Rc;
@@ -21,7 +21,7 @@ use super::value::Value;
 use super::{Evaluator, Here, Reported};
 
 impl Evaluator<'_> {
-    /// Nothing further is evaluated.
+    /// Reports too deep a nesting of macro calls and halts the evaluation.
     pub(super) fn too_many_calls(
         &mut self,
         here: &Here,
@@ -39,7 +39,8 @@ impl Evaluator<'_> {
         self.halt(here.expansion, diagnostic)
     }
 
-    /// What the calls that never ended were found to lack, they might have given at their end.
+    /// Withdraws diagnostics about missing parts in macros whose calls never ended, which might have supplied
+    /// them at their end.
     fn forget_echoes_of_calls(&mut self, innermost: ExpansionId) {
         let expansions = &self.scene.expansions;
         let names: HashSet<&str> =
@@ -59,7 +60,8 @@ impl Evaluator<'_> {
         });
     }
 
-    /// Whether nothing that a loop's condition asks can change in a turn, and nothing in its body leaves it.
+    /// Returns whether nothing in a loop's condition can change in a turn, and nothing in its body leaves the
+    /// loop.
     pub(super) fn never_changes(&self, here: &Here, condition: ExpressionId, body: Items) -> bool {
         let ast = &here.unit.ast;
         let ([first, .., last] | [first @ last]) = ast.items(body) else { return true };
@@ -82,7 +84,7 @@ impl Evaluator<'_> {
             ExpressionKind::Call(Callee::Name(name, _), _) => is_inside(one.span) && is_macro(name),
             _ => false,
         });
-        // A parameter and what it was given are one.
+        // A parameter is an alias of its argument.
         let is_asked = |name: NameId| {
             let symbol = here.symbol(name);
             let slot = self.scopes.slot(symbol);
@@ -105,8 +107,8 @@ impl Evaluator<'_> {
         !calls_macro && !directives.any(|one| changes(&one.kind))
     }
 
-    /// Collects the names that an expression asks; `false` where it asks anything else that may change by
-    /// itself.
+    /// Collects the names that an expression reads. Returns `false` if it reads anything else that may change
+    /// on its own.
     fn asks_only(&self, here: &Here, id: ExpressionId, asked: &mut Vec<Symbol>) -> bool {
         let ast = &here.unit.ast;
         let mut open = vec![id];
@@ -163,7 +165,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether an expression has the same value whenever it is asked.
+/// Returns whether an expression has the same value at every evaluation.
 pub(super) fn is_constant(ast: &Ast, id: ExpressionId) -> bool {
     let mut open = vec![id];
     while let Some(id) = open.pop() {
@@ -193,8 +195,8 @@ pub(super) fn is_constant(ast: &Ast, id: ExpressionId) -> bool {
     true
 }
 
-/// Where a condition asks a name that the body never sets, and the body sets one that differs from it only
-/// in capitals or by a slip: the two, and where the second is set.
+/// For a condition with a name that the body never sets while it sets one that differs only in case or by a
+/// typo, returns the two names and where the second is set.
 pub(super) fn nearly_set(
     ast: &Ast,
     condition: ExpressionId,
@@ -214,14 +216,14 @@ pub(super) fn nearly_set(
     })
 }
 
-/// The first name that a condition asks, where the body sets none that it asks.
+/// Returns the first name in a condition, if the body sets none of its names.
 pub(super) fn never_set(ast: &Ast, condition: ExpressionId, body: Items) -> Option<&str> {
     let (asked, set) = (names(ast, condition), declared(ast, body));
     let sets = |asked: &&str| set.iter().any(|(name, _)| name == asked);
     asked.first().copied().filter(|_| !asked.iter().any(sets))
 }
 
-/// The names in an expression of operators and parentheses.
+/// Returns the names in an expression of operators and parentheses.
 fn names(ast: &Ast, id: ExpressionId) -> Vec<&str> {
     let (mut open, mut names) = (vec![id], Vec::new());
     while let Some(id) = open.pop() {
@@ -245,7 +247,7 @@ fn names(ast: &Ast, id: ExpressionId) -> Vec<&str> {
     names
 }
 
-/// What a loop's body declares, at its own level.
+/// Returns what a loop's body declares at its own level.
 fn declared(ast: &Ast, body: Items) -> Vec<(&str, Span)> {
     let declares = |item: &Item| match item.kind {
         ItemKind::Directive(id) => match &ast.directive(id).kind {
@@ -257,7 +259,7 @@ fn declared(ast: &Ast, body: Items) -> Vec<(&str, Span)> {
     ast.items(body).iter().filter_map(declares).collect()
 }
 
-/// Whether something in a loop's body may end the loop.
+/// Returns whether anything in a loop's body may leave the loop.
 pub(super) fn may_leave(ast: &Ast, body: Items) -> bool {
     let mut open = vec![body];
     while let Some(items) = open.pop() {

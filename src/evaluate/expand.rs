@@ -1,8 +1,8 @@
-//! Macros: how they are defined, called and given their parameters.
+//! Macros: definition, calls and parameter passing.
 //!
-//! **Invariant:** as in POV-Ray a lone name, or an element of an array, is passed by reference and all else by value. An optional
-//! parameter that a call leaves out, at its end or empty between commas, is not declared inside
-//! (`optional` is version 3.8's; 3.7 has no such word).
+//! **Invariant:** as in POV-Ray, a lone name or an array element is passed by reference and everything else
+//! by value. An optional parameter that a call omits, at the end or empty between commas, is undeclared in
+//! the body (`optional` is from version 3.8; 3.7 has no such word).
 
 use std::rc::Rc;
 
@@ -20,33 +20,33 @@ use super::scope::{MacroId, Owner, Slot, Symbol};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Limits, Outcome, Reported, Unit};
 
-/// How many brackets may stand around each of the macros that call each other, on average.
+/// Maximum average number of brackets around each macro call in a chain of nested calls.
 const MOST_AROUND: u64 = 10;
 
-/// A macro as it was defined.
+/// A macro definition.
 #[derive(Debug)]
 pub(super) struct Macro {
     pub name: Symbol,
     called: ExpansionName,
-    /// Each with whether it is optional.
+    /// Each parameter, and whether it is optional.
     pub parameters: Vec<(Symbol, bool)>,
-    /// How many of them, from the first, no call leaves out.
+    /// Number of leading parameters that no call may omit.
     required: usize,
     pub body: MacroBody,
     pub unit: Rc<Unit>,
-    /// Its name, where it is defined.
+    /// Span of the name in its definition.
     pub defined: Span,
 }
 
 #[derive(Debug, Clone, Copy)]
 pub(super) enum MacroBody {
     Items(Items),
-    /// Its parentheses do not pair where they are written.
+    /// Unparsed text: its brackets do not pair where they are written.
     Raw(Span),
 }
 
 impl Macro {
-    /// Its body, and whose it is, where that is read as items.
+    /// Returns the body and the unit that contains it, if the body was parsed as items.
     pub fn parts(&self) -> Option<(&Rc<Unit>, Items)> {
         match self.body {
             MacroBody::Items(body) => Some((&self.unit, body)),
@@ -54,7 +54,7 @@ impl Macro {
         }
     }
 
-    /// Its body, where it is written.
+    /// Returns the span of the body's items; `None` if it has none, or is unparsed.
     pub fn text(&self) -> Option<Span> {
         let MacroBody::Items(body) = self.body else { return None };
         match self.unit.ast.items(body) {
@@ -64,11 +64,11 @@ impl Macro {
     }
 }
 
-/// What a parameter is bound to.
+/// The binding of a parameter.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bound {
     slot: Slot,
-    /// Not the caller's.
+    /// Whether the slot is the parameter's own, not the caller's.
     own: bool,
 }
 
@@ -117,8 +117,8 @@ impl Evaluator<'_> {
         self.scopes.assign(symbol, if broken { Value::Broken } else { Value::Macro(id) });
     }
 
-    /// Runs a macro called in the place of an item: its items come next. `Ok(false)` when the
-    /// expression is no such call.
+    /// Runs a macro called as an item: its items come next. Returns `Ok(false)` if the expression is not such
+    /// a call.
     #[inline(never)]
     pub(super) fn splices_macro(&mut self, here: &Here, id: ExpressionId) -> Outcome<bool> {
         let ExpressionKind::Call(Callee::Name(name, _), arguments) = here.unit.expression(id).kind
@@ -131,7 +131,7 @@ impl Evaluator<'_> {
         let span = here.unit.expression(id).span;
         let definition = self.macros[macro_id.0 as usize].clone();
         if !self.has_a_way(&definition) {
-            // Its value is what it lacks.
+            // Its missing value is the mistake.
             return Ok(false);
         }
         let expansion = self.enter_macro(here, &definition, arguments, span)?;
@@ -147,7 +147,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether a frame walks the body of a macro that was called for its value.
+    /// Returns whether a frame runs the body of a macro that was called for its value.
     pub(super) fn is_body_of_macro(&self, frame: usize) -> bool {
         let frame = &self.frames[frame];
         self.macros.iter().any(|definition| match definition.body {
@@ -158,7 +158,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Runs a macro called inside an expression: it leaves one value.
+    /// Runs a macro called inside an expression, which leaves one value.
     pub(super) fn macro_value(
         &mut self,
         here: &Here,
@@ -171,7 +171,8 @@ impl Evaluator<'_> {
             .unwrap_or_else(lacking)
     }
 
-    /// Reads what a macro leaves, which is something; `None` where its body cannot be read as values.
+    /// Reads what a macro leaves, which must not be empty. Returns `None` if its body cannot be read as
+    /// values.
     pub(super) fn read_macro<T>(
         &mut self,
         here: &Here,
@@ -223,7 +224,7 @@ impl Evaluator<'_> {
             }
             false => Vec::new(),
         };
-        // With too many or too few the body is read all the same, for its own mistakes.
+        // With too many or too few, the body is read nevertheless, for its own mistakes.
         let wrong =
             spread.is_empty() && self.check_arguments(here, definition, list, span).is_err();
         if self.has_run_enough() {
@@ -236,7 +237,7 @@ impl Evaluator<'_> {
             let help = "a recursion needs a condition that ends it, as `#if (N > 0) … #end`; `--limit macro-depth=N` raises the limit";
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
-        // What stands around a call in each of them counts too: it is all waiting.
+        // The brackets around each nested call count too: all of them are waiting.
         let around = self.enclosures.len() as u64 + self.calculating;
         let Limits { nesting, macro_depth, .. } = self.options.limits;
         let most = u64::from(nesting) + MOST_AROUND * u64::from(macro_depth);
@@ -245,10 +246,10 @@ impl Evaluator<'_> {
             let help = "a recursion needs a condition that ends it, as `#if (N > 0) … #end`; `--limit macro-depth=N` raises the limit, which is a multiple of it";
             return Err(self.too_many_calls(here, definition, span, message, help));
         }
-        // Kept from call to call; an argument that calls a macro itself makes do with another.
+        // Reused between calls; a nested call in an argument uses another buffer.
         let mut bound = std::mem::take(&mut self.bound);
         if wrong {
-            // Which is which is not known.
+            // Which argument belongs to which parameter is unknown.
             self.run_arguments(here, arguments);
             let broken = || Bound { slot: self.scopes.keep(Value::Broken), own: true };
             bound.extend(std::iter::repeat_with(broken).take(definition.parameters.len()));
@@ -288,7 +289,7 @@ impl Evaluator<'_> {
         Ok(expansion)
     }
 
-    /// As many arguments as parameters; the optional ones may be left out.
+    /// Checks that there are as many arguments as parameters; optional ones may be omitted.
     fn check_arguments(
         &mut self,
         here: &Here,
@@ -302,7 +303,7 @@ impl Evaluator<'_> {
             let name = self.scopes.name(definition.name);
             let wanted = count(&wanted, "argument");
             let message = format!("macro `{name}` takes {wanted}, and is given {}", list.len());
-            // `#macro Ball(P, R = 1)`, as has been told.
+            // `#macro Ball(P, R = 1)`, which has been reported.
             if list.len() < definition.required && self.has_default(definition.defined) {
                 return Err(Reported);
             }
@@ -310,7 +311,7 @@ impl Evaluator<'_> {
             let at = more.unwrap_or_else(|| self.end_of_call(span));
             let told =
                 Diagnostic::new(Code::WrongArity, message).at(at, format!("expected {wanted}"));
-            // `Ball(0, 1, 2, 3)` of two: three numbers without their angle brackets.
+            // `Ball(0, 1, 2, 3)` with two parameters: a vector without its angle brackets.
             let vector = parameters
                 .len()
                 .checked_sub(1)
@@ -348,14 +349,14 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic.also(definition.defined, "defined here")))
     }
 
-    /// A macro as it is called: `Ball(Where, Radius)`.
+    /// Returns the form of a call of the macro: `Ball(Where, Radius)`.
     pub(super) fn form(&self, definition: &Macro) -> String {
         let name = self.scopes.name(definition.name);
         let parameters = definition.parameters.iter().map(|&(symbol, _)| self.scopes.name(symbol));
         format!("{name}({})", parameters.collect::<Vec<_>>().join(", "))
     }
 
-    /// A lone name or `A[i]` is passed by reference, all else by value.
+    /// Binds an argument: a lone name or `A[i]` by reference, everything else by value.
     fn bound(&mut self, here: &Here, argument: &Argument, optional: bool, span: Span) -> Bound {
         let value = match *argument {
             Argument::Expression(id) => match here.unit.expression(id).kind {

@@ -1,4 +1,4 @@
-//! Expressions to values.
+//! Evaluation of expressions.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
@@ -13,7 +13,7 @@ use super::value::{self, Components, OperationError, Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
 
 impl Evaluator<'_> {
-    /// The value of an expression; poison if something in it is not built yet.
+    /// Returns the value of an expression; poison if part of it is unsupported.
     pub(super) fn expression(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         match self.plain_number(here, id) {
             Some(number) => Ok(Value::Number(number)),
@@ -21,7 +21,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// As [`Self::expression`], of what is no [`Self::plain_number`].
+    /// As [`Self::expression`], for an expression that [`Self::plain_number`] does not handle.
     #[inline(never)]
     pub(super) fn any_value(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         let expression = here.unit.expression(id);
@@ -39,7 +39,7 @@ impl Evaluator<'_> {
             ExpressionKind::String => self.string_value(here, expression.span),
             ExpressionKind::Missing => Err(Reported),
             ExpressionKind::Joint => Err(self.nothing_joined(here, expression.span)),
-            // Brackets in brackets.
+            // Nested brackets.
             kind => {
                 if let ExpressionKind::Vector(components) = kind
                     && let Some(vector) = self.plain_triple(here, components)
@@ -120,7 +120,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Operations lean to the left as deep as they are long: from the leftmost operand on, one by one.
+    /// Evaluates a chain of operations iteratively from the leftmost operand: they nest to the left as deeply
+    /// as they are long.
     fn sum(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         if self.options.dialect == Dialect::Pov && self.holds_bare_operation(here, id) {
             return self.spliced_value(here, id);
@@ -132,7 +133,7 @@ impl Evaluator<'_> {
         self.sum_from(here, id, first)
     }
 
-    /// As [`Self::expression`], with another leftmost operand than is written.
+    /// As [`Self::expression`], with a given value for the leftmost operand.
     pub(super) fn sum_from(
         &mut self,
         here: &Here,
@@ -152,7 +153,7 @@ impl Evaluator<'_> {
         operations.into_iter().rev().fold(value, |value, id| self.operation(here, id, value))
     }
 
-    /// One operation, whose left operand came to `value`.
+    /// Applies one operation, whose left operand is `value`.
     fn operation(
         &mut self,
         here: &Here,
@@ -175,7 +176,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A value to calculate with: what a name kept as a colour, or as five numbers, is read back in single
+    /// Returns the value of an operand. A name that holds a colour or five numbers is read back in single
     /// precision.
     pub(super) fn operand(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         let value = self.expression(here, id)?;
@@ -243,7 +244,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Without `charset utf8` POV-Ray 3.7 reads each byte beyond ASCII as a blank (measured).
+    /// Evaluates a string with bytes beyond ASCII: without `charset utf8`, POV-Ray 3.7 reads each such byte
+    /// as a blank (measured).
     fn string_of_bytes(&mut self, here: &Here, span: Span) -> Outcome<Value> {
         let is_latin = self.sources.get(span.file).is_latin;
         let mut bytes = String::new();
@@ -263,13 +265,13 @@ impl Evaluator<'_> {
         Ok(text.map_or(Value::Broken, Value::string))
     }
 
-    /// As [`Self::raw_string`]; `None` when the string was never closed, which has been told.
+    /// As [`Self::raw_string`]; `None` if the string was never closed, which has been reported.
     pub(super) fn whole_string(&self, span: Span) -> Option<String> {
         let text = self.sources.text(span);
         (text.len() >= 2 && text.ends_with('"')).then(|| self.raw_string(span))
     }
 
-    /// A string's text between its quotes, escapes as written.
+    /// Returns a string's text between its quotes, with escapes as written.
     pub(super) fn raw_string(&self, span: Span) -> String {
         self.quoted(span).to_owned()
     }
@@ -280,7 +282,7 @@ impl Evaluator<'_> {
         text.strip_suffix('"').unwrap_or(text)
     }
 
-    /// `A - B` and `A + B` of two declared objects: the solid that is meant.
+    /// Returns the CSG solid that `A - B` or `A + B` of two declared objects probably means.
     fn objects_of(&self, what: &str, values: [&Value; 2], spans: [Span; 2]) -> Option<String> {
         let word = match what {
             "`-`" => Word::Difference,
@@ -313,7 +315,7 @@ impl Evaluator<'_> {
             }
             OperationError::NotNumeric(index) => {
                 let kind = values[index].kind();
-                // `strlen(S) + "1"`: a number in quotes is meant as one.
+                // `strlen(S) + "1"`: a number in quotes is meant as a number.
                 let is_sum = matches!(values[1 - index], Value::Number(_));
                 if let Value::String(found) = values[index]
                     && what == "`+`"
@@ -386,7 +388,7 @@ impl Evaluator<'_> {
         Comparison::of(self.options.dialect)
     }
 
-    /// A condition must have a value at once: poison is an error here.
+    /// Evaluates a condition, which must have a known value: poison is an error here.
     pub(super) fn condition(&mut self, here: &Here, id: ExpressionId) -> Outcome<bool> {
         if let Some(number) = self.plain_number(here, id) {
             return Ok(self.comparison().is_true(number));
@@ -399,7 +401,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The one value that the current items leave.
+    /// Returns the only value that the current items leave.
     pub(super) fn only_value(&mut self, here: &Here, span: Span) -> Outcome<Value> {
         let value = self.value_or(here, span)?;
         while matches!(self.peek().map(|token| &token.kind), Some(TokenKind::Semicolon)) {

@@ -1,11 +1,11 @@
-//! `#fopen`, `#read`, `#write` and `#fclose`: values out of other files, and into them.
+//! File directives (`#fopen`, `#read`, `#write` and `#fclose`), which read values from other files and write
+//! them.
 //!
-//! **Invariant:** nothing is read or written but through [`Files`](crate::source::Files). A file that
-//! is closed, by `#fclose`, at its end or by a fault in it, keeps its name for messages, and is not
-//! `defined`.
+//! **Invariant:** all access goes through [`Files`](crate::source::Files). A file that is closed, by
+//! `#fclose`, at its end or by a fault in it, keeps its name for messages and is not `defined`.
 //!
-//! **Source:** POV-Ray 3.7 manual, section 3.3.2.3 "File I/O Directives"; formats as the program writes
-//! them (measured).
+//! **Source:** POV-Ray 3.7 manual, section 3.3.2.3 "File I/O Directives"; formats as POV-Ray writes them
+//! (measured).
 
 mod bytes;
 mod data;
@@ -24,11 +24,11 @@ use super::scope::Symbol;
 use super::value::Value;
 use super::{Evaluator, Here, Outcome, Reported};
 
-/// Names one file that was opened.
+/// Index of a file that was opened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FileHandle(u32);
 
-/// A file that was opened, and how far it is.
+/// An opened file and its state.
 #[derive(Debug)]
 pub(super) struct Opened {
     site: Site,
@@ -37,12 +37,12 @@ pub(super) struct Opened {
 
 #[derive(Debug, Clone)]
 enum State {
-    /// From this byte of its text.
+    /// Reading from this byte of its text.
     Reading {
         file: FileId,
         at: usize,
     },
-    /// To the end of the file of this name.
+    /// Appending to the file of this name.
     Writing {
         name: String,
     },
@@ -55,9 +55,9 @@ enum State {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Closed {
     Fclose,
-    /// Its last value was read.
+    /// All its values have been read.
     End,
-    /// It has a fault, which was told.
+    /// It has a fault, which has been reported.
     Fault,
 }
 
@@ -66,7 +66,7 @@ impl Evaluator<'_> {
         !self.opened[n as usize].is_closed()
     }
 
-    /// `#fclose Name`. What is not open need not be closed, as in POV-Ray.
+    /// Runs `#fclose Name`. As in POV-Ray, the file need not be open.
     pub(super) fn close_file(&mut self, here: &Here, (name, span): (NameId, Span)) {
         let symbol = here.symbol(name);
         match self.scopes.read(symbol) {
@@ -97,11 +97,11 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The open file that a name stands for.
+    /// Returns the open file that a name denotes.
     fn opened(&mut self, here: &Here, (name, span): (NameId, Span)) -> Outcome<FileHandle> {
         let symbol = here.symbol(name);
         let handle = match self.scopes.read(symbol) {
-            // No word of the language is a file.
+            // No keyword is a file.
             None => return Err(self.unknown_file(here, symbol, span)),
             Some(Value::Broken | Value::Poison(_)) => return Err(Reported),
             Some(Value::File(handle)) => *handle,
@@ -130,7 +130,7 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
-    /// A name that nothing has opened; one like it that is to be opened is meant, or the only one.
+    /// Reports a name that was never opened; suggests a similar one that the scene opens, or the only one.
     fn unknown_file(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
         let ast = &here.unit.ast;
         let opens = |directive: &Directive| match directive.kind {
@@ -163,7 +163,7 @@ impl Evaluator<'_> {
         if let Some(declared) = declared {
             diagnostic = diagnostic.also(declared.site.span, format!("`{file}` is opened here"));
         }
-        // Known from now on, so that it is said once.
+        // Declared from now on, so that it is reported once.
         self.scopes.assign(symbol, Value::Broken);
         self.report(here, diagnostic)
     }

@@ -1,12 +1,12 @@
-//! The body of a function: an expression to a tape.
+//! Compilation of a function's body from an expression to a tape.
 //!
-//! What holds none of the parameters is evaluated at once, by the rules of the language; what holds
-//! one becomes operations, by the rules of functions: comparisons are exact, and what is undefined
-//! is not a number. **Invariant:** one formula is compiled at a time, and knows no other names than
-//! its parameters, its counters and what is declared when it is defined.
+//! Subexpressions without parameters are evaluated once, by the rules of the language. The others become
+//! operations by the rules of functions: comparisons are exact, and undefined results are NaN. **Invariant:**
+//! one formula is compiled at a time, and knows only its parameters, its counters and the names declared at
+//! its definition.
 //!
-//! **Source:** manual, section 3.3.1.8, with its list of what may stand in a function. `?:`, vectors'
-//! components and built-in functions of constants are allowed here beyond it.
+//! **Source:** manual, section 3.3.1.8, with its list of what a function may contain. As an extension, `?:`,
+//! components of vectors and built-in functions of constants are allowed.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::function::{Binary, Builder, Function, Node, TooLong, Unary};
@@ -31,12 +31,12 @@ use mention::mention;
 pub(super) use operation::operation_of;
 use operation::{is_operation, operation};
 
-/// A formula on its way to a tape.
+/// A formula during compilation.
 pub(super) struct Formula {
     pub(super) builder: Builder,
-    /// The newest last: counters of loops hide parameters.
+    /// The names in scope, innermost last: counters of loops hide parameters.
     names: Vec<(ParameterName, Node)>,
-    /// Something in it is not built yet.
+    /// Set when part of the formula is unsupported.
     poison: Option<Poison>,
 }
 
@@ -47,7 +47,7 @@ impl Formula {
 }
 
 impl Evaluator<'_> {
-    /// The tape of a body, or what in it is not built yet.
+    /// Compiles a body to a tape; poison if part of it is unsupported.
     pub(super) fn formula(
         &mut self,
         here: &Here,
@@ -58,7 +58,7 @@ impl Evaluator<'_> {
         let Ok(builder) = Builder::new(parameters.len()) else {
             return Err(self.too_long(here, span));
         };
-        // Of two parameters of one name the first counts; of `x` and `u` the last (measured on POV-Ray 3.7).
+        // Of parameters with the same name the first counts; of `x` and `u` the last (measured).
         let names = parameters.iter().enumerate().filter(|(at, name)| {
             !(matches!(name, ParameterName::Name(_)) && parameters[..*at].contains(name))
         });
@@ -86,7 +86,7 @@ impl Evaluator<'_> {
         formula: &mut Formula,
         id: ExpressionId,
     ) -> Outcome<Node> {
-        // Brackets in brackets.
+        // Nested brackets.
         stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.node_of(here, formula, id))
     }
 
@@ -143,7 +143,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What the language itself makes of it, once, now.
+    /// Evaluates a constant subexpression once, by the rules of the language.
     fn constant(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
         let span = here.unit.expression(id).span;
         if let Some(parameter) = mention(here, formula, id) {
@@ -194,8 +194,8 @@ impl Evaluator<'_> {
         self.built(here, span, built)
     }
 
-    /// Operations lean to the left as deep as they are long: from the leftmost operand on. In a function `&` binds
-    /// more than `|` (measured), which elsewhere are alike.
+    /// Compiles a chain of operations iteratively, from the leftmost operand, however deeply they nest. Only
+    /// in functions does `&` bind tighter than `|` (measured); elsewhere they have the same precedence.
     fn sum_node(&mut self, here: &Here, formula: &mut Formula, id: ExpressionId) -> Outcome<Node> {
         let (mut operations, mut first) = (Vec::new(), id);
         while let ExpressionKind::Binary(operator, left, right) = here.unit.expression(first).kind {
@@ -205,7 +205,7 @@ impl Evaluator<'_> {
         let mut node = self.node(here, formula, first);
         let mut either = None;
         for (operator, right, span) in operations.into_iter().rev() {
-            // Both sides may have something to complain of.
+            // Both sides may report errors.
             let right = self.node(here, formula, right);
             if operator == BinaryOperator::Or {
                 either = Some((self.either(here, formula, either, node), span));
@@ -224,7 +224,7 @@ impl Evaluator<'_> {
         self.either(here, formula, either, node)
     }
 
-    /// `last`, or what stands before it in a row of `|`.
+    /// Compiles `last`, or its disjunction with the operands before it in a chain of `|`.
     fn either(
         &mut self,
         here: &Here,
@@ -237,7 +237,7 @@ impl Evaluator<'_> {
         self.built(here, span, built)
     }
 
-    /// `F(x, y, z).red`; of anything else, a component now.
+    /// Compiles `F(x, y, z).red`; for other bases, evaluates the component now.
     fn component_node(
         &mut self,
         here: &Here,
@@ -304,7 +304,7 @@ impl Evaluator<'_> {
                 }
                 None => {
                     let reported = self.undeclared(here, here.symbol(name), name_span);
-                    // What its arguments lack is told, too.
+                    // Mistakes in its arguments are reported, too.
                     let _: Outcome<Vec<Node>> = self.argument_nodes(here, formula, arguments);
                     Err(reported)
                 }
@@ -329,7 +329,7 @@ impl Evaluator<'_> {
             Callee::Word(word, word_span) => match word {
                 Word::Sum | Word::Prod => self.loop_node(here, formula, word, word_span, arguments),
                 Word::Rand | Word::Seed => Err(self.no_stream(here, word, word_span)),
-                // No value, wherever it stands.
+                // Not a value in any position.
                 Word::Pwr | Word::Sqr => self.expression(here, id).and(Err(Reported)),
                 _ if is_operation(word) => {
                     self.operation_node(here, formula, word, word_span, arguments)
@@ -372,7 +372,7 @@ impl Evaluator<'_> {
         self.built(here, span, built)
     }
 
-    /// `sum(i, 1, n, i * x)`.
+    /// Compiles `sum(i, 1, n, i * x)`.
     fn loop_node(
         &mut self,
         here: &Here,

@@ -1,7 +1,7 @@
-//! Functions of the author's: `function (a, b) { … }`, defined and called.
+//! User-defined functions, `function (a, b) { … }`: definition and calls.
 //!
-//! A body that is one formula becomes a tape (see `formula`), as does `internal(n)`; what is a block, a
-//! `spline`, a `pattern`, a `pigment` or a `transform`, is asked as a whole, at a time or at a point.
+//! A body that is one formula becomes a tape (see `formula`), as does `internal(n)`. A body that is a block
+//! (`spline`, `pattern`, `pigment` or `transform`) is evaluated as a whole, at a time or at a point.
 //!
 //! **Source:** manual, section 3.3.1.8 ("User-Defined Functions").
 
@@ -28,7 +28,7 @@ mod internal;
 pub use asked::{AuthorFunction, FunctionId};
 pub(super) use asked::{Functions, outside_id};
 
-/// What a parameter is called: by a name, or by an axis (`u` is `x`, `v` is `y`).
+/// Name of a parameter: an identifier or an axis (`u` is `x`, `v` is `y`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ParameterName {
     Name(Symbol),
@@ -47,7 +47,7 @@ impl ParameterName {
 }
 
 impl Evaluator<'_> {
-    /// Passes over the parameters and the body of a `function`: its names are its own.
+    /// Skips the parameters and the body of a `function`, whose names are local to it.
     pub(super) fn skip_function(&mut self) {
         while let Some(token) = self.peek() {
             match token.kind {
@@ -66,10 +66,10 @@ impl Evaluator<'_> {
             }
         }
     }
-    /// `function [(a, b)] { … }`, after its word.
+    /// Reads `function [(a, b)] { … }`, after its keyword.
     pub(super) fn function(&mut self, token: &Token) -> Outcome<Value> {
         let Some(parameters) = self.parameters(token)? else {
-            // `function 500, 500 { pigment { … } }`: a picture.
+            // `function 500, 500 { pigment { … } }`: an image.
             self.skip_function();
             let site = token.here.site(token.span);
             return Ok(Value::Poison(Poison::new(Word::Function, site)));
@@ -77,7 +77,7 @@ impl Evaluator<'_> {
         self.function_of(token, &parameters)
     }
 
-    /// The block of a function of these parameters.
+    /// Reads the block of a function with these parameters.
     pub(super) fn function_of(
         &mut self,
         token: &Token,
@@ -131,7 +131,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// The formula, or the block that gives a value at every point.
+    /// Reads the formula, or the block that gives a value at every point.
     fn function_body(
         &mut self,
         token: &Token,
@@ -172,7 +172,7 @@ impl Evaluator<'_> {
         Ok(Value::Function(FunctionId(self.functions.len() as u32 - 1)))
     }
 
-    /// `spline { … }` and its kin, or what in it is not built yet.
+    /// Reads `spline { … }` and the like; poison if part of it is unsupported.
     fn block_function(&mut self, first: &Token) -> Outcome<Result<AuthorFunction, Poison>> {
         if first.kind == TokenKind::Word(Word::Pattern) {
             let outer = self.poison.take();
@@ -200,7 +200,7 @@ impl Evaluator<'_> {
         }))
     }
 
-    /// Each coordinate of a point that was moved.
+    /// Returns the functions that give each coordinate of a transformed point.
     fn transform_functions(&mut self, id: TransformId, site: Site) -> Outcome<[Function; 3]> {
         let rows = alone::rows(&self.scene, id, site, self.diagnostics);
         let (rows, offset) = rows.ok_or(Reported)?;
@@ -219,12 +219,13 @@ impl Evaluator<'_> {
         };
         match [0, 1, 2].map(coordinate) {
             [Ok(x), Ok(y), Ok(z)] => Ok([x, y, z]),
-            // Seven operations are not too many.
+            // Seven operations never exceed the limit.
             _ => Err(Reported),
         }
     }
 
-    /// The names between the parentheses; without any, `x`, `y` and `z`. `None` before a number.
+    /// Reads the names between the parentheses; without parentheses they are `x`, `y` and `z`. Returns `None`
+    /// before a number.
     fn parameters(&mut self, token: &Token) -> Outcome<Option<Vec<ParameterName>>> {
         let Some(Token { kind: TokenKind::Expression(id), here, span }) =
             self.next_if(|kind| matches!(kind, TokenKind::Expression(_)))
@@ -273,7 +274,7 @@ impl Evaluator<'_> {
                         .at(parameter.span, "the second of them")
                         .help("`u` and `x` are one parameter, and so are `v` and `y`");
                     if self.options.dialect == Dialect::Pov {
-                        // POV-Ray 3.7 takes both.
+                        // POV-Ray 3.7 accepts both.
                         self.report(&here, told.as_warning());
                         names.push(name);
                         continue;
@@ -309,7 +310,7 @@ impl Evaluator<'_> {
         Ok(Some(names))
     }
 
-    /// `F(1, 2)` as a value.
+    /// Evaluates a call `F(1, 2)`.
     pub(super) fn function_value(
         &mut self,
         here: &Here,
@@ -393,7 +394,7 @@ impl Evaluator<'_> {
         };
         let diagnostic =
             Diagnostic::new(Code::WrongArity, message).at(at, format!("expected {wanted}"));
-        // `F(x, y)` of a function of a place.
+        // `F(x, y)` for a function of a point.
         let place: String = call.split_whitespace().collect();
         let diagnostic = match place.strip_suffix("(x,y)") {
             Some(name) if least == 3 => {

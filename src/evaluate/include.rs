@@ -1,7 +1,7 @@
-//! `#include`: another file's items, read where the directive stands.
+//! `#include`: runs another file's items at the directive's position.
 //!
-//! **Invariant:** a file is parsed once, however often it is included, and looked for once for each file that
-//! includes it: files do not change while a scene is read, but for those that it writes.
+//! **Invariant:** a file is parsed once, however often it is included, and located once for each file that
+//! includes it. Files do not change while a scene is read, except those that it writes.
 
 use std::rc::Rc;
 
@@ -17,7 +17,7 @@ use crate::vocabulary::{is_standard_include, standard_includes};
 use super::{Evaluator, Here, Outcome, Reported, Unit};
 
 impl Evaluator<'_> {
-    /// A text that was read, its names as symbols.
+    /// Returns the unit for a parsed text, with its names interned.
     pub(super) fn unit(&mut self, ast: Ast) -> Rc<Unit> {
         let symbols = ast.names.iter().map(|name| self.scopes.intern(name)).collect();
         Rc::new(Unit { ast, symbols })
@@ -87,7 +87,7 @@ impl Evaluator<'_> {
                         let told = Rc::new(diagnostic);
                         self.remembered.missing.insert(span, (name.clone(), told.clone()));
                         let reported = self.report_again(here, &told);
-                        // With the file that was meant nothing behind it is lacking.
+                        // With the intended file, nothing after it is missing.
                         let found = (!meant.is_empty()).then(|| self.found(&meant, &from));
                         match found {
                             Some(Ok(found)) => found,
@@ -117,7 +117,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// A file, also where its name lacks the `.inc`.
+    /// Locates a file, also if its name lacks the `.inc`.
     fn found(&self, name: &str, from: &str) -> Result<Found, FileError> {
         let as_named = self.read_file(name, from).or_else(embedded(name));
         match as_named {
@@ -129,7 +129,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What is said of an include that cannot be had, where its `\` may have to be `/`.
+    /// Returns the diagnostic for an include that cannot be read, with a suggestion if its `\` should be `/`.
     fn missing_include(&self, name: &str, from: &str, span: Span, error: FileError) -> Diagnostic {
         let slashed = name.replace('\\', "/");
         let is_there = slashed != name && self.read_file(&slashed, from).is_ok();
@@ -145,14 +145,14 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What stands on the line behind `#include`, without the signs around it: `“colors.inc”`.
+    /// Returns the text on the line after `#include`, without surrounding quotes or signs: `“colors.inc”`.
     fn name_behind(&self, head: Span) -> String {
         let rest = self.sources.get(head.file).text.get(head.end as usize..).unwrap_or("");
         let line = rest.lines().next().unwrap_or("");
         line.trim_matches(|c: char| !c.is_alphanumeric()).to_owned()
     }
 
-    /// `colors.inc` or `<colors.inc>`: a path without its quotes.
+    /// Returns a path written without quotes: `colors.inc` or `<colors.inc>`.
     fn bare_path(&self, span: Span) -> Option<String> {
         let text = self.sources.text(span).trim_start_matches('<').trim_end_matches('>').trim();
         let (name, extension) = text.rsplit_once('.')?;
@@ -191,14 +191,14 @@ impl Evaluator<'_> {
             .at(span, "included here");
             self.report(here, diagnostic);
         }
-        // How it came to be read, from the main file on.
+        // The chain of includes from the main file on.
         if !told.is_empty() {
             let (expansions, kind) = (&mut self.scene.expansions, ExpansionKind::Include);
             let named = expansions.named(name);
             let included = expansions.add(here.expansion, head.to(span), kind, named);
             let whole = head.to(span);
             let mesh = format!("mesh {{ file {} }}", self.sources.text(span));
-            // Where objects stand, it can be placed.
+            // Where objects are expected, it can be placed.
             let is_mesh = is_scene && self.blocks.is_empty() && mesh_file::is_named(name);
             for told in told.iter().cloned() {
                 self.lacks_include |= told.code == Code::ForeignFile;
@@ -243,7 +243,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The standard include of this name, where no file has it.
+/// Returns the embedded standard include of this name, as a fallback for when no file has it.
 pub(super) fn embedded(name: &str) -> impl FnOnce(FileError) -> Result<Found, FileError> {
     move |error| match (&error, standard::include(name)) {
         (FileError::NotFound { .. }, Some((name, text))) => Ok(Found { name, bytes: text.into() }),
@@ -251,13 +251,14 @@ pub(super) fn embedded(name: &str) -> impl FnOnce(FileError) -> Result<Found, Fi
     }
 }
 
-/// Whether a path begins at the root, or with a drive of Windows: such a one is searched for in no folder.
+/// Returns whether a path begins at the root or with a Windows drive; such a path is not searched for in
+/// folders.
 fn is_absolute(name: &str) -> bool {
     name.starts_with(['/', '\\']) || name.get(1..2) == Some(":")
 }
 
-/// Whether a file that is like `name` is meant for certain: `tree1` is not `tree2`, and short names are like
-/// too many.
+/// Returns whether a file named `like` certainly is a misspelling of `name`: `tree1` is not `tree2`, and
+/// short names resemble too many others.
 fn is_the_same_but_misspelt(name: &str, like: &str) -> bool {
     let (name, like) = (file_name(name), file_name(like));
     let digits = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<String>();
@@ -269,7 +270,7 @@ fn is_the_same_but_misspelt(name: &str, like: &str) -> bool {
     is_ended || (digits(name) == digits(like) && letters >= 4)
 }
 
-/// What is said of a file that cannot be had; `fits` tells by its name whether another may be meant.
+/// Returns the diagnostic for a file that cannot be read; `fits` decides by name which files to suggest.
 pub(super) fn missing_file(
     name: &str,
     span: Span,
@@ -281,7 +282,7 @@ pub(super) fn missing_file(
             let mut diagnostic =
                 Diagnostic::new(Code::MissingInclude, format!("`{name}` is not found"))
                     .at(span, "no file of this name");
-            // One that is built in lies in no folder.
+            // An embedded file is in no folder.
             let last = file_name(name);
             let stem = last.strip_suffix(".inc").unwrap_or(last);
             let same = || standard_includes().find(|include| *include == stem);

@@ -1,8 +1,9 @@
-//! A calculation that goes on behind a directive: `(0 #for (I, 1, 3) + I*I #end)`, `function { x #if (A) * 2 #end }`,
-//! `sphere { 0, 2 * #if (A) 3 #else 4 #end }`.
+//! Expressions that continue after a directive: `(0 #for (I, 1, 3) + I*I #end)`, `function { x #if (A) * 2
+//! #end }`, `sphere { 0, 2 * #if (A) 3 #else 4 #end }`.
 //!
-//! **Invariant:** as in POV-Ray, which reads the words that a directive leaves as if they stood there: operands are
-//! evaluated in the order in which they are read, and operators bind as they do without the directive.
+//! **Invariant:** as in POV-Ray, which reads the tokens that a directive leaves as if they were written in
+//! its place, operands are evaluated in reading order, and operators bind as they would without the
+//! directive.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::function::Node;
@@ -16,31 +17,31 @@ use super::stream::{FrameKind, Hold, Token, TokenKind};
 use super::value::{self, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
-/// An operator that has its left operand, and where it is written.
+/// An operator whose left operand has been read, and its span.
 struct Pending<T> {
     left: T,
     operator: BinaryOperator,
     site: (Here, ExpressionId),
 }
 
-/// A calculation as far as it is read: what binds tighter stands further behind.
+/// A partially read expression; operators that bind tighter are nearer the end.
 struct Calculation<T> {
     pending: Vec<Pending<T>>,
-    /// The last operand; `None` where one is to follow.
+    /// The last operand; `None` if one must follow.
     last: Option<T>,
 }
 
-/// What a calculation is of.
+/// The operations on the kind of operand that is calculated with.
 trait Arithmetic<T> {
     fn evaluate(&mut self, here: &Here, id: ExpressionId) -> Outcome<T>;
-    /// Goes on with what a called macro leaves; `false` where that is one operand.
+    /// Continues with the items that a called macro leaves; returns `false` if they are one operand.
     fn splice(&mut self, _: &mut Calculation<T>, _: &Here, _: ExpressionId) -> Outcome<bool> {
         Ok(false)
     }
     fn apply(&mut self, operation: Pending<T>, right: T) -> Outcome<T>;
 }
 
-/// What stands first in an expression, and each operation on it and on what it came to, in order.
+/// Splits an expression into its leftmost operand and the operations applied to it, in order.
 fn spine(
     here: &Here,
     id: ExpressionId,
@@ -54,7 +55,7 @@ fn spine(
     (first, operations)
 }
 
-/// The sign of an operand, as an operator between it and what stands before.
+/// Returns the binary operator that an operand's sign becomes after a preceding operand.
 fn sign(operator: UnaryOperator) -> Option<BinaryOperator> {
     match operator {
         UnaryOperator::Plus => Some(BinaryOperator::Add),
@@ -63,7 +64,7 @@ fn sign(operator: UnaryOperator) -> Option<BinaryOperator> {
     }
 }
 
-/// Whether an expression goes on with what stands before it.
+/// Returns whether an expression continues the one before it.
 fn goes_on(here: &Here, id: ExpressionId) -> bool {
     match here.unit.expression(spine(here, id).0).kind {
         ExpressionKind::Joint => true,
@@ -80,12 +81,12 @@ pub(super) fn holds_directive(here: &Here, items: Items) -> bool {
 impl<T> Calculation<T> {
     const EMPTY: Self = Self { pending: Vec::new(), last: None };
 
-    /// Reads an expression, from its first operand on.
+    /// Reads an expression from its first operand on.
     fn read(&mut self, of: &mut impl Arithmetic<T>, here: &Here, id: ExpressionId) -> Outcome<()> {
         let (first, operations) = spine(here, id);
         match here.unit.expression(first).kind {
             ExpressionKind::Joint if self.last.is_some() => {}
-            // There is nothing: that is told.
+            // There is no operand, which is reported.
             ExpressionKind::Joint => drop(of.evaluate(here, first)?),
             ExpressionKind::Unary(operator, operand)
                 if self.last.is_some()
@@ -103,7 +104,7 @@ impl<T> Calculation<T> {
         Ok(())
     }
 
-    /// Reads an operand, of which an operator behind it may take the last part.
+    /// Reads an operand, whose last part a following operator may take.
     fn operand(
         &mut self,
         of: &mut impl Arithmetic<T>,
@@ -133,7 +134,7 @@ impl<T> Calculation<T> {
         Ok(())
     }
 
-    /// All that binds at least as tight as an operator behind it; without one, all.
+    /// Reduces all operators that bind at least as tightly as a following operator; without one, all.
     fn result(
         &mut self,
         of: &mut impl Arithmetic<T>,
@@ -150,7 +151,7 @@ impl<T> Calculation<T> {
     }
 }
 
-/// Values of the language.
+/// Calculates with values of the language.
 impl Arithmetic<Value> for Evaluator<'_> {
     fn evaluate(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         self.operand(here, id)
@@ -191,7 +192,7 @@ impl Arithmetic<Value> for Evaluator<'_> {
     }
 }
 
-/// Steps of a function's tape.
+/// Calculates with steps of a function's tape.
 struct Steps<'e, 'a, 'f> {
     evaluator: &'e mut Evaluator<'a>,
     formula: &'f mut Formula,
@@ -210,7 +211,7 @@ impl Arithmetic<Node> for Steps<'_, '_, '_> {
 }
 
 impl Evaluator<'_> {
-    /// The value of an item that has been taken, and of what goes on with it behind a directive.
+    /// Returns the value of an item already taken, and of its continuation after a directive.
     pub(super) fn joined_value(&mut self, token: &Token) -> Outcome<Value> {
         let mut calculation = Calculation::EMPTY;
         match &token.kind {
@@ -236,7 +237,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A calculation in which a macro leaves an operation: in a `.pov` its text stands in the place of the call.
+    /// Evaluates an expression in which a macro leaves an operation: in a `.pov`, the macro's text replaces
+    /// the call.
     pub(super) fn spliced_value(&mut self, here: &Here, id: ExpressionId) -> Outcome<Value> {
         let mut calculation = Calculation::EMPTY;
         calculation.read(self, here, id)?;
@@ -270,7 +272,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether a directive stands between the item that was taken last and the next.
+    /// Returns whether a directive separates the item taken last from the next.
     pub(super) fn is_by_directive(&self) -> bool {
         self.peeked.is_some()
             || self.frames.last().is_some_and(|frame| match frame.at == frame.end {
@@ -284,7 +286,7 @@ impl Evaluator<'_> {
             })
     }
 
-    /// The same of a formula, which begins with this expression.
+    /// As [`Self::joined_value`], for a formula that begins with this expression.
     pub(super) fn joined_node(
         &mut self,
         here: &Here,
@@ -304,7 +306,7 @@ impl Evaluator<'_> {
         node.ok_or_else(|| self.lacks_operand(&calculation, here, here.unit.expression(id).span))
     }
 
-    /// What no directive left.
+    /// Reports an operand that no directive left.
     fn lacks_operand<T>(
         &mut self,
         calculation: &Calculation<T>,
@@ -324,9 +326,9 @@ impl Evaluator<'_> {
         matches!(token.kind, TokenKind::Expression(id) if goes_on(&token.here, id))
     }
 
-    /// What comes next, if it goes on with what stands before, or an operand is missing.
+    /// Returns the next expression if it continues the one before, or if an operand is missing.
     fn next_joint(&mut self, wanted: bool) -> Option<(Here, ExpressionId)> {
-        // What is wanted stands before the end of a `#declare`.
+        // A required operand comes before the end of a `#declare`.
         let hold = if wanted { self.hold.take() } else { self.hold };
         self.peek_on();
         let first = self.frames.len();
@@ -341,7 +343,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// An operand on the other side of a directive, where none is to be had.
+    /// Reports an operand that is missing after a directive.
     pub(super) fn nothing_joined(&mut self, here: &Here, place: Span) -> Reported {
         let text = self.sources.get(place.file).text.as_str();
         let sign = |c: &char| "*/<>=!&|+-".contains(*c);
@@ -357,7 +359,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether the last operand of an expression is still to come.
+/// Returns whether the last operand of an expression is still missing.
 fn ends_open(here: &Here, mut id: ExpressionId) -> bool {
     while let ExpressionKind::Binary(_, _, right) = here.unit.expression(id).kind {
         id = right;

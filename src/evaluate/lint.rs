@@ -1,4 +1,4 @@
-//! Lints: what a right scene might contain, and probably does not.
+//! Lints: constructs that a correct scene may contain, but probably does not.
 
 mod angle;
 mod color;
@@ -34,11 +34,11 @@ pub(in crate::evaluate) use version::version_end;
 use super::stream::Token;
 use super::{Evaluator, Here, Unit};
 
-/// How many names are looked at that are declared again.
+/// Maximum number of redeclared names that are examined.
 const MOST_LOOKS: usize = 100;
 
 impl Evaluator<'_> {
-    /// Names given from outside that no file of the scene has.
+    /// Reports names given from outside that occur in no file of the scene.
     pub(super) fn lint_options(&mut self, main: &Unit) {
         let options = self.options;
         for (name, _) in &options.declares {
@@ -61,7 +61,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `#declare N = 3;` where `-D N=5` was given, and nothing has asked for that.
+    /// Reports `#declare N = 3;` if `-D N=5` was given and never read.
     pub(super) fn lint_replaced_option(&mut self, here: &Here, target: &Target) {
         let name = self.sources.text(target.span).to_owned();
         let message = format!("`-D {name}` does nothing: the scene declares `{name}` itself");
@@ -73,7 +73,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// `A[0.5]`, typed; what is computed may be meant.
+    /// Reports a literal fractional index, `A[0.5]`; a computed one may be intended.
     pub(super) fn lint_index(&mut self, here: &Here, span: Span, number: f64) {
         if is_literal(self.sources.text(span)) {
             let message = format!("the index {number} is not whole: its fraction is dropped");
@@ -83,7 +83,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// How many there are, typed with a fraction.
+    /// Reports a count that is a literal with a fraction.
     pub(super) fn lint_count(&mut self, here: &Here, span: Span, count: f64) {
         let text = self.sources.text(span).trim_matches(['[', ']']);
         if count.fract() != 0.0 && is_literal(text) {
@@ -94,9 +94,9 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A second pigment in the block of an object, or of a texture.
+    /// Reports a second pigment in the block of an object or a texture.
     pub(super) fn lint_replaced(&mut self, token: &Token, first: Site, of: &str) {
-        // A loop whose `#end` is missing runs over what stands behind it.
+        // A loop without its `#end` includes the items after it.
         let is_lost = |one: &Diagnostic| one.code == Code::MissingEnd;
         if first.span == token.span && self.diagnostics.iter().any(is_lost) {
             return;
@@ -108,8 +108,8 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    /// Names of the main file that get another value before the first one was used. A word that may be
-    /// the name, an include or a call in between: better silent than wrong.
+    /// Reports names of the main file that are assigned again before their first value was used. A word that
+    /// may be the name, an include or a call in between suppresses the lint.
     fn lint_redeclared(&mut self, main: &Unit) {
         let text = &self.sources.get(main.ast.file).text;
         let declared = main.ast.items(main.ast.root).iter().filter_map(|item| {
@@ -131,7 +131,7 @@ impl Evaluator<'_> {
                 }
                 Some(before) => before.take(),
             };
-            // The second declaration only; each look goes through the text.
+            // Only the second declaration; each search goes through the text.
             let Some(before) = before.filter(|_| looked < MOST_LOOKS) else { continue };
             looked += 1;
             let (known, rest) = text.split_at(span.range().start);
@@ -159,8 +159,8 @@ impl Evaluator<'_> {
         told.into_iter().for_each(|one| self.diagnostics.push(one));
     }
 
-    /// `#for (I, 10, 1)`: a loop between numbers as they are typed that has no turn. Of what is computed
-    /// it may be meant.
+    /// Reports a loop between literal numbers that has no turn: `#for (I, 10, 1)`. Computed bounds may be
+    /// intended.
     pub(super) fn lint_never_runs(
         &mut self,
         here: &Here,
@@ -197,7 +197,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// `#range (5, 1)`.
+    /// Reports an empty range: `#range (5, 1)`.
     pub(super) fn lint_empty_range(&mut self, here: &Here, span: Span, low: f64, high: f64) {
         if low <= high {
             return;
@@ -210,7 +210,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `#for (I, 0, 9) … #declare I = I + 1; #end`: what stands in a branch may be meant.
+    /// Reports a loop that also counts by itself: `#for (I, 0, 9) … #declare I = I + 1; #end`. An assignment
+    /// in a branch may be intended.
     pub(super) fn lint_counted_twice(&mut self, here: &Here, counter: NameId, body: Items) {
         let unit = here.unit.clone();
         let mut items = unit.ast.items(body).iter();
@@ -249,7 +250,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether what is read now is the colour of a surface.
+    /// Returns whether the colour of a surface is being read.
     pub(super) fn in_pigment(&self) -> bool {
         let word = |span: &Span| self.sources.text(*span);
         self.openers
@@ -257,7 +258,7 @@ impl Evaluator<'_> {
             .is_some_and(|span| matches!(word(span), "pigment" | "color_map" | "colour_map"))
     }
 
-    /// A `checker` with one of its two colours.
+    /// Reports a `checker` with only one of its two colours.
     pub(super) fn lint_missing_color(&mut self, token: &Token, other: &str) {
         let message = format!("this `checker` has one colour; the other is {other} by default");
         let diagnostic = Diagnostic::new(Code::MissingColor, message)
@@ -282,7 +283,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether a piece of text is one number as it is typed: what is computed may be meant.
+/// Returns whether a piece of text is one literal number; a computed one may be intended.
 pub(in crate::evaluate) fn is_literal(text: &str) -> bool {
     let text = text.trim_start_matches(['-', '+']).trim();
     text.starts_with(|c: char| c.is_ascii_digit() || c == '.') && text.parse::<f64>().is_ok()

@@ -1,4 +1,4 @@
-//! How much a scene may have to remember.
+//! Limit on the memory that a scene may use.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -6,19 +6,19 @@ use crate::source::Span;
 use super::{Evaluator, Here, Reported};
 
 impl Evaluator<'_> {
-    /// Whether so many bytes more may be remembered.
+    /// Returns whether this many more bytes may be used.
     pub(super) fn has_memory(&self, more: u64) -> bool {
         let held = self.stored.saturating_add(self.scopes.held()).saturating_add(more);
         held >> 20 < self.options.limits.memory
     }
 
-    /// How many bytes more may be remembered.
+    /// Returns how many more bytes may be used.
     pub(super) fn memory_left(&self) -> u64 {
         let held = self.stored.saturating_add(self.scopes.held());
         (self.options.limits.memory << 20).saturating_sub(held)
     }
 
-    /// Nothing further is evaluated.
+    /// Reports that the memory limit is reached, and halts the evaluation.
     #[cold]
     pub(super) fn too_much_memory(&mut self, here: &Here, span: Span) -> Reported {
         let limit = self.options.limits.memory;

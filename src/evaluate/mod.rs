@@ -1,9 +1,9 @@
-//! Ast to Scene: runs the language.
+//! Evaluation of a syntax tree to a scene.
 //!
-//! **In:** the main file's Ast, and `Files` for what it includes. **Out:** a Scene without macro, loop,
-//! include or name; always one, also from a broken input. **Invariant:** evaluation *pulls* items:
-//! whoever needs the next item asks the stream for it, and directives, macro calls and includes
-//! run in place, wherever they stand.
+//! **In:** the main file's Ast, and `Files` for what it includes. **Out:** a Scene without macros, loops,
+//! includes or names; always one, even for broken input. **Invariant:** evaluation *pulls* items: a consumer
+//! asks the stream for its next item, and directives, macro calls and includes run at their position on the
+//! way to it.
 
 mod argument;
 mod arity;
@@ -79,7 +79,8 @@ use stream::{Frame, Hold, MOST_RUN_SINCE_FAULT, Silent, Token};
 use unit::{Here, Unit};
 use value::{Poison, Value};
 
-/// Runs `main`, which is gone then: of a big scene it is the larger half. Whatever is wrong goes to `diagnostics`.
+/// Runs `main` and drops it: for a large scene it is the larger half of the memory. Errors and warnings go to
+/// `diagnostics`.
 pub fn evaluate(
     main: Ast,
     sources: &mut Sources,
@@ -92,7 +93,7 @@ pub fn evaluate(
     evaluator.scene
 }
 
-/// It was reported; the nearest statement or object goes on without the value.
+/// Proof that an error was reported; the nearest statement or object goes on without the value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Reported;
 
@@ -104,132 +105,133 @@ struct Evaluator<'a> {
     options: &'a EvaluateOptions,
     diagnostics: &'a mut Diagnostics,
     scene: Scene,
-    /// The number that says how many values follow, and how many were found up to here.
+    /// The number that announces a list's length, and how many entries were found so far.
     announced: Option<(Span, usize)>,
-    /// One for each object of the scene.
+    /// One entry for each object of the scene.
     made: Vec<block::Made>,
     scopes: Scopes,
     macros: Vec<Rc<Macro>>,
-    /// Empty; the room in it is for the arguments of the next call.
+    /// Scratch buffer for the arguments of the next call; empty between calls.
     bound: Vec<expand::Bound>,
     functions: Vec<function::AuthorFunction>,
-    /// The parameters of the function that was last not understood.
+    /// Number of parameters of the last function that could not be read.
     broken_function: Option<usize>,
-    /// How many parameters the declared functions have that were not understood.
+    /// Number of parameters of the declared functions that could not be read.
     broken_functions: HashMap<Symbol, usize>,
-    /// Calls of macros with too many arguments, or too few, which was told.
+    /// Calls of macros with too many or too few arguments, which have been reported.
     wrong_calls: Vec<ExpansionId>,
-    /// The functions that are built in and are formulas, by their number; empty until one is asked for.
+    /// The built-in functions that are formulas, by number; empty until one is used.
     internals: Vec<Option<function::FunctionId>>,
-    /// What functions of noise are made of.
+    /// The generator behind noise functions.
     noise: NoiseGenerator,
     streams: RandomStreams,
-    /// What `#fopen` has opened.
+    /// Files that `#fopen` has opened.
     opened: Vec<file::Opened>,
-    /// What it may not write: what reads it lacks it, and that says nothing more.
+    /// Files that the scene may not write; a later read of one reports nothing more.
     unwritten: BTreeSet<String>,
-    /// What a `.pov` has written and may not, by the names that it gave.
+    /// Contents that a `.pov` wrote to files it may not write, by the names that it gave.
     held_files: BTreeMap<String, Vec<u8>>,
-    /// What it has written, under the names that it is found by.
+    /// Files that the scene has written, under the names by which they are found.
     authored: BTreeSet<String>,
     frames: Vec<Frame>,
     enclosures: Vec<Enclosure>,
-    /// How many of these blocks a loose `{` has opened.
+    /// Number of these blocks that were opened by an unpaired `{`.
     loose_blocks: u32,
-    /// How often a `}` has closed another block than it would where it is written.
+    /// How often a `}` has closed another block than the one it would close where it is written.
     loose_closers: u64,
     peeked: Option<Token>,
-    /// The value in parentheses behind a name that was taken.
+    /// The parenthesized value after a name that was taken.
     behind_name: Option<Token>,
-    /// The macro call just before the item that comes next that gave no item itself.
+    /// The macro call right before the next item, if it left no item.
     silent: Option<Silent>,
-    /// Where the item stood that a consumer took last: the end of what it is reading.
+    /// Position of the item taken last: the end of what a consumer is reading.
     taken: Option<Site>,
-    /// While the value of a `#declare` is read. Looking past its end runs nothing there, since that may
-    /// already ask for the value; what gave the value may end.
+    /// Set while the value of a `#declare` is read. Lookahead past its end runs nothing there, since that may
+    /// already use the value; the frames that produced the value may end.
     hold: Option<Hold>,
-    /// Within [`Self::peek_on`].
+    /// Set within [`Self::peek_on`].
     calls_wait: bool,
-    /// Files already read and parsed, by the name they were found under.
+    /// Parsed files, by the name under which they were found.
     parsed: HashMap<String, Rc<Unit>>,
-    /// The name that a file was found under, by what an including file calls it.
+    /// The name under which a file was found, by the name that the including file uses.
     found: HashMap<(String, FileId), String>,
-    /// What meshes were read from files.
+    /// Meshes read from files.
     meshes: block::MeshFiles,
-    /// Fonts that were read.
+    /// Fonts read from files.
     fonts: block::Fonts,
-    /// The names of the files that include each other now.
+    /// Names of the files in the current chain of includes.
     including: Vec<String>,
     default_texture: TextureId,
-    /// Strings hold nothing beyond ASCII: a `.pov` has not said `charset utf8` yet.
+    /// Strings are limited to ASCII: a `.pov` has not set `charset utf8` yet.
     is_ascii: bool,
     version: f64,
-    /// Whether any file said `#version`; whether the scene did, and `assumed_gamma`.
+    /// Whether any file has a `#version`; whether the scene does, and `assumed_gamma`.
     has_version: bool,
     says_version: bool,
     warned_of_version: bool,
-    /// Words of pigments and finishes stand in textures, as before version 3.0.
+    /// Pigment and finish keywords may appear directly in textures, as before version 3.0.
     has_bare_textures: bool,
     says_gamma: bool,
-    /// The first colour that was converted before `assumed_gamma` was said.
+    /// The first colour that was converted before `assumed_gamma` was set.
     srgb_before_gamma: Option<Site>,
-    /// The first word inside the object being read that is not built yet.
+    /// The first unsupported word in the object being read.
     poison: Option<Poison>,
-    /// Other words in the same item that are not built either, by the place of the first.
+    /// Further unsupported words in the same item, by the span of the first.
     beside: BTreeMap<Span, Vec<Poison>>,
-    /// An include was not found: what is missing now may have been declared there.
+    /// An include was not found: a missing name may have been declared there.
     lacks_include: bool,
-    /// The standard includes of which it was told that an included file takes them for granted.
+    /// Standard includes that were reported as assumed by an included file but not included.
     lacking: BTreeSet<String>,
-    /// The names of such includes, as they were written.
+    /// The includes that could not be read, as they were written.
     unread: BTreeSet<String>,
-    /// Where a part was last found missing: what else is missing there says no more.
+    /// Where a part was last reported missing: another missing part there adds nothing.
     missing_at: Option<Site>,
-    /// The ends of loops, and how long the arrays were of which an element past them was told.
+    /// The end values of loops that run past the end of an array, and the array's length; these have been
+    /// reported.
     ends_told: Vec<(Span, u32)>,
-    /// What the last `bounded_by` held, for `clipped_by { bounded_by }`.
+    /// The objects of the last `bounded_by`, for `clipped_by { bounded_by }`.
     bounds: Vec<ObjectId>,
-    /// The names that were told as not declared, and count as declared since, in this order.
+    /// The names that were reported as undeclared and count as declared since, in order.
     assumed: Vec<Symbol>,
-    /// Set by `#error` and by limits: nothing further is evaluated.
+    /// Set by `#error` and by limits; stops the evaluation.
     halted: bool,
     macro_depth: u32,
-    /// How many `#declare`s wait for their values.
+    /// Number of `#declare`s that wait for their values.
     declaring: u32,
-    /// Their names.
+    /// The names of those `#declare`s.
     declared_now: Vec<Symbol>,
-    /// How many expressions are being calculated inside each other.
+    /// Current nesting depth of expressions being evaluated.
     calculating: u64,
-    /// Bytes of what the scene holds beside its objects, about.
+    /// Approximate size in bytes of the scene's data beside its objects.
     stored: u64,
-    /// Turns of all loops so far, and of those in which a mistake was met.
+    /// Number of turns of all loops so far, and of those in which a mistake was found.
     turns: u64,
     faulty_turns: u64,
-    /// Turns of loops and calls of macros since the first error.
+    /// Number of loop turns and macro calls since the first error.
     run_since_fault: u64,
-    /// A file was not understood whole, so a loop may lack what ends it.
+    /// A file had syntax errors, so a loop may lack what ends it.
     misread: bool,
-    /// Of each condition of such a file, whether it held, and whether it did not.
+    /// For each condition of such a file, whether it was ever true, and whether it was ever false.
     asked: HashMap<DirectiveId, [bool; 2]>,
-    /// How many children of unions and the like could not be made.
+    /// Number of children of unions and the like that could not be created.
     lost_children: u64,
-    /// In what is being read, a condition had no known value: what is missing may be in the branch not taken.
+    /// A condition in what is being read had no known value: a missing part may be in the branch not taken.
     undecided: bool,
-    /// How often something was reported, repetitions included; and how often an error.
+    /// Number of reports including repetitions, and number of errors among them.
     reports: u64,
     faults: u64,
-    /// What messages were made of, by their places.
+    /// Cached analyses for messages, by span.
     remembered: Remembered,
     read: way::Read,
-    /// The words that opened the blocks being read, outermost first.
+    /// The keywords that opened the blocks being read, outermost first.
     openers: Vec<Span>,
-    /// What a block lacks, to be told unless it stands too late in it.
+    /// A diagnostic for a part that a block lacks, reported unless the part appears too late in the block.
     owed: Option<(Here, Diagnostic)>,
-    /// All of each of these blocks, from brace to brace.
+    /// The whole spans of these blocks, from brace to brace.
     blocks: Vec<Site>,
-    /// Whether an expression is an angle in radians, as far as lints have asked.
+    /// Whether an expression is an angle in radians, cached for lints.
     in_radians: HashMap<Span, bool>,
-    /// What `trace` and its kin have looked at.
+    /// The objects that `trace` and similar functions have examined.
     probes: HashMap<crate::scene::ObjectId, Rc<probe::Probe>>,
 }
 
@@ -377,7 +379,7 @@ impl<'a> Evaluator<'a> {
             // Nobody looks at what there is of it.
             self.scene.roots.clear();
         }
-        // What a mistake kept from being run may be the use that is missing.
+        // The missing use may be in code that a mistake kept from running.
         if !self.halted && !self.diagnostics.has_errors() {
             self.lint_declarations(&here.unit);
             self.lint_options(&here.unit);

@@ -1,30 +1,31 @@
-//! What the caller sets: the dialect, the picture's size, declarations, the clock, and what stops a scene that
+//! Options of an evaluation: the dialect, the image size, declarations, the clock, and limits for scenes that
 //! would never end.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::scene::Dialect;
 
-/// What the caller sets.
+/// Options set by the caller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvaluateOptions {
     pub dialect: Dialect,
-    /// `image_width` and `image_height`.
+    /// Value of `image_width`.
     pub width: u32,
+    /// Value of `image_height`.
     pub height: u32,
-    /// `-D name=value`, in order.
+    /// `-D name=value` options, in order.
     pub declares: Vec<(String, f64)>,
     pub clock: f64,
-    /// Days since the beginning of the year 2000, UTC: `now`.
+    /// Days since the beginning of the year 2000, UTC: the value of `now`.
     pub now: f64,
     pub frame_number: f64,
     pub limits: Limits,
-    /// Every brace without a partner where it is written pairs as it is run.
+    /// Whether every brace without a partner where it is written pairs at run time.
     pub loose: bool,
     pub interrupt: Interrupt,
 }
 
-/// Set by the caller while a scene is evaluated, it ends the loop that turns then.
+/// A flag that the caller sets during evaluation to end the loop that is running.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Interrupt(pub Option<&'static AtomicBool>);
 
@@ -60,22 +61,22 @@ impl Default for EvaluateOptions {
     }
 }
 
-/// What stops a scene that would never end, or not in this machine's memory.
+/// Limits that stop a scene that would never end or would exhaust memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Turns of one loop; all together may turn [`Limits::TOGETHER`] times as often, and as many
-    /// macros be called.
+    /// Turns of one loop; the total of all loops, and the number of macro calls, may be [`Limits::TOGETHER`]
+    /// times as many.
     pub loop_turns: u64,
-    /// Macro calls inside each other, and `#declare`s that wait for the values of each other.
+    /// Depth of nested macro calls, and of `#declare`s that wait for the values of each other.
     pub macro_depth: u32,
-    /// Includes inside each other.
+    /// Depth of nested includes.
     pub include_depth: u32,
-    /// Brackets and directives inside each other, in one file. None waits on the stack; a gigabyte holds so many
-    /// blocks.
+    /// Depth of nested brackets and directives in one file. They do not use the stack; a gigabyte holds this
+    /// many blocks.
     pub nesting: u32,
-    /// Objects of the scene, declared ones included.
+    /// Number of objects in the scene, including declared ones.
     pub objects: u64,
-    /// MiB of what has to be remembered beside the objects: strings, maps, lists of transforms.
+    /// MiB of data beside the objects: strings, maps, lists of transforms.
     pub memory: u64,
     /// MiB of one string.
     pub string: u64,

@@ -1,6 +1,8 @@
-//! What is made of plain numbers alone, without a [`Value`] of each part: most of what loops calculate.
+//! Fast path for expressions of plain numbers, without a [`Value`] for each operand: most of what loops
+//! calculate.
 //!
-//! **Invariant:** whatever is no such thing, or has no finite value, is left to `expression`, which tells why.
+//! **Invariant:** an expression that does not qualify, or has no finite value, is left to `expression`, which
+//! reports why.
 
 use crate::math::Vector;
 use crate::syntax::ast::{
@@ -10,13 +12,13 @@ use crate::syntax::ast::{
 use super::value::{self, Value};
 use super::{Evaluator, Here, builtin};
 
-/// How deep an expression of plain numbers is looked into.
+/// Maximum depth of an expression of plain numbers.
 const PLAIN_DEPTH: u32 = 8;
 
 impl Evaluator<'_> {
-    /// The value of what is made of numbers, of names of numbers and of functions of one or two, alone: most of
-    /// what loops calculate.
-    /// `None` where it takes more than that, or has no finite value.
+    /// Returns the value of an expression that consists only of numbers, names of numbers and functions of
+    /// one or two numbers: most of what loops calculate. Returns `None` for anything else, and if the value
+    /// is not finite.
     #[inline(always)]
     pub(super) fn plain_number(&mut self, here: &Here, id: ExpressionId) -> Option<f64> {
         self.plain_operand(here, id, PLAIN_DEPTH)
@@ -71,7 +73,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The vector of three that an expression is, where it is a name of one, or made of no more than two or
+    /// Returns the value of an expression that is a name of a vector of three, or is made of only two or
     /// three plain numbers.
     pub(super) fn plain_vector(&mut self, here: &Here, id: ExpressionId) -> Option<Vector> {
         match here.unit.expression(id).kind {
@@ -90,7 +92,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A vector of three plain numbers.
+    /// Returns a vector of three plain numbers.
     pub(super) fn plain_triple(&mut self, here: &Here, components: Arguments) -> Option<Vector> {
         let [x, y, z] = *here.unit.ast.arguments(components) else { return None };
         let mut plain = |argument| self.plain_component(here, argument);

@@ -1,7 +1,7 @@
-//! `trace`, `inside`, `min_extent` and `max_extent`: what a declared object looks like where it stands.
+//! `trace`, `inside`, `min_extent` and `max_extent`: geometric queries on a declared object.
 //!
 //! **In:** an object of the Scene. **Out:** a vector or a truth value. **Invariant:** the object is lowered
-//! alone, once, and asked by the same queries as the tracer's.
+//! alone, once, and queried by the same code as the tracer's.
 
 use std::rc::Rc;
 
@@ -22,15 +22,15 @@ use crate::world::World;
 use super::value::Value;
 use super::{Evaluator, Here, Outcome};
 
-/// How far POV-Ray lets an unbounded object extend.
+/// Half-extent that POV-Ray gives to an unbounded object.
 const UNBOUNDED: f64 = 1e10;
 
-/// An object by itself.
+/// A single lowered object.
 #[derive(Debug)]
 pub(super) struct Probe {
     world: World,
     geometry: Geometry,
-    /// The box that holds it, as POV-Ray tells it.
+    /// Its bounding box, as POV-Ray reports it.
     extent: (Vector, Vector),
 }
 
@@ -172,7 +172,8 @@ impl Probe {
             .any(|i| self.world.whole_contains(&self.world.objects[i as usize], point))
     }
 
-    /// The first surface from `origin` on, and its normal, turned as POV-Ray gives it: outward, but for a mesh.
+    /// Returns the first surface from `origin` on and its normal, oriented as in POV-Ray: outward, except for
+    /// a mesh.
     fn trace(&self, origin: Vector, direction: UnitVector) -> Option<(Vector, Vector)> {
         let ray = Ray { origin, direction: direction.get() };
         let hit = self.geometry.nearest(&ray)?;
@@ -196,7 +197,7 @@ impl Probe {
     }
 }
 
-/// The box that holds all of a World.
+/// Returns the bounding box of a whole World.
 fn extent(world: &World) -> (Vector, Vector) {
     let extent = Extent::of_all(world, Rounding::Nearest);
     if extent.is_empty() {
@@ -208,7 +209,7 @@ fn extent(world: &World) -> (Vector, Vector) {
     (low + Vector::ZERO, high + Vector::ZERO)
 }
 
-/// The object and what it is made of, and nothing of textures or lights.
+/// Returns a scene with the object and its constituents only, without textures and lights.
 fn alone(scene: &Scene, object: ObjectId) -> Scene {
     let mut small = Scene {
         dialect: scene.dialect,
@@ -280,7 +281,7 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
     small
 }
 
-/// These lists of steps, and those that they refer to.
+/// Copies these lists of steps and those that they refer to.
 fn lists(
     scene: &Scene,
     wanted: impl Iterator<Item = TransformId>,

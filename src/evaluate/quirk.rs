@@ -1,7 +1,7 @@
-//! What POV-Ray 3.7 reads otherwise than it looks, in a `.pov` (both measured).
+//! Constructs that POV-Ray 3.7 parses differently from how they look, in a `.pov` (both measured).
 //!
-//! * `scale V.x`: where a vector is wanted, a number that begins with a component of `V` is x alone; y and z stay
-//!   those of `V`. In parentheses it is a number like any other.
+//! * `scale V.x`: where a vector is expected, a number that begins with a component of `V` replaces x only; y
+//!   and z remain those of `V`. In parentheses it is a number like any other.
 //! * `sphere { P (R) }`: a name that holds a number, a vector or a colour, and another value in parentheses.
 
 use crate::diagnostic::{Code, Diagnostic};
@@ -16,8 +16,8 @@ use super::value::Value;
 use super::{Evaluator, Here, Outcome};
 
 impl Evaluator<'_> {
-    /// The vector that a number beginning with a component stands for, where a vector is wanted; `None` of
-    /// anything else.
+    /// Returns the vector that a number beginning with a component denotes where a vector is expected; `None`
+    /// for anything else.
     pub(super) fn vector_of_component(
         &mut self,
         here: &Here,
@@ -43,7 +43,7 @@ impl Evaluator<'_> {
         Some(Ok(vector))
     }
 
-    /// The value of an argument, which may have to be a vector.
+    /// Returns the value of an argument, which may have to be a vector.
     pub(super) fn argument_of_call(
         &mut self,
         here: &Here,
@@ -56,7 +56,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What an expression begins with a component of, as it is written, and its vector.
+    /// Returns the text and value of the vector whose component an expression begins with.
     fn picked_from(&mut self, here: &Here, id: ExpressionId) -> Option<(String, Vector)> {
         if self.options.dialect == Dialect::Scene {
             return None;
@@ -83,7 +83,7 @@ impl Evaluator<'_> {
             ExpressionKind::Index(..) | ExpressionKind::Vector(_) => {
                 self.expression(here, whole).ok()?
             }
-            // Calling it twice may do something else the second time.
+            // Calling it twice may have different effects.
             _ => return None,
         };
         let numbers = match value {
@@ -95,7 +95,7 @@ impl Evaluator<'_> {
         Some((name, Vector::new(part(0), part(1), part(2))))
     }
 
-    /// The values of a call: two where [`Self::value_before_group`] finds two.
+    /// Returns the values of a call: two if [`Self::value_before_group`] finds two.
     pub(super) fn values_of_call(&mut self, here: &Here, id: ExpressionId) -> Outcome<Vec<Value>> {
         match self.value_before_group(here, id) {
             Some((Token { kind: TokenKind::Literal(value), .. }, group)) => {
@@ -105,8 +105,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Two values where a call is written: what a name holds that cannot be called, and what stands in
-    /// parentheses behind it.
+    /// Returns two values for a call of a name that holds a value that cannot be called: that value and the
+    /// one in parentheses after it.
     pub(super) fn value_before_group(
         &self,
         here: &Here,

@@ -1,7 +1,7 @@
-//! What was worked out for messages, so that no turn of a loop works it out again.
+//! Cache of analyses for messages, so that each turn of a loop does not repeat them.
 //!
-//! **Invariant:** what the first look at a place has found stays. It is reported each time all the same:
-//! the message may have been taken back, and whether it is a repetition is for `Diagnostics` to say.
+//! **Invariant:** the result of the first analysis of a span is kept. It is reported each time nevertheless:
+//! the message may have been withdrawn, and `Diagnostics` decides whether it is a repetition.
 
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
@@ -17,31 +17,31 @@ use super::{Evaluator, Here, Reported, Symbol};
 /// Why a name was compared with words of the language.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Asked {
-    /// It stands where a colour should.
+    /// It appears where a colour is expected.
     Color,
-    /// A block follows it where a value should stand.
+    /// It appears with a block where a value is expected.
     Block,
-    /// It is called where a word should stand.
+    /// It is called where a keyword is expected.
     Call,
 }
 
 #[derive(Debug, Default)]
 pub(super) struct Remembered {
-    /// By place, the block that it stands in, and whether a block follows it.
+    /// By span, enclosing block and whether a block follows it.
     pub unknown: HashMap<(Span, Option<Word>, bool), Rc<Unknown>>,
-    /// `None` where nothing is to be said.
+    /// `None` if nothing is to be reported.
     pub undeclared: HashMap<(Span, Symbol), Option<Rc<Diagnostic>>>,
     near: HashMap<(Span, Asked), Option<&'static str>>,
-    /// By call, what its macro could not use.
+    /// By call, the arguments that its macro could not use.
     pub refused: HashMap<Span, Vec<Refused>>,
-    /// The file that was last not found at a place.
+    /// The file that was last not found at a span.
     pub missing: HashMap<Span, (String, Rc<Diagnostic>)>,
-    /// Where the fixes are of what was told as an old form before anything ran.
+    /// Spans of the fixes for old forms that were reported before evaluation.
     pub old_forms: Option<HashSet<Span>>,
 }
 
 impl Evaluator<'_> {
-    /// Reports what may have been reported before.
+    /// Reports a diagnostic that may have been reported before.
     pub(super) fn report_again(&mut self, here: &Here, diagnostic: &Diagnostic) -> Reported {
         if self.repeats(diagnostic) {
             return Reported;
@@ -49,8 +49,8 @@ impl Evaluator<'_> {
         self.report(here, diagnostic.clone())
     }
 
-    /// Whether nothing comes of a message, which counts as reported then: the rest of it need not be worked
-    /// out.
+    /// Returns whether a message has no effect, in which case it counts as reported: the rest of it need not
+    /// be worked out.
     pub(super) fn repeats(&mut self, diagnostic: &Diagnostic) -> bool {
         let repeats = self.halted || !self.diagnostics.takes(diagnostic);
         if repeats && !self.halted {
@@ -59,13 +59,13 @@ impl Evaluator<'_> {
         repeats
     }
 
-    /// Notes that something was said, or would have been.
+    /// Counts a diagnostic that was reported, or would have been.
     pub(super) fn count(&mut self, diagnostic: &Diagnostic) {
         self.reports += 1;
         self.faults += u64::from(diagnostic.severity == Severity::Error);
     }
 
-    /// The word that was most likely meant at a place.
+    /// Returns the word that was most likely meant at a span.
     pub(super) fn near(
         &mut self,
         span: Span,

@@ -1,4 +1,4 @@
-//! What the evaluator says about mistakes that many places can make.
+//! Diagnostics for mistakes that many parts of the evaluator can find.
 
 use std::ops::RangeInclusive;
 
@@ -26,7 +26,7 @@ impl Evaluator<'_> {
         expansion: ExpansionId,
         mut diagnostic: Diagnostic,
     ) -> Reported {
-        // After a limit, what is missing is missing because nothing more is read.
+        // After a limit, parts are missing because nothing more is read.
         if self.repeats(&diagnostic) || self.may_be_undecided(diagnostic.code) {
             return Reported;
         }
@@ -41,8 +41,8 @@ impl Evaluator<'_> {
         Reported
     }
 
-    /// Reports what POV-Ray 3.7 renders all the same: an error in a `.scene`, and in a `.pov` a warning, with
-    /// which the caller goes on as POV-Ray does.
+    /// Reports a construct that POV-Ray 3.7 renders nevertheless: an error in a `.scene`; in a `.pov` a
+    /// warning, after which the caller goes on as POV-Ray does.
     #[cold]
     pub(super) fn opinion(&mut self, here: &Here, diagnostic: Diagnostic) -> Outcome<()> {
         match self.options.dialect {
@@ -54,7 +54,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A limit is reached: nothing further is evaluated.
+    /// Reports that a limit is reached, and halts the evaluation.
     pub(super) fn halt(&mut self, expansion: ExpansionId, diagnostic: Diagnostic) -> Reported {
         let reported = self.report_in(expansion, diagnostic);
         self.halted = true;
@@ -197,8 +197,8 @@ impl Evaluator<'_> {
         self.report(here, diagnostic)
     }
 
-    /// Something is not built that the item being read has: the first is its poison, and brings the
-    /// others along.
+    /// Records an unsupported word in the item being read. The first becomes the item's poison and carries
+    /// the others with it.
     pub(super) fn set_poison(&mut self, poison: Poison) {
         let first = *self.poison.get_or_insert(poison);
         if first.word != poison.word {
@@ -209,7 +209,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Poison has reached a place that needs its value: said of each word that is not built.
+    /// Reports poison whose value is needed, for each unsupported word.
     pub(super) fn not_supported(&mut self, poison: Poison, used: Option<Span>) -> Reported {
         let (mut told, mut all) = (vec![poison.word], vec![poison]);
         let mut used = used;
@@ -249,7 +249,7 @@ impl Evaluator<'_> {
         self.report_in(poison.site.expansion, diagnostic)
     }
 
-    /// A macro's name without its arguments.
+    /// Reports a macro's name without its arguments.
     pub(super) fn macro_not_called(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
         let name = self.scopes.name(symbol).to_owned();
         let form = match self.scopes.read(symbol) {
@@ -275,7 +275,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic)
     }
 
-    /// A loop that never ends, or not soon enough: nothing further is evaluated.
+    /// Reports a loop that never ends, or not soon enough, and halts the evaluation.
     pub(super) fn loop_limit(
         &mut self,
         here: &Here,
@@ -315,7 +315,7 @@ impl Evaluator<'_> {
             }
             _ => diagnostic.at(directive.head, label),
         };
-        // No limit helps a loop that is known not to end.
+        // No limit helps a loop that never ends.
         let limited = diagnostic.message.contains("turn") && !self.options.interrupt.is_set();
         let diagnostic = match limited {
             true => diagnostic.help("`--limit loop-turns=N` raises the limit"),
@@ -324,7 +324,7 @@ impl Evaluator<'_> {
         Err(self.halt(here.expansion, diagnostic))
     }
 
-    /// Something stands where a value should.
+    /// Reports an item that appears where a value is expected.
     pub(super) fn expected(
         &mut self,
         wanted: &str,
@@ -354,7 +354,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A token in words: its text when that is short.
+    /// Describes a token: its text if that is short.
     pub(super) fn describe(&self, token: &Token) -> String {
         match &token.kind {
             TokenKind::Block(_) => "a block".to_owned(),
@@ -375,7 +375,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// "one argument", "2 or 3 arguments", "at least 2 arguments".
+/// Returns a phrase such as "one argument", "2 or 3 arguments" or "at least 2 arguments".
 pub(super) fn count(range: &RangeInclusive<usize>, what: &str) -> String {
     let plural = |n: usize| if n == 1 { "" } else { "s" };
     match (*range.start(), *range.end()) {
@@ -388,8 +388,8 @@ pub(super) fn count(range: &RangeInclusive<usize>, what: &str) -> String {
     }
 }
 
-/// What a word that leads to nothing stands for, and its verb. A word that is built elsewhere is told
-/// by its use that is not.
+/// Returns the name of an unsupported feature, with its verb. A word that is supported elsewhere is described
+/// by its unsupported use.
 fn what_is_not_built(word: Word) -> String {
     let name = word.name();
     match word {
@@ -408,10 +408,10 @@ fn what_is_not_built(word: Word) -> String {
     }
 }
 
-/// The words of a word's family that can stand where it stands, and are built.
+/// Returns the supported words of a word's family that may replace it.
 fn built_beside(word: Word) -> Vec<String> {
     let beside = |other: Word| match other {
-        // Built of lights, and not of interiors.
+        // Supported in lights, but not in interiors.
         Word::FadeDistance | Word::FadePower => word.family() == Family::Light,
         // What the parts of a light stand in, and no part.
         Word::LightSource if word != Word::LightGroup => false,

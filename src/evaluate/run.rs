@@ -1,13 +1,13 @@
-//! What lies next in the text, taken without a token of it: marks, and runs of numbers, of which there may be
-//! megabytes.
+//! Fast paths that read from the text without a token: marks, and runs of numbers, which may be megabytes
+//! long.
 
 use crate::syntax::ast::{Item, ItemKind};
 
 use super::Evaluator;
 
 impl Evaluator<'_> {
-    /// Takes the item that lies next in the text, if it is a comma or a semicolon, which is all that `mark` can
-    /// be. `false` where more may have to be run to see what comes next.
+    /// Takes the next item of the text if it is a comma or a semicolon, the only values of `mark`. Returns
+    /// `false` if finding the next item may require running more.
     pub(super) fn pass(&mut self, mark: ItemKind) -> bool {
         if self.peeked.is_some() || self.halted || !self.has_memory(0) {
             return false;
@@ -24,7 +24,7 @@ impl Evaluator<'_> {
         true
     }
 
-    /// Passes over a run of numbers, if one comes next: there may be megabytes of them.
+    /// Skips a run of numbers, if one comes next; it may be megabytes long.
     pub(super) fn skip_run(&mut self) {
         if self.peeked.is_none()
             && let Some(frame) = self.frames.last_mut()
@@ -35,8 +35,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Moves up to `most` vectors of `width` numbers from the run of numbers that comes next, if one does,
-    /// to `entries`, each filled up with zeros: there may be megabytes of them.
+    /// Moves up to `most` vectors of `width` numbers from the run of numbers that comes next, if any, to
+    /// `entries`, padding each with zeros. A run may be megabytes long.
     pub(super) fn take_run(&mut self, width: usize, most: usize, entries: &mut Vec<[f64; 3]>) {
         if self.peeked.is_some() || self.halted {
             return;

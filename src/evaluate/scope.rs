@@ -1,8 +1,8 @@
-//! Which value a name has, here and now.
+//! Name resolution: which value a name has at the current point of evaluation.
 //!
-//! A table for the main file, one for each include being read and one for each macro being run; the
-//! newest that has the name wins (dynamic scoping, as POV-Ray has it). **Invariant:** a table that is
-//! still open keeps its slots, so a by-reference parameter always refers to its caller's variable.
+//! There is one table for the main file, one for each include being read and one for each macro being run;
+//! the newest table that has the name wins (dynamic scoping, as in POV-Ray). **Invariant:** an open table
+//! keeps its slots, so a by-reference parameter always refers to its caller's variable.
 
 use std::collections::HashMap;
 
@@ -15,41 +15,41 @@ use super::value::Value;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Symbol(u32);
 
-/// Names one declared macro.
+/// Index of a declared macro.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct MacroId(pub u32);
 
-/// Where a value is kept.
+/// Index of the storage for a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Slot(u32);
 
 impl Slot {
-    /// Of an optional parameter that a call left out: it hides what else has its name.
+    /// Slot of an optional parameter that a call omitted; it hides other bindings of its name.
     pub const NONE: Self = Self(u32::MAX);
 }
 
-/// Whose a name is, where it was first declared.
+/// Which kind of scope first declared a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Owner {
     /// The main file itself.
     Main,
     /// A macro of the main file, by `#local`.
     Macro,
-    /// An include, a loop, or whoever reads what a macro has set by `#declare`.
+    /// An include, a loop, or a macro that uses `#declare`, whose result its caller reads.
     Other,
 }
 
-/// What is known of a declared name: for messages.
+/// Where a name was declared, for messages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Declared {
     pub site: Site,
     pub used: bool,
     pub of: Owner,
-    /// Where `#undef` forgot it last.
+    /// Where `#undef` last removed it.
     pub undone: Option<Site>,
 }
 
-/// What a slot keeps.
+/// Contents of a slot.
 #[derive(Debug)]
 enum Kept {
     Value(Value),
@@ -62,7 +62,7 @@ struct SymbolState {
     /// Newest last: the depth of the table, and the slot.
     bindings: Vec<(u32, Slot)>,
     declared: Option<Declared>,
-    /// Whether its value is from outside, and nothing has asked for it yet.
+    /// Whether its value is from outside and has not been read yet.
     is_unread: bool,
 }
 
@@ -83,14 +83,14 @@ pub struct Scopes {
     by_name: HashMap<String, Symbol>,
     states: Vec<SymbolState>,
     slots: Vec<Kept>,
-    /// Bytes that the values in the slots hold, about.
+    /// Approximate size in bytes of the values in the slots.
     held: u64,
     /// Slots whose table has closed.
     free: Vec<Slot>,
-    /// The bindings of each open table, and whether the slot is its own; the first is the main file's, which never
-    /// closes and lists none.
+    /// The bindings of each open table, and whether the slot is its own. The first table is the main file's,
+    /// which never closes and lists none.
     tables: Vec<Vec<(Symbol, bool)>>,
-    /// Tables that have closed, to be opened again.
+    /// Closed tables, kept for reuse.
     spare: Vec<Vec<(Symbol, bool)>>,
 }
 
@@ -125,7 +125,7 @@ impl Scopes {
         &self.names[symbol.0 as usize]
     }
 
-    /// The symbol of a name, if it was ever seen.
+    /// Returns the symbol of a name, if it was ever interned.
     pub fn symbol(&self, name: &str) -> Option<Symbol> {
         self.by_name.get(name).copied()
     }
@@ -135,13 +135,13 @@ impl Scopes {
         (slot != Slot::NONE).then_some(slot)
     }
 
-    /// Whether the name is an optional parameter that was left out.
+    /// Returns whether the name is an optional parameter that was omitted.
     pub fn is_left_out(&self, symbol: Symbol) -> bool {
         let bindings = &self.states[symbol.0 as usize].bindings;
         bindings.last().is_some_and(|&(_, slot)| slot == Slot::NONE)
     }
 
-    /// The value of a name; reading it counts as a use.
+    /// Returns the value of a name; this counts as a use.
     #[inline]
     pub fn read(&mut self, symbol: Symbol) -> Option<&Value> {
         let state = &mut self.states[symbol.0 as usize];
@@ -150,7 +150,7 @@ impl Scopes {
         self.value(slot)
     }
 
-    /// As [`Self::read`], for what is said of it and no use of it.
+    /// As [`Self::read`], but for messages: does not count as a use.
     pub fn look(&self, symbol: Symbol) -> Option<&Value> {
         self.value(self.slot(symbol)?)
     }
@@ -163,7 +163,7 @@ impl Scopes {
         }
     }
 
-    /// The value of a slot, to be changed. Where an array lost the element, there is none.
+    /// Returns the value of a slot, mutably; `None` if the array no longer has the element.
     #[inline]
     fn value_mut(&mut self, slot: Slot) -> Option<&mut Value> {
         if let Kept::Element(array, indices) = self.slots.get(slot.0 as usize)? {
@@ -181,7 +181,7 @@ impl Scopes {
         self.tables.push(table);
     }
 
-    /// Closes the newest table; its names are forgotten.
+    /// Closes the newest table and forgets its names.
     pub fn close(&mut self) {
         let mut table = self.tables.pop().unwrap_or_default();
         while let Some((symbol, own)) = table.pop() {
@@ -199,36 +199,36 @@ impl Scopes {
         self.tables.len()
     }
 
-    /// `#local`: in the newest table, unless that has the name already.
+    /// `#local`: assigns in the newest table, unless the name is already bound there.
     pub fn assign_local(&mut self, symbol: Symbol, value: Value) {
         self.assign_in(self.home(symbol, true), symbol, value);
     }
 
-    /// `#declare`: where the name is found, be it local in a caller (so a parameter passes the value out);
-    /// else in the main file's table.
+    /// `#declare`: assigns where the name is found, even if it is local in a caller (so a parameter passes
+    /// the value out), otherwise in the main file's table.
     pub fn assign(&mut self, symbol: Symbol, value: Value) {
         self.assign_in(self.home(symbol, false), symbol, value);
     }
 
-    /// The table that `#declare` (or `#local`) of a name would assign in now. Its value may come from a
-    /// macro that has a parameter of that name, so this is asked before the value is read.
+    /// Returns the table in which a `#declare` (or `#local`) of a name would assign now. Its value may come
+    /// from a macro that has a parameter of that name, so this must be called before the value is read.
     pub fn home(&self, symbol: Symbol, local: bool) -> u32 {
         let found = self.states[symbol.0 as usize].bindings.last().filter(|_| !local);
         found.map_or(if local { self.tables.len() as u32 - 1 } else { 0 }, |&(depth, _)| depth)
     }
 
-    /// What the table that [`Self::home`] has named holds of a name.
+    /// Returns the value of a name in the table that [`Self::home`] returned.
     pub fn held_in(&self, depth: u32, symbol: Symbol) -> Option<&Value> {
         let bindings = &self.states[symbol.0 as usize].bindings;
         let &(_, slot) = bindings.iter().rev().find(|&&(other, _)| other == depth)?;
         self.value(slot)
     }
 
-    /// Assigns in the table that [`Self::home`] has named, or in the newest if that has closed.
+    /// Assigns in the table that [`Self::home`] returned, or in the newest if that has closed.
     pub fn assign_in(&mut self, depth: u32, symbol: Symbol, value: Value) {
         let depth = depth.min(self.tables.len() as u32 - 1);
         let bindings = &self.states[symbol.0 as usize].bindings;
-        // Mostly it is the newest that is meant.
+        // Usually the newest is meant.
         if let Some(&(newest, slot)) = bindings.last()
             && newest == depth
             && slot != Slot::NONE
@@ -249,7 +249,7 @@ impl Scopes {
             _ => {
                 let slot = self.keep(value);
                 self.states[symbol.0 as usize].bindings.insert(at, (depth, slot));
-                // The main file's never closes.
+                // The main file's table never closes.
                 if depth > 0 {
                     self.tables[depth as usize].push((symbol, true));
                 }
@@ -274,8 +274,8 @@ impl Scopes {
         }
     }
 
-    /// Binds a parameter: to a slot of its `own`, which is free when the table closes; to the caller's
-    /// variable; or to [`Slot::NONE`], so that its name is not declared until it is assigned.
+    /// Binds a parameter: to a slot of its `own`, which is freed when the table closes; to the caller's
+    /// variable; or to [`Slot::NONE`], which leaves its name undeclared until it is assigned.
     pub fn bind(&mut self, symbol: Symbol, slot: Slot, own: bool) {
         let depth = self.tables.len() as u32 - 1;
         self.states[symbol.0 as usize].bindings.push((depth, slot));
@@ -284,7 +284,7 @@ impl Scopes {
         }
     }
 
-    /// `#undef`: forgets the newest binding. `false` when there is none.
+    /// `#undef`: removes the newest binding. Returns `false` if there is none.
     pub fn undefine(&mut self, symbol: Symbol) -> bool {
         let Some((depth, _)) = self.states[symbol.0 as usize].bindings.pop() else {
             return false;
@@ -296,7 +296,7 @@ impl Scopes {
         true
     }
 
-    /// Remembers where a name was first declared, for messages and lints.
+    /// Records where a name was first declared, for messages and lints.
     pub fn note_declaration(&mut self, symbol: Symbol, site: Site, of: Owner) {
         let declared = &mut self.states[symbol.0 as usize].declared;
         if declared.is_none() {
@@ -304,7 +304,7 @@ impl Scopes {
         }
     }
 
-    /// Remembers where a name was forgotten, for messages.
+    /// Records where a name was undefined, for messages.
     pub fn note_undone(&mut self, symbol: Symbol, site: Site) {
         if let Some(declared) = &mut self.states[symbol.0 as usize].declared {
             declared.undone = Some(site);
@@ -320,29 +320,29 @@ impl Scopes {
         self.states[symbol.0 as usize].mark_used();
     }
 
-    /// A value from outside the scene, which is there before its first line.
+    /// Declares a value from outside the scene, which exists before its first line.
     pub fn give(&mut self, name: &str, value: Value) {
         let symbol = self.intern(name);
         self.assign(symbol, value);
         self.states[symbol.0 as usize].is_unread = true;
     }
 
-    /// Whether a name was given a value from outside that nothing has asked for; told once.
+    /// Returns whether a name's value from outside was never read; clears the flag.
     pub fn take_unread(&mut self, symbol: Symbol) -> bool {
         std::mem::take(&mut self.states[symbol.0 as usize].is_unread)
     }
 
-    /// The names that have a value now, in the order they were first seen.
+    /// Returns the names that have a value now, in the order in which they were first seen.
     pub fn visible(&self) -> impl Iterator<Item = &str> {
         let bound = self.states.iter().map(|state| {
             let value = state.bindings.last().and_then(|&(_, slot)| self.value(slot));
-            // A name that is only known because it was reported is no suggestion for another.
+            // A name that is known only because it was reported is not a suggestion for another.
             value.is_some_and(|value| *value != Value::Broken || state.declared.is_some())
         });
         self.names.iter().zip(bound).filter(|(_, bound)| *bound).map(|(name, _)| name.as_str())
     }
 
-    /// Every name that was declared and is still bound, with its value.
+    /// Returns every name that was declared and is still bound, with its value.
     pub fn declarations(&self) -> impl Iterator<Item = (&str, &Declared, Option<&Value>)> {
         self.names.iter().zip(&self.states).filter_map(|(name, state)| {
             let value = state.bindings.last().and_then(|&(_, slot)| self.value(slot));
@@ -350,14 +350,14 @@ impl Scopes {
         })
     }
 
-    /// A slot for a value that no name has yet.
+    /// Allocates a slot for a value that has no name yet.
     #[inline]
     pub fn keep(&mut self, value: Value) -> Slot {
         self.held = self.held.saturating_add(value.bytes());
         self.fill(Kept::Value(value))
     }
 
-    /// A slot that stands for an element of the array in another slot, which has it.
+    /// Allocates a slot that refers to an existing element of the array in another slot.
     pub fn refer(&mut self, array: Slot, indices: Box<[f64]>) -> Slot {
         self.fill(Kept::Element(array, indices))
     }
@@ -389,7 +389,7 @@ impl Scopes {
         }
     }
 
-    /// Bytes that the values of all names hold, about.
+    /// Returns the approximate size in bytes of the values of all names.
     pub fn held(&self) -> u64 {
         self.held
     }

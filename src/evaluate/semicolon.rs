@@ -1,9 +1,9 @@
-//! Semicolons and commas: in a `.pov` file a `;` ends the declaration of a number, a comma parts values, and
-//! nothing else has either.
+//! Semicolons and commas: in a `.pov` file a `;` ends the declaration of a number and a comma separates
+//! values; neither may appear anywhere else.
 //!
-//! **Source:** measured: POV-Ray refuses a declared number, vector or colour without its `;` from version 3.5
-//! on, takes a second `;` there, and refuses every other one; it refuses a comma behind the last part of a
-//! block, between words of a block, and between objects.
+//! **Source:** measured: from version 3.5 on, POV-Ray refuses a declared number, vector or colour without its
+//! `;`. It accepts a second `;` there and refuses every other one; it refuses a comma after the last part of
+//! a block, between the words of a block, and between objects.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
@@ -16,9 +16,9 @@ use super::value::Value;
 use super::{Evaluator, Here};
 
 impl Evaluator<'_> {
-    /// Takes the `;` behind the value of a `#declare`, which a number has to have.
+    /// Consumes the `;` after the value of a `#declare`, which is mandatory for a number.
     pub(super) fn end_of_declaration(&mut self, head: Span, value: Option<&Value>) {
-        // `#define A 1`, `int A = 1`: told as that.
+        // `#define A 1`, `int A = 1`: reported as such.
         let opening = self.sources.text(head);
         let named = opening.starts_with('#')
             && (opening.ends_with("declare") || opening.ends_with("local"));
@@ -41,7 +41,7 @@ impl Evaluator<'_> {
         if numeric && self.two_values(head) {
             return;
         }
-        // What else stands behind the value is a mistake of its own.
+        // Anything else after the value is a mistake of its own.
         let ends = matches!(
             self.peek_on().map(|token| &token.kind),
             None | Some(TokenKind::Word(_) | TokenKind::Block(_))
@@ -56,7 +56,7 @@ impl Evaluator<'_> {
             .at(self.sources.sign_before(place), "expected `;` after this")
             .help("POV-Ray refuses it without")
             .fix(place, ";");
-        // It may be told as an old form.
+        // It may be reported as an old form.
         let old_forms = self.remembered.old_forms.get_or_insert_with(|| {
             let told = self.diagnostics.iter().filter(|one| one.code == Code::LegacyForm);
             told.flat_map(|one| one.fixes.iter().map(|fix| fix.span)).collect()
@@ -67,7 +67,8 @@ impl Evaluator<'_> {
         self.report_in(last.expansion, diagnostic);
     }
 
-    /// `#declare Area = 2 pi*R;`, with no sign between two values on one line: takes the second, and its `;`.
+    /// Handles two values on one line without an operator, `#declare Area = 2 pi*R;`: consumes the second and
+    /// its `;`.
     fn two_values(&mut self, head: Span) -> bool {
         let Some(Token { kind: TokenKind::Expression(id), here, span }) = self.peek_on().cloned()
         else {
@@ -108,7 +109,7 @@ impl Evaluator<'_> {
         true
     }
 
-    /// `#version 3.7`, of which POV-Ray says no more than that it may be a mistake.
+    /// Checks the end of `#version 3.7`, where POV-Ray only warns of a possible mistake.
     pub(super) fn end_of_version(&mut self, here: &Here, version: ExpressionId) {
         let span = here.unit.expression(version).span;
         let behind = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
@@ -125,7 +126,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// `sphere { <0, 0, 0>; 1 }`: takes the sign where a comma is meant, before a value or a function.
+    /// Consumes a `;` where a comma is meant, before a value or a function: `sphere { <0, 0, 0>; 1 }`.
     pub(super) fn semicolon_for_comma(&mut self) {
         let Some(Token { kind: TokenKind::Semicolon, here, span }) = self.peek().cloned() else {
             return;
@@ -151,7 +152,7 @@ impl Evaluator<'_> {
         self.report(&here, diagnostic);
     }
 
-    /// A `;` that ends no declaration.
+    /// Reports a `;` that ends no declaration.
     pub(super) fn warn_of_semicolon(&mut self, token: &Token, place: Place) {
         if self.options.dialect == Dialect::Scene {
             return;
@@ -176,7 +177,7 @@ impl Evaluator<'_> {
         self.warn_in_statement(token, start, diagnostic);
     }
 
-    /// A comma that parts no values.
+    /// Reports a comma that separates no values.
     pub(super) fn warn_of_comma(&mut self, token: &Token, place: Place) {
         if self.options.dialect == Dialect::Scene || self.poison.is_some() {
             return;
@@ -194,7 +195,7 @@ impl Evaluator<'_> {
                 .fix(token.span, "");
         let statement = before.rsplit(['\n', '{']).next().unwrap_or("");
         let start = (before.len() - statement.len()) as u32;
-        // A value behind it is a mistake of its own.
+        // A value after it is a mistake of its own.
         let value =
             |next: &Token| matches!(next.kind, TokenKind::Expression(_) | TokenKind::Literal(_));
         if !self.peek_on().is_some_and(value) {
@@ -202,7 +203,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Tells it, unless something of the statement that begins at `start` has been told.
+    /// Reports the diagnostic, unless one was reported in the statement that begins at `start`.
     fn warn_in_statement(&mut self, token: &Token, start: u32, diagnostic: Diagnostic) {
         let of_statement = |span: Span| {
             span.file == token.span.file && (start..token.span.start).contains(&span.start)
@@ -217,7 +218,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether a statement's own directive ends with a `;`, or is none of the language's.
+/// Returns whether a statement's own directive ends with a `;`, or is none of the language's.
 fn ends_with_one(statement: &str) -> bool {
     let Some((_, directive)) = statement.rsplit_once('#') else { return false };
     let word = directive.trim_start().split(|c: char| !c.is_ascii_alphabetic()).next();
@@ -225,5 +226,5 @@ fn ends_with_one(statement: &str) -> bool {
     !known.is_some_and(|word| !matches!(word, Word::Declare | Word::Local))
 }
 
-/// The version of the language from which on a declared number needs its `;`.
+/// The language version from which a declared number needs its `;`.
 const SINCE: f64 = 3.5;

@@ -1,6 +1,6 @@
-//! A macro that was called for a value and leaves none.
+//! Macros that were called for a value and leave none.
 //!
-//! **Invariant:** it is said of the call, and not of what stands behind it.
+//! **Invariant:** the diagnostic is about the call, not about the text after it.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{ExpansionId, Span};
@@ -9,13 +9,13 @@ use super::stream::TokenKind;
 use super::{Evaluator, Reported};
 
 impl Evaluator<'_> {
-    /// A value is missing where a macro was called last that gave no item: says so.
+    /// Reports a missing value if the macro called last left no item.
     pub(super) fn blame_macro(&mut self, wanted: &str) -> Option<Reported> {
         let silent = self.silent.take()?;
         Some(silent.called.map_or(Reported, |called| self.leaves_no_value(called, wanted)))
     }
 
-    /// A macro was called for a value and has run to its end without an item.
+    /// Reports a macro that was called for a value and ended without an item.
     pub(super) fn leaves_no_value(&mut self, called: ExpansionId, wanted: &str) -> Reported {
         if self.wrong_calls.contains(&called) {
             return Reported;
@@ -33,8 +33,8 @@ impl Evaluator<'_> {
         self.report_in(expansion.parent, diagnostic.help(help))
     }
 
-    /// `#declare A = Prepare() 3;`: what stands behind a macro that leaves no value is taken for it, as in
-    /// POV-Ray, be it the next object of the scene.
+    /// Warns when the item after a macro that leaves no value is taken as its value, as in POV-Ray, even if
+    /// it is the next object of the scene: `#declare A = Prepare() 3;`.
     pub(super) fn lint_silent_macro(&mut self, target: Span) {
         let first = match self.peek() {
             Some(first)
@@ -45,7 +45,7 @@ impl Evaluator<'_> {
             {
                 first.span
             }
-            // No value: the macro is to blame for that.
+            // No value: the macro is the cause.
             Some(_) | None => return,
         };
         let called = self.silent.take().and_then(|silent| silent.called);

@@ -1,8 +1,8 @@
-//! Splines: `spline { natural_spline 0, <0, 0, 0>, 1, <2, 1, 0> }`, and their values in time.
+//! Splines (`spline { natural_spline 0, <0, 0, 0>, 1, <2, 1, 0> }`) and their values over time.
 //!
-//! **Source:** manual, section 3.3.1.10 ("Splines"); measured: a name of a spline comes before the
-//! kind, and gives kind and values; values of different size meet as in sums. Of two values for one
-//! time see `spline.rs`.
+//! **Source:** manual, section 3.3.1.10 ("Splines"). Measured: the name of a spline comes before the kind,
+//! and supplies kind and values; values of different size are promoted as in sums. For two values at one time
+//! see `spline.rs`.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use super::stream::{Token, TokenKind};
 use super::value::{Components, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
-/// A spline and how many numbers its values have.
+/// A spline and the number of components of its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SplineValue {
     pub spline: Spline,
@@ -28,7 +28,7 @@ impl SplineValue {
         self.components
     }
 
-    /// The value at a time: a vector of two to five.
+    /// Returns the value at a time: a vector of two to five components.
     pub fn at(&self, time: f64) -> Value {
         let values = self.spline.at(time);
         Components::new(&values[..self.components]).map_or(Value::Broken, Value::Vector)
@@ -49,7 +49,7 @@ fn kind_of(word: Word) -> Option<SplineKind> {
 }
 
 impl Evaluator<'_> {
-    /// `spline { … }`, after its word.
+    /// Reads `spline { … }`, after its keyword.
     pub(super) fn spline(&mut self, token: &Token) -> Outcome<Value> {
         self.block(token, Word::Spline, |evaluator| evaluator.spline_items(token))
     }
@@ -127,7 +127,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `spline { linear_spline 2, <0,0,0>, <1,1,1> }`: how many values there are, as in a lathe.
+    /// Reports a count of values, which a lathe has but a spline does not: `spline { linear_spline 2,
+    /// <0,0,0>, <1,1,1> }`.
     fn counted_spline(&mut self, token: &Token, count: f64, first: Site) -> Option<Reported> {
         let block = self.blocks.last().map(|block| block.span)?;
         if block.file != first.span.file || !block.contains(first.span) || count < 2.0 {
@@ -156,7 +157,7 @@ impl Evaluator<'_> {
         Some(self.report(&token.here, told))
     }
 
-    /// Two values for one time, which are no jump: one of them does not count.
+    /// Reports two values at one time that are not a jump: one of them has no effect.
     fn tell_same_time(&mut self, written: &[(f64, Site)]) {
         let mut at: Vec<usize> = (0..written.len()).collect();
         at.sort_by(|&a, &b| written[a].0.total_cmp(&written[b].0));
@@ -173,14 +174,15 @@ impl Evaluator<'_> {
         let mut diagnostic = Diagnostic::new(Code::RepeatedTime, message)
             .at(later.span, label)
             .help("a jump lies between two times that differ by a little");
-        // Of a loop, both stand at one place.
+        // In a loop, both have the same span.
         if before.span != later.span {
             diagnostic = diagnostic.also(before.span, "the first is here");
         }
         self.report_in(later.expansion, diagnostic);
     }
 
-    /// `cubic_spine -1, x …`: what is no kind, and read as less the first time.
+    /// Reports a misspelt kind that reads as the left operand of a difference with the first time:
+    /// `cubic_spine -1, x …`.
     fn kind_less_time(&mut self, token: &Token) -> Option<Reported> {
         let TokenKind::Expression(id) = token.kind else { return None };
         let ExpressionKind::Binary(BinaryOperator::Subtract, first, _) =
@@ -196,7 +198,7 @@ impl Evaluator<'_> {
         Some(Reported)
     }
 
-    /// `cubic` for `cubic_spline`.
+    /// Recognizes `cubic` for `cubic_spline`.
     fn short_kind(&mut self, token: &Token) -> Option<SplineKind> {
         let is_name = match token.kind {
             TokenKind::Word(_) => true,
@@ -226,7 +228,7 @@ impl Evaluator<'_> {
         Some(kind)
     }
 
-    /// `S(time)` or `S(time, natural_spline)`.
+    /// Evaluates `S(time)` or `S(time, natural_spline)`.
     pub(super) fn spline_value(
         &mut self,
         here: &Here,

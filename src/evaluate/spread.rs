@@ -1,7 +1,7 @@
-//! What a macro leaves where a list is read: `<Pair(), 3>`, `max(Pair())`, `Box(Pair())`.
+//! Macro calls that leave several values in a list: `<Pair(), 3>`, `max(Pair())`, `Box(Pair())`.
 //!
-//! **Invariant:** as in POV-Ray, where the text of a macro stands for its call, a call is as many entries of the
-//! list as the macro leaves values between commas.
+//! **Invariant:** as in POV-Ray, where a macro's text replaces its call, a call contributes as many entries
+//! to the list as the macro leaves values between commas.
 
 use std::ops::RangeInclusive;
 
@@ -14,11 +14,11 @@ use super::stream::{Token, TokenKind};
 use super::value::{Components, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
-/// Entries of a list that are other than one value each: their places, and what they are.
+/// List entries that are not exactly one value: their indices and values.
 pub(super) type Spread = Vec<(usize, Vec<Value>)>;
 
 impl Evaluator<'_> {
-    /// What the macro that an entry calls leaves; `None` where the entry is anything else.
+    /// Returns what the macro called by an entry leaves; `None` if the entry is anything else.
     pub(super) fn left_by_macro(
         &mut self,
         here: &Here,
@@ -33,7 +33,7 @@ impl Evaluator<'_> {
         self.read_macro(here, called, arguments, span, |evaluator| evaluator.values(here, span))
     }
 
-    /// The values that the current items leave, between commas.
+    /// Returns the values that the current items leave, separated by commas.
     pub(super) fn values(&mut self, here: &Here, span: Span) -> Outcome<Vec<Value>> {
         if self.options.dialect == Dialect::Pov && self.peek().is_some() {
             return self.values_side_by_side(here, span);
@@ -51,8 +51,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The values that the current items leave, with a comma between two of them or without: POV-Ray reads
-    /// `Dot(0, 1 color rgb <1, 0.5, 0>)` so.
+    /// Returns the values that the current items leave, with or without commas between them: POV-Ray accepts
+    /// `Dot(0, 1 color rgb <1, 0.5, 0>)`.
     fn values_side_by_side(&mut self, here: &Here, span: Span) -> Outcome<Vec<Value>> {
         let mut values = Vec::new();
         while self.peek().is_some() {
@@ -64,8 +64,8 @@ impl Evaluator<'_> {
         Ok(values)
     }
 
-    /// The arguments of a call that has too few, where some of them are more than one value each and all
-    /// together are as many as is `wanted`; empty where they are not.
+    /// Returns the arguments of a call with too few of them, if some are more than one value each and all
+    /// together are as many as `wanted`; otherwise empty.
     pub(super) fn spread(
         &mut self,
         here: &Here,
@@ -107,7 +107,8 @@ impl Evaluator<'_> {
         Ok(spread)
     }
 
-    /// An object and a signed value without a comma between them: POV-Ray reads `Align(Ball() -y, 0)` so.
+    /// Reads an object and a signed value without a comma between them: POV-Ray accepts `Align(Ball() -y,
+    /// 0)`.
     fn object_and_value(&mut self, here: &Here, id: ExpressionId) -> Outcome<Option<[Value; 2]>> {
         let ExpressionKind::Binary(
             sign @ (BinaryOperator::Add | BinaryOperator::Subtract),
@@ -141,7 +142,7 @@ impl Evaluator<'_> {
         Ok(Some([first, second]))
     }
 
-    /// Something stands behind the one value that was expected.
+    /// Reports an item after the single value that was expected.
     pub(super) fn more_than_one(&mut self, extra: &Token) -> Reported {
         let diagnostic =
             Diagnostic::new(Code::ExtraPart, "one value was expected here, and there are more")
@@ -156,14 +157,14 @@ impl Evaluator<'_> {
         self.report(&extra.here, diagnostic)
     }
 
-    /// `#case (1, 2)`.
+    /// Returns whether a comma is in the parentheses of a case: `#case (1, 2)`.
     fn is_in_case(&self, comma: Span) -> bool {
         let before = self.sources.get(comma.file).text.get(..comma.start as usize).unwrap_or("");
         let line = before.rsplit(['\n', '\r']).next().unwrap_or("");
         line.rsplit('#').next().is_some_and(|head| head.starts_with("case"))
     }
 
-    /// `A[I, J]`: whether what stands there is behind a comma in the brackets of an index.
+    /// Returns whether a comma is in the brackets of an index: `A[I, J]`.
     fn is_index(&self, comma: Span) -> bool {
         let text = &self.sources.get(comma.file).text;
         let before = text.get(..comma.start as usize).unwrap_or("");

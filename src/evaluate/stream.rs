@@ -1,4 +1,4 @@
-//! The next item, with directives, macro calls and includes run on the way to it.
+//! The stream of items; running directives, macro calls and includes on the way to the next one.
 //!
 //! **Invariant:** a consumer sees only the items of its own block (see `enclosure`). Loops and macros are
 //! frames on a list, not calls.
@@ -16,27 +16,28 @@ use super::scope::Symbol;
 use super::value::{Components, Value};
 use super::{Evaluator, Here, Outcome, Reported, Unit};
 
-/// A loop in which mistakes were reported ends after so many turns without another word.
+/// Number of turns after which a loop with reported mistakes ends without a further message.
 pub(super) const FAULTY_TURNS: u64 = 1_000;
-/// So many turns with mistakes may all loops together have: those that hold each other soon have more.
+/// Maximum number of turns with mistakes of all loops together, which nested loops soon exceed.
 pub(super) const ALL_FAULTY_TURNS: u64 = 10 * FAULTY_TURNS;
 
-/// So many turns and calls are run after the first error to find others: they take less than a second.
+/// Maximum number of turns and calls that are run after the first error to find more: they take less than a
+/// second.
 pub(super) const MOST_RUN_SINCE_FAULT: u64 = 100_000;
 
-/// Items being walked.
+/// A cursor over a sequence of items.
 #[derive(Debug)]
 pub(super) struct Frame {
     pub(super) here: Here,
     pub(super) at: u32,
     pub(super) end: u32,
-    /// Elements already taken of the number run at `at`.
+    /// Number of elements already taken of the number run at `at`.
     pub(super) taken: u32,
     pub(super) kind: FrameKind,
 }
 
 impl Frame {
-    /// The next element of the number run at `at`, which is taken.
+    /// Returns the next element of the number run at `at`, and consumes it.
     fn literal(&mut self, start: u32, count: u32, width: u32) -> Value {
         let first = (start + self.taken * width) as usize;
         self.taken += 1;
@@ -52,20 +53,20 @@ impl Frame {
 
 #[derive(Debug)]
 pub(super) enum FrameKind {
-    /// Items of their own, an argument's or a group's: their consumer sees no further.
+    /// Items of an argument or a group, past which their consumer cannot see.
     Barrier,
-    /// The items of a block; their end is its `}`.
+    /// The items of a block, which ends with its `}`.
     Block,
     /// A branch of a condition.
     Branch,
-    /// A case of a switch: `#break` ends it.
+    /// A case of a switch, which `#break` ends.
     Switch,
     While {
         condition: ExpressionId,
         body: Items,
         turns: u64,
         directive: DirectiveId,
-        /// How many mistakes had been met when it started.
+        /// Number of mistakes found before it started.
         faults: u64,
     },
     For {
@@ -76,7 +77,7 @@ pub(super) enum FrameKind {
         body: Items,
         turns: u64,
         directive: DirectiveId,
-        /// How many mistakes had been met when it started.
+        /// Number of mistakes found before it started.
         faults: u64,
     },
     /// A macro's body: `#break` ends it, and no loop around it.
@@ -85,23 +86,23 @@ pub(super) enum FrameKind {
     Include,
 }
 
-/// How many frames there were where a `#declare` stands, and at the first item of its value.
+/// The numbers of frames at a `#declare` and at the first item of its value.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hold {
     pub own: usize,
     pub first: usize,
 }
 
-/// A macro call that gave no item.
+/// A macro call that left no item.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Silent {
-    /// `None` where the call itself was at fault, and that was told.
+    /// `None` if the call itself was wrong and has been reported.
     pub called: Option<ExpansionId>,
-    /// What had been taken before it.
+    /// Position of the item taken before it.
     behind: Option<Site>,
 }
 
-/// What a consumer gets.
+/// An item as a consumer receives it.
 #[derive(Debug, Clone)]
 pub(super) struct Token {
     pub kind: TokenKind,
@@ -110,7 +111,7 @@ pub(super) struct Token {
 }
 
 impl Token {
-    /// Where it starts: a block's own brace, or the whole of anything shorter.
+    /// Returns the span of its start: a block's opening brace, or the whole span of anything shorter.
     pub fn span_head(&self) -> Span {
         match self.kind {
             TokenKind::Block(_) | TokenKind::Entry(_) => {
@@ -152,7 +153,7 @@ impl Evaluator<'_> {
         self.push(here, items, FrameKind::Switch);
     }
 
-    /// A loop starts at its (empty) end, where its condition is asked.
+    /// Pushes a loop, positioned at its (empty) end, where its condition is evaluated.
     pub(super) fn push_while(
         &mut self,
         here: &Here,
@@ -182,7 +183,7 @@ impl Evaluator<'_> {
         );
     }
 
-    /// The caller has opened the macro's table and bound its parameters.
+    /// Pushes a macro's body; the caller has opened the macro's table and bound its parameters.
     pub(super) fn push_macro(&mut self, unit: &Rc<Unit>, expansion: ExpansionId, body: Items) {
         self.macro_depth += 1;
         self.push_owned(Here { unit: unit.clone(), expansion }, body, FrameKind::Macro);
@@ -215,19 +216,19 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether the next statement stands in the main file itself, outside of macros.
+    /// Returns whether the next statement is in the main file itself, outside macros.
     pub(super) fn in_main(&self) -> bool {
         self.scopes.depth() == 1
     }
 
-    /// Whether `here` is a macro of the main file being run.
+    /// Returns whether `here` is in a running macro of the main file.
     pub(super) fn in_macro_of_main(&self, here: &Here) -> bool {
         let innermost = self.scene.expansions.chain(here.expansion).next();
         here.unit.ast.file == FileId(0)
             && innermost.is_some_and(|expansion| expansion.kind == ExpansionKind::Macro)
     }
 
-    /// The next item, not taken.
+    /// Returns the next item without consuming it.
     pub(super) fn peek(&mut self) -> Option<&Token> {
         if self.peeked.is_none() {
             self.peeked = self.pull();
@@ -235,8 +236,8 @@ impl Evaluator<'_> {
         self.peeked.as_ref()
     }
 
-    /// As [`Self::peek`], where a value could end: past the end of a `#declare` no macro is called, since
-    /// its arguments may already ask for the value.
+    /// As [`Self::peek`], at a position where a value could end: past the end of a `#declare` no macro is
+    /// called, since its arguments may already use the value.
     pub(super) fn peek_on(&mut self) -> Option<&Token> {
         self.calls_wait = true;
         self.peek();
@@ -244,7 +245,7 @@ impl Evaluator<'_> {
         self.peeked.as_ref()
     }
 
-    /// Takes the next item; `None` at the end of the block.
+    /// Consumes and returns the next item; `None` at the end of the block.
     pub(super) fn next(&mut self) -> Option<Token> {
         let token = match self.peeked.take() {
             Some(token) => Some(token),
@@ -256,7 +257,7 @@ impl Evaluator<'_> {
         token
     }
 
-    /// Takes the next item if it is this word.
+    /// Consumes the next item if it is this word.
     pub(super) fn take_word(&mut self, word: Word) -> Option<Token> {
         match self.peek() {
             Some(token) if token.kind == TokenKind::Word(word) => self.next(),
@@ -264,12 +265,12 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Takes the next item if it is of a kind that suits.
+    /// Consumes the next item if its kind satisfies `suits`.
     pub(super) fn next_if(&mut self, suits: impl FnOnce(&TokenKind) -> bool) -> Option<Token> {
         if self.peek().is_some_and(|token| suits(&token.kind)) { self.next() } else { None }
     }
 
-    /// Takes one comma, if there is one.
+    /// Consumes one comma, if there is one.
     pub(super) fn skip_comma(&mut self) {
         let is_next = |token: &Token| matches!(token.kind, TokenKind::Comma);
         if !self.pass(ItemKind::Comma) && self.peek().is_some_and(is_next) {
@@ -277,7 +278,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Takes commas: they may stand between parts, and may be left out.
+    /// Consumes commas, which are optional between parts.
     pub(super) fn skip_commas(&mut self) {
         while self.pass(ItemKind::Comma) {}
         while matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. })) {
@@ -285,7 +286,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether what comes next is not run now, since it lies behind the value of a `#declare`.
+    /// Returns whether the next item must not run now because it is after the value of a `#declare`.
     fn waits(&self) -> bool {
         let Some(hold) = self.hold else { return false };
         let Some(frame) = self.frames.last() else { return false };
@@ -314,7 +315,7 @@ impl Evaluator<'_> {
             if self.halted {
                 return None;
             }
-            // A directive may have looked at what comes after its value.
+            // A directive may have looked past its value.
             if self.peeked.is_some() {
                 return self.peeked.take();
             }
@@ -383,7 +384,7 @@ impl Evaluator<'_> {
                     // Reported where it happened; the statement is the fault boundary.
                     let _: Outcome<()> = self.directive(&here, id);
                     (self.taken, self.silent) = (taken, silent);
-                    // Its `;` is no part of the block that it stands in.
+                    // Its `;` is not part of the enclosing block.
                     if let DirectiveKind::Version(_) = here.unit.ast.directive(id).kind {
                         self.pass(ItemKind::Semicolon);
                     }
@@ -394,7 +395,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// What an item is to whoever takes it, where nothing has to be run for it.
+/// Returns the token of an item that can be taken without running anything.
 #[inline]
 fn taken_as_it_is(ast: &Ast, kind: ItemKind) -> Option<TokenKind> {
     Some(match kind {

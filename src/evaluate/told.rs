@@ -1,9 +1,9 @@
-//! How much has been told, and taking it back.
+//! Snapshots of the reported diagnostics, and rollback to them.
 
 use super::Evaluator;
 use super::value::Value;
 
-/// How much was told at some time.
+/// A snapshot of the reported diagnostics.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Told {
     diagnostics: usize,
@@ -12,7 +12,7 @@ pub(super) struct Told {
 }
 
 impl Evaluator<'_> {
-    /// How much was told so far, for [`Self::take_back`].
+    /// Returns a snapshot for [`Self::take_back`].
     pub(super) fn told(&self) -> Told {
         Told {
             diagnostics: self.diagnostics.len(),
@@ -21,8 +21,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Takes back what was told since: it was about text that does not count. A name that was told there is
-    /// told where it stands next.
+    /// Withdraws the diagnostics reported since the snapshot, which concerned text that does not count. A
+    /// name reported there is reported again at its next occurrence.
     pub(super) fn take_back(&mut self, since: Told) {
         self.diagnostics.forget_after(since.diagnostics);
         self.ends_told.truncate(since.ends);

@@ -1,4 +1,4 @@
-//! Turns of loops, and the chosen case of a switch.
+//! Loop turns, and the selection of a switch's case.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -12,12 +12,12 @@ use super::stream::{ALL_FAULTY_TURNS, FAULTY_TURNS, Frame, FrameKind, MOST_RUN_S
 use super::value::Value;
 use super::{Evaluator, Here, Limits, Outcome, endless};
 
-/// After so many turns it is looked whether anything can end a loop: most loops have fewer, and looking takes as
-/// long as some thousand turns.
+/// Number of turns after which a loop is analysed for anything that can end it: most loops have fewer, and
+/// the analysis costs as much as some thousand turns.
 const SUSPICIOUS_TURNS: u64 = 10_000;
 
 impl Evaluator<'_> {
-    /// One more turn of the innermost loop, or its end.
+    /// Starts the next turn of the innermost loop, or ends it.
     #[inline(never)]
     pub(super) fn turn(&mut self) {
         let worn_out = match self.frames.last().map(|frame| &frame.kind) {
@@ -58,13 +58,13 @@ impl Evaluator<'_> {
                 *turns += 1;
                 let (here, condition, body, turns, directive) =
                     (here.clone(), *condition, *body, *turns, *directive);
-                // What a mistake in it keeps from being computed may be what ends the loop.
+                // A mistake in the body may prevent the computation that ends the loop.
                 let faulty = worn_out || (turns > FAULTY_TURNS && self.misread);
                 let goes_on = if faulty { Ok(false) } else { self.condition(&here, condition) };
                 let unknown = goes_on.is_err()
                     || (goes_on == Ok(false) && self.asks_of_broken(&here, condition));
                 if unknown && turns == 1 {
-                    // What the condition would be is not known: the body is read once, for its own mistakes.
+                    // The condition's value is unknown: the body is read once, for its own mistakes.
                     self.pop_frame();
                     self.undecided = true;
                     return self.push_switch(&here, body);
@@ -95,7 +95,7 @@ impl Evaluator<'_> {
                         if told || !self.sources.text(head).ends_with("while") {
                             return self.pop_frame();
                         }
-                        // Nothing can change: this would only run into the limit.
+                        // Nothing can change: the loop would only run into the limit.
                         let message = "this loop does not end".to_owned();
                         let label = "its condition is always true";
                         let _: Outcome<()> = self.loop_limit(&here, directive, message, label);
@@ -114,7 +114,7 @@ impl Evaluator<'_> {
                 let now = set.map_or(*value, |set| set + *step);
                 *value = now;
                 let apart = (now - *to).abs();
-                // What is no number is never reached.
+                // NaN is never reached.
                 let reached = !apart.is_nan() && comparison.same(now, *to)
                     // A step's worth of rounding: 0, 0.1 … 1 has eleven values.
                     || (step.is_finite() && apart <= 1e-9 * step.abs());
@@ -150,7 +150,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `#break`: leaves the innermost loop, switch or macro. `false` when there is none in this block
+    /// `#break`: leaves the innermost loop, switch or macro. Returns `false` if there is none in this block
     /// or file.
     pub(super) fn break_out(&mut self) -> bool {
         let reach = self.frames.iter().rposition(|frame| !matches!(frame.kind, FrameKind::Branch));
@@ -166,7 +166,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Goes on where the macro ends whose body a frame walks.
+    /// Continues at the end of the macro whose body a frame runs.
     fn end_of_macro(&mut self, at: usize) -> bool {
         self.frames.truncate(at + 1);
         if let Some(frame) = self.frames.last_mut() {
@@ -175,7 +175,7 @@ impl Evaluator<'_> {
         true
     }
 
-    /// `#while (defined(File))`, of a file that could not be opened.
+    /// Returns whether a condition is `#while (defined(File))` for a file that could not be opened.
     fn asks_of_broken(&self, here: &Here, condition: ExpressionId) -> bool {
         let asked = match here.unit.expression(condition).kind {
             ExpressionKind::Group(inner) => here.unit.expression(inner).kind,
@@ -189,7 +189,8 @@ impl Evaluator<'_> {
         self.scopes.look(here.symbol(name)) == Some(&Value::Broken)
     }
 
-    /// `#switch (A) sphere { 0, 1 } #case (1) …`: a value, a word or a block before the first case, or no case at all.
+    /// Reports a switch with a value, a word or a block before its first case, or with no case at all:
+    /// `#switch (A) sphere { 0, 1 } #case (1) …`.
     pub(super) fn tell_case_lacking(
         &mut self,
         here: &Here,
@@ -216,21 +217,21 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// Whether a loop has had enough turns since the first mistake in it.
+    /// Returns whether a loop has had enough turns since its first mistake.
     fn is_worn_out(&mut self, turns: u64, faults: u64) -> bool {
         let faulty = turns > 0 && self.faults > faults;
         self.faulty_turns += u64::from(faulty);
         faulty && (turns > FAULTY_TURNS || self.faulty_turns > ALL_FAULTY_TURNS)
     }
 
-    /// Counts a turn or a call, and says whether enough has been run since the first error: there will be no
-    /// picture, and its author waits for the messages.
+    /// Counts a turn or a call, and returns whether enough has been run since the first error: there will be
+    /// no image, and the author is waiting for the messages.
     pub(super) fn has_run_enough(&mut self) -> bool {
         self.run_since_fault += u64::from(self.misread || self.faults > 0);
         self.run_since_fault > MOST_RUN_SINCE_FAULT
     }
 
-    /// The items of the case that `value` chooses, up to the end of the switch: cases fall through.
+    /// Returns the items of the case that `value` selects, up to the end of the switch: cases fall through.
     pub(super) fn chosen_case(
         &mut self,
         here: &Here,

@@ -1,5 +1,5 @@
-//! Results that are no finite numbers: an error in a `.scene`; in a `.pov` a warning, and calculations go on with
-//! them as in POV-Ray 3.7.
+//! Non-finite results: an error in a `.scene`; a warning in a `.pov`, where calculations go on with them as
+//! in POV-Ray 3.7.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -10,12 +10,12 @@ use super::builtin::{self, CallError, CallErrorKind};
 use super::value::{self, OperationError, Value};
 use super::{Evaluator, Here, Outcome};
 
-/// The numbers of 32 bits, in which POV-Ray 3.7 keeps whole parts.
+/// The range of 32-bit integers, in which POV-Ray 3.7 stores integer parts.
 const WHOLE: std::ops::RangeInclusive<f64> = i32::MIN as f64..=i32::MAX as f64;
 
 impl Evaluator<'_> {
-    /// What an operation on `values` comes to that has no finite result. Only where they are finite themselves
-    /// is there something to tell.
+    /// Handles an operation on `values` without a finite result. Reports it only if the operands themselves
+    /// are finite.
     #[cold]
     pub(super) fn no_plain_result(
         &mut self,
@@ -39,15 +39,16 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether POV-Ray's answer to a call is another than the result here: a whole part that needs more than 32
-    /// bits.
+    /// Returns whether POV-Ray's result of a call differs from this one because its integer part needs more
+    /// than 32 bits.
     pub(super) fn is_cut_off(&self, word: Word, result: f64) -> bool {
         matches!(word, Word::Int | Word::Div)
             && self.options.dialect == Dialect::Pov
             && !WHOLE.contains(&result)
     }
 
-    /// What POV-Ray gives for a call that has no result here, or another one; `None` where it refuses it, too.
+    /// Returns POV-Ray's result for a call that has none here, or a different one; `None` if POV-Ray refuses
+    /// it too.
     pub(super) fn unbounded_call(
         &self,
         word: Word,
@@ -68,7 +69,7 @@ impl Evaluator<'_> {
         rendered.then(|| builtin::rendered(word, values)).flatten()
     }
 
-    /// The value of a function that is no finite number.
+    /// Handles a function's value that is not finite.
     #[cold]
     pub(super) fn no_finite_value(
         &mut self,
@@ -85,7 +86,7 @@ impl Evaluator<'_> {
         Ok(Value::Number(value))
     }
 
-    /// Why an operation has no finite result.
+    /// Explains why an operation has no finite result.
     pub(super) fn no_finite_result(
         &self,
         here: &Here,

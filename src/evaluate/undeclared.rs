@@ -1,8 +1,8 @@
-//! What to say of a name that was never declared, and what it was most likely meant to be.
+//! Diagnostics for undeclared names, with the most likely intended name.
 //!
-//! **Invariant:** a name that differs only in case is the likeliest; then what another language calls so,
-//! one that a standard include declares under just this name, then a close one of the author's, then a
-//! word of the language.
+//! **Invariant:** suggestions are tried in this order: a name that differs only in case, the equivalent of
+//! another language's name, a name that a standard include declares exactly, a similar name of the author's,
+//! a word of the language.
 
 mod elsewhere;
 mod lacking;
@@ -25,16 +25,16 @@ use super::value::Value;
 use super::written::number_as_a_name;
 use super::{Evaluator, Here, Reported, Symbol};
 
-/// Of so many undeclared names it is looked for what each was meant to be; each look goes through all names.
+/// Maximum number of undeclared names for which a suggestion is searched; each search goes through all names.
 const MOST_LOOKS: usize = 200;
 
 impl Evaluator<'_> {
-    /// A name that was never declared, where a value should stand: said once for each name.
+    /// Reports an undeclared name where a value is expected, once for each name.
     pub(super) fn undeclared(&mut self, here: &Here, symbol: Symbol, span: Span) -> Reported {
         self.undeclared_among(here, symbol, span, |word| word.role() != Role::Statement)
     }
 
-    /// As [`Self::undeclared`], where the words that `fits` says yes to could stand.
+    /// As [`Self::undeclared`], at a position where the words that `fits` accepts could appear.
     pub(super) fn undeclared_among(
         &mut self,
         here: &Here,
@@ -43,14 +43,14 @@ impl Evaluator<'_> {
         fits: impl Fn(Word) -> bool,
     ) -> Reported {
         let name = self.scopes.name(symbol).to_owned();
-        // `Arm_001`, where `Arm.001` is declared: that has been told.
+        // `Arm_001`, where `Arm.001` is declared: that has been reported.
         let is_dotted =
             |other: &str| other.contains(['.', '-']) && other.replace(['.', '-'], "_") == name;
         let is_looked_for = self.remembered.undeclared.len() < MOST_LOOKS;
         if is_looked_for && name.contains('_') && self.scopes.visible().any(is_dotted) {
             return Reported;
         }
-        // `T_Stone 21`: of that it was told as it was read.
+        // `T_Stone 21`: reported when it was parsed.
         if name.contains([' ', '-']) {
             self.scopes.assign(symbol, Value::Broken);
             return Reported;
@@ -76,13 +76,13 @@ impl Evaluator<'_> {
         if let Some(told) = told {
             self.report_again(here, &told);
         }
-        // Known from now on, so that it is said once.
+        // Declared from now on, so that it is reported once.
         self.scopes.assign(symbol, Value::Broken);
         self.assumed.push(symbol);
         Reported
     }
 
-    /// The one name of the author's that one with a capital is somewhat like.
+    /// Returns the only one of the author's names that a capitalized name resembles.
     pub(super) fn one_alike(&self, name: &str) -> Option<&str> {
         let own = self.scopes.visible().filter(|other| {
             let is_standard = || standard_include_of(other).is_some();
@@ -91,7 +91,7 @@ impl Evaluator<'_> {
         name.starts_with(char::is_uppercase).then(|| suggest::alike(name, own))?
     }
 
-    /// `None` where it may be the lack of an include, which was told.
+    /// Returns the diagnostic; `None` if the cause may be a missing include, which was reported.
     fn not_declared(
         &mut self,
         here: &Here,
@@ -100,7 +100,7 @@ impl Evaluator<'_> {
         span: Span,
         fits: impl Fn(Word) -> bool,
     ) -> Option<Diagnostic> {
-        // Its own declaration goes on to here for want of a brace.
+        // Its own declaration extends to here because of a missing brace.
         if self.misread && self.declared_now.contains(&symbol) {
             return None;
         }
@@ -132,7 +132,7 @@ impl Evaluator<'_> {
             .or_else(|| suggest::contracted(name, self.scopes.visible()))
             .or_else(|| self.one_alike(name))
             .filter(|close| standard.is_none() || close.eq_ignore_ascii_case(name))
-            // `arctan(b, a)` is rather another language's function than a colour.
+            // `arctan(b, a)` is more likely another language's function than a colour.
             .filter(|close| {
                 let value = self.scopes.symbol(close).and_then(|symbol| self.scopes.look(symbol));
                 !of_others
@@ -226,7 +226,7 @@ impl Evaluator<'_> {
         } else if let Some(told) = number_as_a_name(name, span).filter(|_| !is_called) {
             diagnostic = told;
         } else if let Some((close, include)) =
-            // A colour is one only where some value may stand.
+            // A colour is one only where any value is allowed.
             self.lacking_near(name).filter(|_| fits(Word::X))
         {
             diagnostic = diagnostic
@@ -246,7 +246,7 @@ impl Evaluator<'_> {
         } else {
             diagnostic = diagnostic.at(span, "not declared up to here");
             diagnostic = self.by_uncalled_macro(symbol, diagnostic);
-            // `spline { catmull_rom_spline … }`: what begins a block is rather a word.
+            // `spline { catmull_rom_spline … }`: the first item of a block is probably a word.
             let theirs = suggest::foreign(name).filter(|_| !is_own).find(|ours| {
                 PREDECLARED.iter().any(|(known, _)| known == ours)
                     || Word::from_name(ours).is_some_and(|word| match word.role() {
@@ -259,7 +259,7 @@ impl Evaluator<'_> {
                 let meant = format!("did you mean `{ours}`?");
                 return Some(diagnostic.help(meant).fix(span, ours));
             }
-            // `box { center 0 size 2 }`: what was meant for a word of the block.
+            // `box { center 0 size 2 }`: the word meant in this block.
             let opener = self.openers.last().map(|opener| self.sources.text(*opener));
             if let Some(word) = opener.and_then(Word::from_name).filter(|_| names_a_value) {
                 diagnostic = diagnostic.help(self.form_of(word));
@@ -275,7 +275,8 @@ impl Evaluator<'_> {
         Some(diagnostic)
     }
 
-    /// The word of the language that begins an item, with a value behind it, as `name` does here: `rotae -z*30`.
+    /// Returns the keyword that begins an item with a value after it and that `name` resembles: `rotae
+    /// -z*30`.
     fn item_like(&self, name: &str, span: Span) -> Option<&'static str> {
         let text = &self.sources.get(span.file).text;
         let (before, after) = (text.get(..span.start as usize)?, text.get(span.end as usize..)?);
@@ -290,14 +291,14 @@ impl Evaluator<'_> {
         word_like(name, fits).filter(|_| stands_alone)
     }
 
-    /// `Hello`, `grass.png` where a string should stand: quotes are missing.
+    /// Reports missing quotes: `Hello` or `grass.png` where a string is expected.
     pub(super) fn lacks_quotes(&mut self, here: &Here, id: ExpressionId) -> Option<Reported> {
         let mut named = id;
         if let ExpressionKind::Component(base, _) = here.unit.expression(named).kind {
             named = base;
         }
         let symbol = self.unknown_name(here, named)?;
-        // A name that nearly is one of the author's is meant as that.
+        // A name close to one of the author's means that one.
         let name = self.scopes.name(symbol).to_owned();
         if suggest::closest(&name, self.scopes.visible()).is_some()
             || here.unit.declaration_of(symbol).is_some()
@@ -317,7 +318,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// What to write for a call of another language.
+/// The replacement for a call of another language.
 struct Call {
     help: String,
     fixes: Vec<(Span, String)>,
@@ -329,10 +330,10 @@ impl Call {
     }
 }
 
-/// The main file's text.
+/// The main file.
 const MAIN: FileId = FileId(0);
 
-/// The word of the language that an author who wrote `name` most likely meant.
+/// Returns the word of the language that an author who wrote `name` most likely meant.
 pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'static str> {
     let words = || Word::ALL.iter().filter(|word| fits(**word)).map(|word| word.name());
     suggest::foreign(name)
@@ -343,8 +344,8 @@ pub(super) fn word_like(name: &str, fits: impl Fn(Word) -> bool) -> Option<&'sta
         .or_else(|| suggest::short_of(name, words()))
 }
 
-/// Whether `word`, which is close to `name`, is rather meant than nothing: a name with a capital is one of
-/// the author's, and a short word that is not built is close to too many.
+/// Returns whether `word`, which is close to `name`, is a plausible suggestion: a capitalized name is one of
+/// the author's, and a short unsupported word is close to too many.
 pub(super) fn is_likely(name: &str, word: &str) -> bool {
     let capital = name.starts_with(char::is_uppercase);
     let short = name.len().min(word.len()) < 4;

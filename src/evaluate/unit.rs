@@ -1,4 +1,4 @@
-//! Where the items that are run stand: a parsed file, and the expansion that runs it.
+//! Source positions of running items: a parsed file, and the expansion that runs it.
 
 use std::rc::Rc;
 
@@ -8,7 +8,7 @@ use crate::syntax::ast::{Ast, DirectiveKind, Expression, ExpressionId, NameId};
 
 use super::scope::Symbol;
 
-/// A parsed file, its names interned.
+/// A parsed file with its names interned.
 #[derive(Debug)]
 pub(super) struct Unit {
     pub ast: Ast,
@@ -20,7 +20,7 @@ impl Unit {
         self.ast.expression(id)
     }
 
-    /// Everything this file declares, and where.
+    /// Returns all declarations in this file, with their spans.
     pub fn declarations(&self) -> impl Iterator<Item = (NameId, Span)> {
         self.ast.directives.iter().filter_map(|directive| match &directive.kind {
             DirectiveKind::Declare { target, .. } => Some((target.name, target.span)),
@@ -29,14 +29,14 @@ impl Unit {
         })
     }
 
-    /// Where this file declares a name, run or not.
+    /// Returns where this file declares a name, whether or not that is run.
     pub fn declaration_of(&self, symbol: Symbol) -> Option<Span> {
         self.declarations()
             .find(|(name, _)| self.symbols[name.0 as usize] == symbol)
             .map(|(_, span)| span)
     }
 
-    /// A name this file declares somewhere that is much like `name`.
+    /// Returns a name declared in this file that closely resembles `name`.
     pub fn similar_declaration(&self, name: &str) -> Option<(String, Span)> {
         let names = self.declarations().map(|(name, _)| self.ast.name(name));
         let close = suggest::closest(name, names)?;
@@ -45,7 +45,7 @@ impl Unit {
     }
 }
 
-/// Where something is written: its file, and the expansion that runs it.
+/// A source position: a file, and the expansion that runs it.
 #[derive(Debug, Clone)]
 pub(super) struct Here {
     pub unit: Rc<Unit>,

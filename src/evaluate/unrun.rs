@@ -1,6 +1,7 @@
-//! What could not be run, for want of a condition that is known or of a directive: the names that it declares.
+//! Code that could not be run because a condition's value or a directive is unknown: declares its names.
 //!
-//! **Invariant:** each of them is there, and stands for nothing known: no later mistake is told for want of it.
+//! **Invariant:** each of these names is declared with an unknown value, and no later mistake is reported
+//! because of that.
 
 use crate::diagnostic::Code;
 use crate::source::Span;
@@ -12,8 +13,8 @@ use super::value::Value;
 use super::{Evaluator, Here, Symbol};
 
 impl Evaluator<'_> {
-    /// Which branch is meant is not known: what either declares is there and not known, and what the first gives
-    /// to a block is read, since the block may need it.
+    /// Handles a condition of unknown value: the names that either branch declares get unknown values, and
+    /// what the first branch contributes to a block is read, since the block may need it.
     pub(super) fn run_neither(&mut self, here: &Here, then: Items, otherwise: Items) {
         self.declare_broken(here, then);
         self.declare_broken(here, otherwise);
@@ -29,8 +30,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether a message may only be right since the other branch of a condition was not run: a list may lack
-    /// entries, or have too many.
+    /// Returns whether a message may only be due to the other branch of a condition, which was not run: a
+    /// list may lack entries, or have too many.
     pub(super) fn may_be_undecided(&self, code: Code) -> bool {
         let is_about_parts = matches!(
             code,
@@ -39,7 +40,7 @@ impl Evaluator<'_> {
         self.undecided && is_about_parts && !self.blocks.is_empty()
     }
 
-    /// What these items declare, or change, is there and not known.
+    /// Declares the names that these items declare or change, with unknown values.
     pub(super) fn declare_broken(&mut self, here: &Here, items: Items) {
         self.undecided = true;
         for item in here.unit.ast.items(items) {
@@ -67,7 +68,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `module Post(H)`: the names are there, and stand for nothing known.
+    /// Declares the names in a construct such as `module Post(H)`, with unknown values.
     pub(super) fn meet_names(&mut self, here: &Here, id: ExpressionId) {
         if let ExpressionKind::Call(Callee::Name(name, _), arguments) =
             here.unit.expression(id).kind
@@ -86,7 +87,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `#macro Post`, as has been told: which parameters it has is not known.
+    /// Returns whether a reported `#macro Post` has unknown parameters.
     pub(super) fn lacks_parameters(&self, name: Span) -> bool {
         let behind = self.sources.get(name.file).text.get(name.end as usize..);
         !behind.is_some_and(|text| text.trim_start().starts_with(['(', '/']))

@@ -1,8 +1,8 @@
-//! What a name can hold, and how values of different size meet.
+//! Values of the language, and their promotion.
 //!
-//! **Invariant:** the language's promotion rules live here and nowhere else (manual, section 3.2.1.4,
-//! "Vector Expressions"; checked against the program): a number meets a vector by filling all of its
-//! components, a shorter vector meets a longer one by filling up with zeros.
+//! **Invariant:** the promotion rules are implemented only here (manual, section 3.2.1.4, "Vector
+//! Expressions"; checked against the program): a number combined with a vector fills all of its components,
+//! and a shorter vector is padded with zeros to the length of a longer one.
 
 use std::fmt;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ use super::file::FileHandle;
 use super::function::FunctionId;
 use super::spline::SplineValue;
 
-/// Two to five numbers.
+/// A vector of two to five numbers.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Components {
     values: [f64; 5],
@@ -29,14 +29,14 @@ pub struct Components {
 }
 
 impl Components {
-    /// Fewer than two or more than five numbers are no vector.
+    /// Returns `None` for fewer than two or more than five numbers.
     pub fn new(values: &[f64]) -> Option<Self> {
         let mut all = [0.0; 5];
         all.get_mut(..values.len())?.copy_from_slice(values);
         Self::first(values.len(), all)
     }
 
-    /// The first `len` of five numbers, of which the others are zero.
+    /// Returns the first `len` of five numbers, the others of which are zero.
     pub fn first(len: usize, values: [f64; 5]) -> Option<Self> {
         (2..=5).contains(&len).then_some(Self { values, len: len as u8 })
     }
@@ -53,7 +53,7 @@ impl Components {
         &self.values[..self.len()]
     }
 
-    /// Two numbers get a zero; more than three do not fit.
+    /// Converts to a vector of three. Two numbers get a zero; more than three return `None`.
     pub fn as_vector3(&self) -> Option<Vector> {
         let [x, y, z, ..] = self.values;
         (self.len <= 3).then_some(Vector::new(x, y, z))
@@ -81,10 +81,10 @@ impl fmt::Debug for Components {
 /// A value of the language.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
-    /// Also a truth value: 0 is false.
+    /// A number or a truth value: 0 is false.
     Number(f64),
     Vector(Components),
-    /// Five components: red, green, blue, filter, transmit.
+    /// A colour of five components: red, green, blue, filter, transmit.
     Color(Color),
     String(Arc<str>),
     Transform(TransformId),
@@ -100,28 +100,28 @@ pub enum Value {
     Spline(Arc<SplineValue>),
     Function(FunctionId),
     SkySphere(Arc<crate::scene::SkySphere>),
-    /// What `#fopen` names.
+    /// A file opened by `#fopen`.
     File(FileHandle),
     Macro(super::scope::MacroId),
-    /// Of a kind that this version does not build: fatal only where it reaches the scene.
+    /// A value of an unsupported kind: fatal only if it reaches the scene.
     Poison(Poison),
-    /// Its declaration was reported: whatever uses it says nothing more.
+    /// A value whose declaration was reported: uses of it report nothing more.
     Broken,
 }
 
-/// What `material` holds.
+/// Contents of a `material`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Material {
     pub texture: Option<TextureId>,
     pub interior: Option<InteriorId>,
 }
 
-/// Why a value is not there: the word that is not built yet, and where it stood.
+/// Why a value is missing: the unsupported word and its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Poison {
     pub word: Word,
     pub site: Site,
-    /// The block that it would be, where a name stands for one.
+    /// The kind of block that it would be, if a name denotes one.
     pub of: Option<Word>,
 }
 
@@ -144,7 +144,7 @@ impl Value {
         Self::String(text.into())
     }
 
-    /// Bytes it holds beside itself, if it may hold many.
+    /// Returns the heap size in bytes, for values that may be large.
     pub fn bytes(&self) -> u64 {
         match self {
             Self::String(text) => text.len() as u64,
@@ -155,7 +155,7 @@ impl Value {
         }
     }
 
-    /// What the kind is called in messages, with its article.
+    /// Returns the name of the kind for messages, with its article.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Number(_) => "a number",
@@ -182,12 +182,12 @@ impl Value {
         }
     }
 
-    /// Whether each of its numbers is finite.
+    /// Returns whether all its numbers are finite.
     pub fn is_finite(&self) -> bool {
         self.numbers().is_none_or(|numbers| numbers.as_slice().iter().all(|n| n.is_finite()))
     }
 
-    /// The numbers of a number, vector or colour.
+    /// Returns the components of a number, vector or colour.
     pub fn numbers(&self) -> Option<Components> {
         match self {
             Self::Number(n) => Some(Components { values: [*n, 0.0, 0.0, 0.0, 0.0], len: 1 }),
@@ -200,9 +200,9 @@ impl Value {
         }
     }
 
-    /// As calculations get it from a name: colours, and vectors of five numbers, which are kept as
-    /// colours, have single precision (measured on POV-Ray: with `C = rgb 0.1`, `C.red = 0.1` is
-    /// false). What reaches the scene as it is has all its digits.
+    /// Returns the value as calculations read it from a name: colours, and vectors of five numbers, which are
+    /// stored as colours, have single precision (measured in POV-Ray: with `C = rgb 0.1`, `C.red = 0.1` is
+    /// false). A value that reaches the scene unchanged keeps all its digits.
     pub fn read_back(self) -> Self {
         match self {
             Self::Color(color) => Self::Color(color.single()),
@@ -221,8 +221,8 @@ impl Value {
         }
     }
 
-    /// Where a vector of three is wanted: a number fills all three, two numbers get a zero; longer
-    /// vectors and colours do not fit.
+    /// Converts to a vector of three: a number fills all three components, two numbers get a zero; longer
+    /// vectors and colours return `None`.
     pub fn as_vector3(&self) -> Option<Vector> {
         match self {
             Self::Number(n) => Some(Vector::splat(*n)),
@@ -231,7 +231,7 @@ impl Value {
         }
     }
 
-    /// Where a colour is wanted: a number fills all five components, vectors fill up with zeros.
+    /// Converts to a colour: a number fills all five components, vectors are padded with zeros.
     pub fn as_color(&self) -> Option<Color> {
         if let Self::Color(color) = self {
             return Some(*color);
@@ -243,7 +243,7 @@ impl Value {
         Some(Color { rgb: Rgb::new(red, green, blue), filter, transmit })
     }
 
-    /// True and false as `#if` sees them.
+    /// Returns the truth value as `#if` sees it.
     pub fn as_truth(&self, comparison: Comparison) -> Option<bool> {
         self.as_number().map(|number| comparison.is_true(number))
     }
@@ -252,14 +252,14 @@ impl Value {
 /// Why an operation has no result.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OperationError {
-    /// The operand (0: left or only, 1: right) is not made of numbers.
+    /// The operand (0: left or only, 1: right) is not numeric.
     NotNumeric(usize),
     DivisionByZero,
-    /// A component of the result is infinite or not a number.
+    /// A component of the result is infinite or NaN.
     NotFinite,
 }
 
-/// `-a`, `+a`, `!a`.
+/// Evaluates `-a`, `+a` or `!a`.
 pub fn unary(
     operator: UnaryOperator,
     operand: &Value,
@@ -274,7 +274,7 @@ pub fn unary(
     Ok(same_kind(result, matches!(operand, Value::Color(_))))
 }
 
-/// `a + b` and its kin, component by component after promotion.
+/// Evaluates a binary operation such as `a + b`, component by component after promotion.
 pub fn binary(
     operator: BinaryOperator,
     left: &Value,
@@ -292,8 +292,8 @@ pub fn binary(
     by_component(left, right, |a, b| numbers_meet(operator, a, b, comparison))
 }
 
-/// As [`binary`] of numbers, as POV-Ray 3.7 calculates on (measured): results are those of IEEE 754, but for a
-/// division by zero, which gives +inf.
+/// As [`binary`] for numbers, with POV-Ray 3.7's non-finite results (measured): those of IEEE 754, except
+/// that a division by zero gives +inf.
 pub fn unbounded(
     operator: BinaryOperator,
     left: &Value,
@@ -324,8 +324,8 @@ fn by_component(
     Ok(same_kind(Components { values, len }, color))
 }
 
-/// How two strings compare: letter by letter, by the letters' numbers; nothing else is asked of them
-/// (manual, 3.3.1.9.3 "String relational operators").
+/// Compares two strings by the code points of their characters; no other operator applies to them (manual,
+/// 3.3.1.9.3 "String relational operators").
 fn strings_meet(operator: BinaryOperator, a: &str, b: &str) -> Option<bool> {
     Some(match operator {
         BinaryOperator::Equal => a == b,
@@ -343,7 +343,7 @@ fn strings_meet(operator: BinaryOperator, a: &str, b: &str) -> Option<bool> {
     })
 }
 
-/// [`binary`] of two numbers.
+/// As [`binary`], for two numbers.
 pub fn numbers_meet(
     operator: BinaryOperator,
     a: f64,

@@ -1,4 +1,4 @@
-//! Vectors: made of their components, and asked for one of them.
+//! Vectors: construction from components, and component access.
 
 use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
@@ -12,17 +12,17 @@ use super::stream::TokenKind;
 use super::value::{Components, Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, Unit};
 
-/// What a vector or a colour is asked for.
+/// Names of the components of vectors and colours.
 const COMPONENTS: [&str; 12] =
     ["x", "y", "z", "t", "u", "v", "red", "green", "blue", "filter", "transmit", "gray"];
 
 const MOST_COMPONENTS: usize = 5;
 
-/// What a vector has between its angle brackets, so far.
+/// The components of a vector read so far.
 #[derive(Default)]
 struct Gathered {
     numbers: [f64; MOST_COMPONENTS],
-    /// How many there were: more than five are counted, and not kept.
+    /// Their number; components beyond five are counted but not stored.
     count: usize,
     poison: Option<Poison>,
     failed: bool,
@@ -38,7 +38,7 @@ impl Gathered {
 }
 
 impl Unit {
-    /// Where a component of a vector is written; `None` where its components are not written one by one.
+    /// Returns the span of a vector's component; `None` if the components are not written one by one.
     pub(super) fn component_span(&self, vector: ExpressionId, place: usize) -> Option<Span> {
         let ExpressionKind::Vector(components) = self.expression(vector).kind else { return None };
         let components = self.ast.arguments(components);
@@ -50,7 +50,7 @@ impl Unit {
     }
 }
 
-/// `-1 -1 -1`, as versions before 3 of POV-Ray had vectors, with what parts them today.
+/// Returns a vector without commas, as in POV-Ray before version 3 (`-1 -1 -1`), with commas inserted.
 fn with_commas(inside: &str) -> Option<String> {
     let parts: Vec<&str> = inside.split_whitespace().collect();
     let is_signed = |part: &&str| {
@@ -157,7 +157,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `Name.upper()`, as other languages ask a string.
+    /// Returns the equivalent of a method call on a string, as in other languages: `Name.upper()`.
     fn method_of_string(&self, base: Span, component: Component) -> Option<String> {
         let Component::Name(_, span) = component else { return None };
         let function = match self.sources.text(span).to_ascii_lowercase().as_str() {
@@ -169,7 +169,7 @@ impl Evaluator<'_> {
         Some(format!("write `{function}({})`", self.sources.text(base)))
     }
 
-    /// A name that is no component of anything is one whatever stands before it.
+    /// Reports a name that is not a component of any value.
     pub(super) fn check_component(
         &mut self,
         here: &Here,
@@ -199,7 +199,7 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
-    /// Takes a component of a vector, which an expression came to.
+    /// Adds the value of an expression to the components of a vector.
     fn gather(
         &mut self,
         here: &Here,
@@ -241,8 +241,8 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
-    /// The numbers between brackets, of which there may be more than a vector has: those of a matrix, the
-    /// coefficients of a polynomial. Directives and macros may leave some of them.
+    /// Returns the numbers in brackets, which may be more than a vector has: those of a matrix or the
+    /// coefficients of a polynomial. Directives and macros may contribute some of them.
     pub(super) fn numbers_of(
         &mut self,
         here: &Here,
@@ -282,7 +282,7 @@ impl Evaluator<'_> {
         numbers
     }
 
-    /// The numbers that the items of directives in a vector leave, and no more than one that is too many.
+    /// Returns the numbers that directives in a vector leave, up to one beyond the maximum.
     fn components(&mut self, here: &Here, span: Span, most: usize) -> Outcome<Vec<f64>> {
         let mut numbers = Vec::new();
         loop {
@@ -311,7 +311,7 @@ impl Evaluator<'_> {
             return Ok(value.clone());
         }
         let (index, span) = match component {
-            // A number is its own first component, and has no other (measured).
+            // A number is its own first component, and has no others (measured).
             Component::Word(Word::Gray, _) if let Value::Number(red) = *value => {
                 return Ok(Value::Number(gray(Color::opaque(Rgb::new(red, 0.0, 0.0)))));
             }
@@ -370,12 +370,12 @@ impl Evaluator<'_> {
     }
 }
 
-/// How bright a colour is: `.gray`.
+/// Returns the brightness of a colour: `.gray`.
 pub(super) fn gray(color: Color) -> f64 {
     0.297 * color.rgb.red + 0.589 * color.rgb.green + 0.114 * color.rgb.blue
 }
 
-/// Which number of a vector or colour a word after a dot means.
+/// Returns the index of the component that a word after a dot denotes.
 pub(super) fn component_index(word: Word) -> Option<usize> {
     match word {
         Word::X | Word::U | Word::Red => Some(0),

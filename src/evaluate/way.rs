@@ -1,5 +1,5 @@
-//! Bodies that are read when they are run: of macros whose brackets pair only on the way that is taken, each way
-//! as a body of its own; and in a `.pov` those that cannot be read.
+//! Macro bodies that are parsed when they run: those whose brackets pair only along the branches taken, with
+//! one parsed body for each combination of branches, and, in a `.pov`, those that cannot be parsed.
 
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
@@ -13,20 +13,20 @@ use super::expand::{Macro, MacroBody};
 use super::stream::Frame;
 use super::{Evaluator, Here, Outcome, Unit};
 
-/// What has been read of such bodies, by where they stand.
+/// Cache of such bodies, by span.
 #[derive(Debug, Default)]
 pub(super) struct Read {
-    /// `None` of one that has no way.
+    /// `None` for a body that cannot be parsed on any path.
     ways: HashMap<Span, Option<Rc<Forked>>>,
-    /// The mistakes of files that are read as a whole, with what is not run.
+    /// The diagnostics of files parsed as a whole, including code that is not run.
     wholes: HashMap<FileId, Vec<Diagnostic>>,
-    /// Bodies that have mistakes.
+    /// Spans of bodies that have mistakes.
     broken: HashSet<Span>,
-    /// By what the conditions came to.
+    /// Parsed bodies, by the results of their conditions.
     bodies: HashMap<(Span, Vec<bool>), (Rc<Unit>, Items)>,
 }
 
-/// A body that has ways, and the conditions that decide among them.
+/// A body with several paths, and the conditions that decide between them.
 #[derive(Debug)]
 struct Forked {
     ways: Ways,
@@ -34,7 +34,7 @@ struct Forked {
 }
 
 impl Evaluator<'_> {
-    /// Whether the body of a macro can be run.
+    /// Returns whether the body of a macro can be run.
     pub(super) fn has_a_way(&mut self, definition: &Macro) -> bool {
         match definition.body {
             MacroBody::Items(_) => true,
@@ -42,7 +42,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The body of a macro, as it is to be run now that its parameters are bound.
+    /// Returns the body of a macro to run, now that its parameters are bound.
     pub(super) fn body_of(
         &mut self,
         definition: &Macro,
@@ -56,7 +56,7 @@ impl Evaluator<'_> {
         let mut holds = Vec::with_capacity(forked.conditions.len());
         for (unit, condition) in &forked.conditions {
             let place = unit.expression(*condition).span.start as usize;
-            // What is not run on this way is not asked for.
+            // Conditions that are not reached on this path are not evaluated.
             let is_asked = forked.ways.reaches(place, &holds);
             let here = Here { unit: unit.clone(), expansion };
             holds.push(is_asked && self.condition(&here, *condition)?);
@@ -72,7 +72,7 @@ impl Evaluator<'_> {
         Ok(body)
     }
 
-    /// Whether a frame walks such a body.
+    /// Returns whether a frame runs such a body.
     pub(super) fn is_body_on_a_way(&self, frame: &Frame) -> bool {
         self.read
             .bodies
@@ -102,8 +102,8 @@ impl Evaluator<'_> {
         Some(Forked { ways, conditions })
     }
 
-    /// Runs a body that could not be read. Its mistakes are reported now, as those of the whole file, in which
-    /// more is understood of them; what it declares is there and not known.
+    /// Runs a body that could not be parsed: reports its mistakes as those of the whole file, where more
+    /// context is available, and declares its names with unknown values.
     pub(super) fn run_unread(&mut self, here: &Here, span: Span) {
         let key = (span, Vec::new());
         if let Some((unit, body)) = self.read.bodies.get(&key).cloned() {
@@ -143,7 +143,7 @@ impl Evaluator<'_> {
         self.declare_broken(&here, body.1);
     }
 
-    /// What is told of a body in a file, were all of the file run.
+    /// Returns the diagnostics for a span if all of its file were run.
     fn whole_mistakes_in(&mut self, span: Span) -> Vec<Diagnostic> {
         if !self.read.wholes.contains_key(&span.file) {
             let text = self.sources.get(span.file).text.to_string();
@@ -159,7 +159,7 @@ impl Evaluator<'_> {
         mistakes[first..].iter().take_while(is_before_end).filter(is_inside).cloned().collect()
     }
 
-    /// Warns of the bodies of a text that could not be read and were not run.
+    /// Warns of the bodies of a unit that could not be parsed and were not run.
     pub(super) fn warn_of_unread(&mut self, unit: &Unit) {
         for directive in &unit.ast.directives {
             let span = directive.head;
@@ -181,7 +181,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Reads what is left of a file, and tells its mistakes where it is called.
+    /// Parses part of a file, and reports its mistakes at the call.
     fn read_part(&mut self, text: String, span: Span, told_in: Option<ExpansionId>) -> Rc<Unit> {
         let (ast, told) = self.mistakes_of(text, span, true);
         if let Some(expansion) = told_in {
@@ -192,7 +192,7 @@ impl Evaluator<'_> {
         self.unit(ast)
     }
 
-    /// `defers`: bodies that cannot be read stay text in it.
+    /// Parses a text and returns its diagnostics. With `defers`, bodies that cannot be parsed remain text.
     fn mistakes_of(&self, text: String, span: Span, defers: bool) -> (Ast, Vec<Diagnostic>) {
         let name = self.sources.get(span.file).name.clone();
         let options = ParseOptions {
@@ -208,12 +208,13 @@ impl Evaluator<'_> {
     }
 }
 
-/// Where the first label of a message begins in its file.
+/// Returns where the first label of a message begins in its file.
 fn start_of(one: &Diagnostic) -> u32 {
     one.primary().map_or(0, |label| label.span.start)
 }
 
-/// A text of which nothing but `span` is left, with this in parentheses, where there is room for them.
+/// Returns a text with parentheses around `span`, in place of the blanks on both sides; `None` without blanks
+/// there.
 fn in_parentheses(text: &str, span: Span) -> Option<String> {
     let (open, close) = ((span.start as usize).checked_sub(1)?, span.end as usize);
     let mut text = text.to_owned();

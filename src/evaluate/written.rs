@@ -1,11 +1,11 @@
-//! What is no name, but how other languages write numbers and ranges.
+//! Numbers and ranges written as in other languages, which parse as names.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
 use super::Evaluator;
 
-/// Numbers in words.
+/// Number words and their values.
 const NUMBERS: [(&str, &str); 14] = [
     ("zero", "0"),
     ("one", "1"),
@@ -24,7 +24,7 @@ const NUMBERS: [(&str, &str); 14] = [
 ];
 
 impl Evaluator<'_> {
-    /// `0.25D+00`, `0.1 to 0.5`, `O.5`.
+    /// Returns the diagnostic for `0.25D+00`, `0.1 to 0.5`, `O.5` and the like.
     pub(super) fn of_another_writing(&self, name: &str, span: Span) -> Option<Diagnostic> {
         let text = &self.sources.get(span.file).text;
         let (before, after) = (text.get(..span.range().start)?, text.get(span.range().end..)?);
@@ -76,7 +76,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// What a string holds that should be a number or a vector, as it is written; `None` where that is none.
+/// Returns the number or vector in a string where one is expected, as written; `None` if it is neither.
 pub(super) fn unquoted(text: &str, wanted: &str) -> Option<String> {
     let are_numbers = |text: &str| text.split(',').all(|part| part.trim().parse::<f64>().is_ok());
     match (text, wanted.starts_with("a vector")) {
@@ -92,9 +92,10 @@ pub(super) fn unquoted(text: &str, wanted: &str) -> Option<String> {
     }
 }
 
-/// `nan`, `thirty`, `O`: what stands for a number, where no name is like it.
+/// Returns the diagnostic for a name that stands for a number, such as `nan`, `thirty` or `O`, where no
+/// similar name exists.
 pub(super) fn number_as_a_name(name: &str, span: Span) -> Option<Diagnostic> {
-    /// What programs write where a calculation gave nothing.
+    /// What programs print for an undefined result.
     const NONE: [&str; 7] = ["nan", "inf", "infinity", "none", "null", "nil", "undefined"];
     let told =
         |message: &str| Diagnostic::new(Code::MalformedNumber, format!("`{name}` is {message}"));

@@ -1,4 +1,4 @@
-//! Blocks and entries without a word before them, and colours in quotes.
+//! Diagnostics for blocks and entries without a keyword before them, and for colours in quotes.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -12,7 +12,7 @@ use super::Place;
 use super::unexpected::opener;
 
 impl Evaluator<'_> {
-    /// `gradient y [0 Red] [1 Blue]`: entries without a map around them.
+    /// Handles map entries without a map around them: `gradient y [0 Red] [1 Blue]`.
     pub(super) fn loose_entries(&mut self, first: &Token, place: Place) {
         let mut last = first.span;
         loop {
@@ -36,7 +36,7 @@ impl Evaluator<'_> {
         self.report(&first.here, told);
     }
 
-    /// `pigment { "red" }`: the name of a colour in quotes.
+    /// Returns the diagnostic for a colour name in quotes: `pigment { "red" }`.
     pub(super) fn quoted_color(&self, token: &Token, value: &Value) -> Option<Diagnostic> {
         let Value::String(text) = value else { return None };
         let is_color = |name: &&str| {
@@ -60,7 +60,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `#macro M(A) { … }`: what is said of the braces.
+    /// Returns the diagnostic for a macro body in braces: `#macro M(A) { … }`.
     pub(super) fn braced_macro(&self, block: Span) -> Option<Diagnostic> {
         let before = self.sources.get(block.file).text.get(..block.start as usize).unwrap_or("");
         let before = before.trim_end();
@@ -79,7 +79,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `pigment {{ rgb 1 }}`.
+    /// Returns the diagnostic for doubled braces: `pigment {{ rgb 1 }}`.
     pub(super) fn doubled_braces(&self, block: Span) -> Option<Diagnostic> {
         let text = &self.sources.get(block.file).text;
         let before = text.get(..block.start as usize)?.trim_end().strip_suffix('{')?.len();
@@ -97,7 +97,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `checker { rgb 1 rgb 0 }`, `gradient y { [0 rgb 1] [1 rgb 0] }`: the colours of a pattern.
+    /// Completes the diagnostic for a pattern's colours in braces: `checker { rgb 1 rgb 0 }`, `gradient y {
+    /// [0 rgb 1] [1 rgb 0] }`.
     pub(super) fn braced_colors(&self, block: Span, told: Diagnostic) -> Diagnostic {
         let text = self.sources.text(block);
         let before = self.sources.get(block.file).text.get(..block.start as usize).unwrap_or("");

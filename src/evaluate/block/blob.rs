@@ -1,4 +1,4 @@
-//! Blobs: balls and bars with a strength each, and the threshold.
+//! `blob`: spheres and cylinders with a strength each, and the threshold.
 
 use std::sync::Arc;
 
@@ -14,11 +14,11 @@ use super::super::value::Poison;
 use super::super::{Evaluator, Outcome, Reported};
 use super::{Given, Place};
 
-/// A threshold as good as 0.
+/// A threshold below this counts as 0.
 const SMALLEST: f64 = 1e-6;
 
 impl Evaluator<'_> {
-    /// `blob { threshold number sphere { … } cylinder { … } … }`, in any order.
+    /// Reads `blob { threshold number sphere { … } cylinder { … } … }`, in any order.
     pub(super) fn blob(&mut self, token: &Token) -> Outcome<Solid> {
         let mut blob = Blob { threshold: 1.0, components: Vec::new() };
         let (mut failed, mut count, mut bytes) = (false, 0, 0);
@@ -50,7 +50,7 @@ impl Evaluator<'_> {
             return Err(Reported);
         }
         self.stored += bytes;
-        // Another shape is told where it stands.
+        // Another shape is reported where it appears.
         let is_shape = |kind: &TokenKind| matches!(kind, TokenKind::Word(word) if word.family() == Family::Shape);
         if count == 0 && self.peek().is_some_and(|next| is_shape(&next.kind)) {
             return Err(Reported);
@@ -59,7 +59,7 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(Code::MissingPart, "this blob has no component")
                 .at(token.span, "nothing to melt together")
                 .help("a component is written `sphere { <center>, radius, strength }`");
-            // Unless its components stand too late.
+            // Unless its components come too late.
             self.owed = Some((token.here.clone(), diagnostic));
             return Err(Reported);
         }
@@ -81,7 +81,7 @@ impl Evaluator<'_> {
         Ok(Solid::Blob(Arc::new(blob)))
     }
 
-    /// The plain number behind the one `word` of a block that `token` opened.
+    /// Returns the span of the literal number after the only `word` in a block that `token` opened.
     fn number_behind(&self, token: &Token, word: Word) -> Option<Span> {
         let block = self.within_block().filter(|block| block.span.file == token.span.file)?.span;
         let mut found = self.sources.text(block).match_indices(word.name());
@@ -115,7 +115,7 @@ impl Evaluator<'_> {
         self.inert(token, Place::shape(Word::Blob)).unwrap_or(Ok(()))
     }
 
-    /// `sphere { <centre>, radius, strength … }`, `cylinder { <end>, <end>, radius, strength … }`.
+    /// Reads `sphere { <centre>, radius, strength … }` or `cylinder { <end>, <end>, radius, strength … }`.
     fn blob_component(&mut self, token: &Token, word: Word, blob: &mut Blob) -> Outcome<()> {
         self.block(token, word, |evaluator| {
             let is_bar = word == Word::Cylinder;
@@ -147,7 +147,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `component strength, radius, <centre>`.
+    /// Reads `component strength, radius, <centre>`.
     fn old_component(&mut self, token: &Token, _: Word, blob: &mut Blob) -> Outcome<()> {
         let strength = self.number_after(token, "a number for the strength");
         let radius = self.number_after(token, "a number for the radius");
@@ -157,7 +157,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// A component without size or strength is told, and left out.
+    /// Adds a component. One without size or strength is reported and omitted.
     fn add_component(
         &mut self,
         ends: [Vector; 2],
@@ -182,7 +182,7 @@ impl Evaluator<'_> {
         blob.components.push(Component { ends, radius, strength, transforms });
     }
 
-    /// The transforms of a component. A texture of its own is read, and not built.
+    /// Reads the transforms of a component. Its own texture is read, but unsupported.
     fn component_modifiers(&mut self, word: Word) -> Outcome<Vec<TransformId>> {
         let (mut transforms, mut failed) = (Vec::new(), false);
         while let Some(token) = self.next() {

@@ -1,7 +1,7 @@
-//! Braces that are missing around what a word takes, or that stand behind a name: `clipped_by plane { y, 0 }`,
-//! `object Tree { translate x }`.
+//! Diagnostics for missing braces around the argument of a keyword, and for braces after a name: `clipped_by
+//! plane { y, 0 }`, `object Tree { translate x }`.
 //!
-//! **Invariant:** what stands in them is no second mistake.
+//! **Invariant:** the contents of the braces cause no second error.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -13,8 +13,8 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::{Place, opens_object};
 
 impl Evaluator<'_> {
-    /// `contained_by sphere { 0, 1 }`, `clipped_by plane { y, 0 }`: a shape that `fits`, without the braces of what
-    /// holds it.
+    /// Handles a shape that `fits` without the braces of its container: `contained_by sphere { 0, 1 }`,
+    /// `clipped_by plane { y, 0 }`.
     pub(super) fn unbraced(
         &mut self,
         token: &Token,
@@ -41,8 +41,8 @@ impl Evaluator<'_> {
         Some(self.report(&token.here, diagnostic))
     }
 
-    /// `object Tree { translate x }`, `object Tree translate x`: the name, and what changes it, whose place is in the
-    /// braces of `word`. Where the text is to be replaced, and by what.
+    /// Handles a name and its modifiers that belong in the braces of `word`: `object Tree { translate x }`,
+    /// `object Tree translate x`. Returns the span to replace, and its replacement.
     pub(super) fn named_outside(&mut self, word: Word, name: Span) -> (Span, String) {
         let text = &self.sources.get(name.file).text;
         let behind = text.get(name.end as usize..).unwrap_or("");
@@ -61,7 +61,8 @@ impl Evaluator<'_> {
         (whole, format!("{{ {} }}", self.sources.text(whole)))
     }
 
-    /// `#declare Leg2 = Leg { translate x };`: a changed copy without the word of its block. The block comes next.
+    /// Reports a modified copy without its block's keyword; the block comes next: `#declare Leg2 = Leg {
+    /// translate x };`.
     pub(super) fn copy_without_word(&mut self, name: &Token, value: &Value) -> Option<Reported> {
         let word = match value {
             Value::Object(_) => Word::Object,
@@ -91,7 +92,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// `#declare T = rotate 45*y;`: transforms without their block.
+    /// Reports transforms without a `transform` block: `#declare T = rotate 45*y;`.
     pub(super) fn bare_transform(&mut self, first: &Token, word: Word) -> Reported {
         let before = self.told();
         loop {
@@ -118,7 +119,8 @@ impl Evaluator<'_> {
         self.report(&first.here, told)
     }
 
-    /// Whether objects stand in braces alone: `#declare A = { sphere { 0, 1 } box { 0, 1 } };`.
+    /// Returns whether a block without a keyword contains objects: `#declare A = { sphere { 0, 1 } box { 0, 1
+    /// } };`.
     pub(super) fn objects_meant(&self, block: &Token) -> bool {
         let inside = self.sources.text(block.span).trim_start_matches('{').trim_start();
         let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -126,7 +128,7 @@ impl Evaluator<'_> {
         Word::from_name(first).is_some_and(opens_object)
     }
 
-    /// See [`Self::objects_meant`].
+    /// Reports such a block; see [`Self::objects_meant`].
     pub(super) fn unjoined(&mut self, block: &Token) -> Reported {
         let opener = block.span_head();
         let told =
@@ -147,7 +149,8 @@ impl Evaluator<'_> {
         reported
     }
 
-    /// `object { Ball { translate x } }`: what changes it stands beside the name.
+    /// Returns the diagnostic for modifiers in braces after a name, which belong beside it: `object { Ball {
+    /// translate x } }`.
     pub(super) fn braced_modifiers(&self, block: Span, place: Place) -> Option<Diagnostic> {
         let before = self.sources.get(block.file).text.get(..block.start as usize)?.trim_end();
         let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -174,7 +177,7 @@ impl Evaluator<'_> {
         )
     }
 
-    /// `object { A B }`: two objects where one stands.
+    /// Returns the diagnostic for two objects where one is expected: `object { A B }`.
     pub(super) fn second_of_object(&self, second: Span) -> Option<Diagnostic> {
         let opener = *self.openers.last()?;
         let block = self.within_block()?.span;

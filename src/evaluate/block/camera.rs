@@ -1,4 +1,4 @@
-//! `camera`: its words in written order.
+//! `camera`: its items in source order.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::super::value::{Components, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 
-/// The version from which on the order of a camera's words does not matter (measured).
+/// The version from which the order of a camera's items does not matter (measured).
 const SORTED_SINCE: f64 = 3.5;
 
 impl Evaluator<'_> {
@@ -125,7 +125,7 @@ impl Evaluator<'_> {
             };
             self.out_of_range_but_read(&given, Word::Angle, "more than 0", read)?;
         }
-        // A spherical camera has one across, and one from top to bottom.
+        // A spherical camera has a horizontal and a vertical angle.
         if self.poison.is_some_and(|poison| poison.word == Word::Spherical)
             && self.is_before_value()
         {
@@ -142,7 +142,7 @@ impl Evaluator<'_> {
         Ok(CameraItemKind::Angle(given.value))
     }
 
-    /// `shift <x, y>`.
+    /// Reads `shift <x, y>`.
     fn shift(&mut self, token: &Token) -> Outcome<CameraItemKind> {
         let given = self.given(token, "a vector of two numbers")?;
         match given.value.numbers().as_ref().map(Components::as_slice) {

@@ -1,4 +1,4 @@
-//! `clipped_by` and `bounded_by`: objects that cut another one, or bound it.
+//! `clipped_by` and `bounded_by`: objects that clip or bound another object.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind};
@@ -9,7 +9,7 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::{Place, opens_object};
 
 impl Evaluator<'_> {
-    /// `clipped_by { shape … }`, or `clipped_by { bounded_by }`: what bounds the object clips it.
+    /// Reads `clipped_by { shape … }`, or `clipped_by { bounded_by }`, which clips with the bounding objects.
     pub(super) fn clips(&mut self, token: &Token) -> Outcome<Vec<ObjectId>> {
         if let Some(reported) = self.unbraced(token, Word::ClippedBy, opens_object) {
             return Err(reported);
@@ -32,7 +32,7 @@ impl Evaluator<'_> {
             };
             if clips.is_empty() && evaluator.poison.is_none() {
                 if begins {
-                    // What is wrong with it was told.
+                    // The mistake in it was reported.
                     return Err(Reported);
                 }
                 let found = evaluator.next();
@@ -46,7 +46,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `bounded_by { shape … }` or `bounded_by { clipped_by }`.
+    /// Reads `bounded_by { shape … }` or `bounded_by { clipped_by }`.
     pub(super) fn bounds(&mut self, token: &Token) -> Outcome<()> {
         self.bounds.clear();
         if let Some(reported) = self.unbraced(token, Word::BoundedBy, opens_object) {
@@ -64,8 +64,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// What `clipped_by` and `bounded_by` hold: objects, in a `.pov` also by their bare names, and what moves
-    /// them all, as in POV-Ray 3.7 (measured).
+    /// Reads the contents of `clipped_by` and `bounded_by`: objects, in a `.pov` also by their bare names,
+    /// and transforms of all of them, as in POV-Ray 3.7 (measured).
     fn clipping_objects(&mut self) -> Outcome<Vec<ObjectId>> {
         let mut objects = Vec::new();
         self.more_children(&mut objects, true);

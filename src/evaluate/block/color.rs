@@ -14,7 +14,7 @@ use super::Given;
 use super::pieces::WrittenColor;
 
 impl Evaluator<'_> {
-    /// The colour that starts with `token`, a word of the colour family.
+    /// Reads the colour that starts with `token`, a word of the colour family.
     pub(super) fn color_from(&mut self, token: &Token) -> Outcome<WrittenColor> {
         let TokenKind::Word(word) = token.kind else {
             return self.written_color_after(token, "a colour").map(|given| given.value);
@@ -58,14 +58,14 @@ impl Evaluator<'_> {
         self.color_components(color, piece)
     }
 
-    /// A colour, with or without `color` and its kin.
+    /// Reads a colour, with or without `color` and its variants.
     pub(super) fn color_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Color>> {
         let given = self.written_color_after(after, wanted)?;
         let color = given.value.color();
         Ok(given.with(color))
     }
 
-    /// As [`Self::color_after`], as it is written.
+    /// As [`Self::color_after`], but returns the colour as it is written.
     pub(super) fn written_color_after(
         &mut self,
         after: &Token,
@@ -104,7 +104,7 @@ impl Evaluator<'_> {
         Ok(given.with(color))
     }
 
-    /// Whether no colour follows in a `.pov`, where POV-Ray 3.7 takes black (measured).
+    /// Returns whether a colour is missing in a `.pov`, where POV-Ray 3.7 substitutes black (measured).
     fn lacks_color(&mut self) -> bool {
         self.options.dialect == Dialect::Pov
             && match self.peek().map(|next| &next.kind) {
@@ -127,7 +127,7 @@ impl Evaluator<'_> {
         Ok(Given { value, span, here: after.here.clone(), expression: None })
     }
 
-    /// A value that stands for a colour without a word before it.
+    /// Converts a value without a keyword before it to a colour.
     pub(super) fn plain_color(&mut self, given: &Given<Value>, wanted: &str) -> Outcome<Color> {
         let Some(color) = given.value.as_color() else {
             return Err(self.wrong_type(&given.here, given.span, wanted, &given.value));
@@ -136,7 +136,7 @@ impl Evaluator<'_> {
         Ok(color)
     }
 
-    /// `rgb`, `srgbft` and the like, and their numbers.
+    /// Reads `rgb`, `srgbft` and the like, with their components.
     fn color_vector(&mut self, token: &Token, word: Word) -> Outcome<Color> {
         let is_display = matches!(word, Word::Srgb | Word::Srgbf | Word::Srgbt | Word::Srgbft);
         let what = if is_display { "display values" } else { "a vector" };
@@ -164,10 +164,10 @@ impl Evaluator<'_> {
         let mut all = [0.0; 5];
         match *numbers.as_slice() {
             [gray] => all[..wanted].fill(gray),
-            // Also what is more than the word takes: `rgb Red` passes whole.
+            // Also more components than the word takes: `rgb Red` passes unchanged.
             ref written => all[..written.len()].copy_from_slice(written),
         }
-        // The fourth is the transmit, and a fifth is dropped, of a colour too: as POV-Ray does it.
+        // The fourth is the transmit and a fifth is dropped, also for a colour, as in POV-Ray.
         if takes_transmit(word) {
             (all[3], all[4]) = (0.0, all[3]);
         }
@@ -182,7 +182,7 @@ impl Evaluator<'_> {
         Ok(Color { rgb: meant(rgb), filter, transmit })
     }
 
-    /// The last number of a vector that is written as one.
+    /// Returns the span of the last component of a vector literal.
     fn last_component(&self, vector: Span) -> Option<Span> {
         let inside = self.sources.text(vector).strip_suffix('>')?.trim_end();
         let last = inside.rsplit(',').next()?.trim_start();
@@ -190,7 +190,7 @@ impl Evaluator<'_> {
         Some(Span { start: end - last.len() as u32, end, ..vector })
     }
 
-    /// `rgbt <1, 1, 1> 0.5`: the fourth number stands behind the vector.
+    /// Handles a fourth component after the vector: `rgbt <1, 1, 1> 0.5`.
     fn number_behind_vector(&mut self, token: &Token, given: &Given<Value>) -> Option<Reported> {
         let next = self.peek_on()?.clone();
         let between = self.sources.between(given.span, next.span)?;
@@ -209,8 +209,8 @@ impl Evaluator<'_> {
         Some(self.report(&given.here, told))
     }
 
-    /// `rgb 1 0 0`, `1, 0, 0`: numbers where a vector stands, behind the word of a colour or none. A lone number is
-    /// a grey.
+    /// Handles bare numbers instead of a vector, with or without a colour keyword: `rgb 1 0 0`, `1, 0, 0`. A
+    /// single number is a grey.
     pub(super) fn bare_components(
         &mut self,
         token: Option<&Token>,
@@ -253,7 +253,7 @@ impl Evaluator<'_> {
         Err(self.report(&given.here, diagnostic))
     }
 
-    /// What may follow a colour: `red 1`, `filter 0.5` …, each replacing one component.
+    /// Reads what may follow a colour: `red 1`, `filter 0.5` …, each replacing one component.
     pub(super) fn color_components(&mut self, base: Color, piece: Site) -> Outcome<WrittenColor> {
         self.more_components(WrittenColor::new(base, Some(piece)))
     }
@@ -271,7 +271,7 @@ impl Evaluator<'_> {
         Ok(color)
     }
 
-    /// A colour that is written by its components alone.
+    /// Reads a colour that consists of named components only.
     fn color_of_components(&mut self, first: &Token, color: WrittenColor) -> Outcome<WrittenColor> {
         let color = self.more_components(color)?;
         self.lint_color_range(&first.here, first.span, color.color().rgb);
@@ -326,7 +326,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// What is left of a colour of which a component was told.
+    /// Skips the rest of a colour in which a component was reported.
     fn skip_color_components(&mut self) {
         while let Some(&Token { kind: TokenKind::Word(word), .. }) = self.peek_on()
             && is_component(word)
@@ -336,7 +336,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A word of the right family that is not built: poison for the object being read.
+    /// Handles an unsupported word of the colour family: poison for the object being read.
     fn word_not_built(&mut self, token: &Token, word: Word) -> super::super::Reported {
         if let Some(today) = word.today() {
             return self.old_word(token, word, today);
@@ -347,7 +347,7 @@ impl Evaluator<'_> {
         super::super::Reported
     }
 
-    /// True when the next item begins a colour.
+    /// Returns whether the next item begins a colour.
     pub(super) fn at_color(&mut self) -> bool {
         match self.peek().map(|token| &token.kind) {
             Some(TokenKind::Word(word)) => word.family() == Family::Color,
@@ -357,7 +357,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Words that take all components at once.
+/// Returns whether a word takes all components at once.
 fn is_whole(word: Word) -> bool {
     matches!(
         word,
@@ -372,7 +372,7 @@ fn is_whole(word: Word) -> bool {
     )
 }
 
-/// How many components a word promises that takes all at once.
+/// Returns the number of components of a word that takes all at once.
 fn components_of(word: Word) -> usize {
     match word {
         Word::Rgbf | Word::Rgbt | Word::Srgbf | Word::Srgbt => 4,
@@ -381,13 +381,13 @@ fn components_of(word: Word) -> usize {
     }
 }
 
-/// Whether the fourth component is the transmit.
+/// Returns whether the fourth component is the transmit.
 pub(in crate::evaluate) fn takes_transmit(word: Word) -> bool {
     matches!(word, Word::Rgbt | Word::Srgbt)
 }
 
-/// Three to five plain numbers side by side, the first of them at `first`; and where they end. Among the arguments
-/// of a call they are none.
+/// Returns three to five adjacent literal numbers, the first at `first`, and where they end. Returns `None`
+/// among the arguments of a call.
 fn numbers_at(text: &str, first: Span) -> Option<(u32, Vec<f64>)> {
     let plain = |c: char| c.is_ascii_digit() || c == '.';
     let (mut numbers, mut at, mut end) = (Vec::new(), first.start as usize, 0);
@@ -395,7 +395,7 @@ fn numbers_at(text: &str, first: Span) -> Option<(u32, Vec<f64>)> {
         let rest = text.get(at..)?;
         let digits = rest.len() - rest.trim_start_matches(plain).len();
         let Ok(number) = rest[..digits].parse::<f64>() else { break };
-        // `1e3`, `0.5*x`, `1 + 2`: no plain number.
+        // `1e3`, `0.5*x`, `1 + 2`: not plain numbers.
         let behind = &rest[digits..];
         if behind.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_')
             || behind.trim_start().starts_with(['*', '/', '+', '-'])

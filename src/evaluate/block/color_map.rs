@@ -19,13 +19,13 @@ use super::pieces::{self, WrittenColor, WrittenMap};
 /// The values and colours of an entry.
 type Entries = Vec<(f64, WrittenColor)>;
 
-/// Entries of one map: more are a mistake, and soon more than memory holds.
+/// Maximum number of entries in a map: more are a mistake, and would soon exhaust memory.
 const MOST_ENTRIES: usize = 1 << 20;
 
-/// Entries in rising order that show what POV-Ray 3.7 shows of these, which are not.
+/// Returns entries in ascending order that render as POV-Ray 3.7 renders these unsorted ones.
 ///
-/// **Source:** measured on it: from the value of the last entry on, its colour; below, what lies on the way from
-/// the entry before to the first whose value is larger.
+/// **Source:** measured: from the value of the last entry on, that entry's colour; below, the interpolation
+/// between the first entry with a larger value and the entry before it.
 fn rising(entries: &[(f64, Color)]) -> Vec<(f64, Color)> {
     let Some(&(end, last)) = entries.last() else { return Vec::new() };
     let mut rising = Vec::with_capacity(2 * entries.len());
@@ -41,7 +41,7 @@ fn rising(entries: &[(f64, Color)]) -> Vec<(f64, Color)> {
             Some((start, first)) => first.lerp(color, (at - start) / (value - start)),
             None => color,
         };
-        // What lies between goes down.
+        // The entries between descend.
         if before != place.checked_sub(1) {
             rising.push((highest, at(highest)));
         }
@@ -57,7 +57,7 @@ fn rising(entries: &[(f64, Color)]) -> Vec<(f64, Color)> {
 }
 
 impl Evaluator<'_> {
-    /// `color_map { [value color] … }` or `color_map { Name }`.
+    /// Reads `color_map { [value color] … }` or `color_map { Name }`.
     pub(super) fn color_map(&mut self, token: &Token) -> Outcome<Value> {
         let mut entries: Vec<(f64, Color)> = Vec::new();
         let mut parts: Vec<pieces::Part> = Vec::new();
@@ -162,7 +162,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `[value color]`, or the old `[from, to color a color b]`, and of that `to color a` where it can go.
+    /// Reads `[value color]`, or the old `[from, to color a color b]`; for the latter, also returns `to color
+    /// a` as a removable piece where possible.
     fn map_entry(&mut self, token: &Token, rise: &mut Rise) -> Outcome<(Entries, Option<Site>)> {
         if let Some(reported) = self.entry_without_value(token) {
             return Err(reported);
@@ -197,7 +198,7 @@ impl Evaluator<'_> {
                     return Err(self.report(&token.here, diagnostic));
                 }
                 let last = self.written_color_after(token, "a second colour")?.value;
-                // POV-Ray's manual has it as a form of today.
+                // POV-Ray's manual lists it as a current form.
                 if self.options.dialect == Dialect::Scene {
                     self.lint_legacy(
                         &token.here,
@@ -218,7 +219,7 @@ impl Evaluator<'_> {
         Ok(entries)
     }
 
-    /// `[Red]`, `[Red 0]`: a colour where an entry has its value.
+    /// Handles an entry that begins with a colour instead of its value: `[Red]`, `[Red 0]`.
     fn entry_without_value(&mut self, entry: &Token) -> Option<Reported> {
         let first = self.peek()?.clone();
         let is_word = matches!(first.kind, TokenKind::Word(word) if word.family() == Family::Color);
@@ -256,7 +257,7 @@ impl Evaluator<'_> {
         Some(self.report(&first.here, told))
     }
 
-    /// `[0 P_Wood]`: a pigment stands in a `pigment_map`.
+    /// Handles a pigment in a `color_map`, which belongs in a `pigment_map`: `[0 P_Wood]`.
     fn pigment_in_color_map(&mut self) -> Option<Reported> {
         let token = self.peek()?.clone();
         let word = match self.peek_declared()? {
@@ -283,7 +284,7 @@ impl Evaluator<'_> {
         Some(self.report(&token.here, diagnostic))
     }
 
-    /// `[1 rgbt <1, 0, 0>, 0.5]`: a number that belongs in the vector before it.
+    /// Returns the fix for a number that belongs in the vector before it: `[1 rgbt <1, 0, 0>, 0.5]`.
     fn outside_of_vector(&self, extra: &Token) -> Option<(Span, String)> {
         let text = &self.sources.get(extra.span.file).text;
         let number = self.sources.text(extra.span);

@@ -1,5 +1,5 @@
-//! A pigment or a pattern where one colour stands: `light_source { 0, pigment { rgb 1 } }`,
-//! `background { gradient y }`.
+//! Diagnostics for a pigment or a pattern where a single colour is expected: `light_source { 0, pigment { rgb
+//! 1 } }`, `background { gradient y }`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -9,7 +9,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Reported};
 
 impl Evaluator<'_> {
-    /// Tells of a pigment, or a pattern, that comes next where the colour of `after` stands; passes over it.
+    /// Reports a pigment or a pattern that comes next where the colour of `after` is expected, and skips it.
     pub(super) fn paint_for_color(&mut self, after: &Token) -> Option<Reported> {
         let TokenKind::Word(of) = after.kind else { return None };
         let next = self.peek()?.clone();
@@ -40,7 +40,7 @@ impl Evaluator<'_> {
         Some(self.report(&next.here, told))
     }
 
-    /// Whether `word` begins a pigment where `of` takes one colour.
+    /// Returns whether `word` begins a pigment where `of` takes one colour.
     fn next_is_paint(&self, of: Word, word: Word) -> Option<()> {
         let takes_color =
             matches!(of, Word::LightSource | Word::Background) || of.family() == Family::FinishItem;
@@ -49,7 +49,7 @@ impl Evaluator<'_> {
         (takes_color && is_paint).then_some(())
     }
 
-    /// `background { gradient y color_map { … } }`: a sky has patterns.
+    /// Suggests `sky_sphere`, which has patterns: `background { gradient y color_map { … } }`.
     fn sky_instead(&self, told: Diagnostic, at: Span) -> Diagnostic {
         let told = told.at(at, "a background is one colour");
         let (Some(&opener), Some(inside)) = (self.openers.last(), self.within_block()) else {

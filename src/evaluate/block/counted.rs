@@ -1,7 +1,7 @@
-//! Lists that begin with how many entries follow: what is said where the count is missing, or the brackets of the
-//! entries, or where an entry has more numbers than its place.
+//! Diagnostics for lists that begin with their length: a missing count, missing brackets around the entries,
+//! or an entry with too many components.
 //!
-//! **Invariant:** one message for a list, however many of its entries are written so.
+//! **Invariant:** there is one message for a list, however many of its entries have the mistake.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -13,12 +13,12 @@ use super::super::value::Value;
 use super::super::{Evaluator, Reported};
 use super::Given;
 
-/// How many entries without brackets are written out in a message.
+/// Maximum number of entries without brackets that a message rewrites.
 const MOST_WRITTEN: usize = 12;
 
 impl Evaluator<'_> {
-    /// `vertex_vectors { <0, 0, 0>, <1, 0, 0> }`, `lathe { linear_spline <0, 0>, <1, 0> }`: points without their count,
-    /// which belongs right behind `before`.
+    /// Reports points without their count, which belongs right after `before`: `vertex_vectors { <0, 0, 0>,
+    /// <1, 0, 0> }`, `lathe { linear_spline <0, 0>, <1, 0> }`.
     pub(super) fn uncounted(
         &mut self,
         before: &str,
@@ -45,14 +45,15 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// How many entries follow: no more than memory could hold, for what is not there is told as missing.
+    /// Returns the announced number of entries, truncated and clamped to 32 bits. Warns of a fraction.
     pub(super) fn counted(&mut self, count: &Given<f64>) -> usize {
         self.lint_count(&count.here, count.span, count.value);
         count.value as u32 as usize
     }
 
-    /// The plain numbers and vectors from `first` on, up to a word or the end of their block; `None` where anything
-    /// else stands among them: what directives make cannot be counted here.
+    /// Returns the literal numbers and vectors from `first` on, up to a word or the end of their block.
+    /// Returns `None` if they contain anything else, since the items that directives produce cannot be
+    /// counted here.
     fn entries_from(&self, first: Span) -> Option<&str> {
         let block = self.within_block()?.span;
         if !block.contains(first) || first.end < first.start {
@@ -70,7 +71,8 @@ impl Evaluator<'_> {
         (ended && parted).then_some(entries)
     }
 
-    /// `face_indices { 2, 0,1,2, 0,2,3 }`: as many bare numbers behind `count` as make so many entries of `width`.
+    /// Handles bare numbers after `count` that are exactly enough for that many entries of `width`:
+    /// `face_indices { 2, 0,1,2, 0,2,3 }`.
     pub(super) fn bare_entries(
         &mut self,
         entry: &str,
@@ -79,7 +81,7 @@ impl Evaluator<'_> {
     ) -> Option<Reported> {
         let wanted =
             (count.value as u32 as usize).checked_mul(width).filter(|wanted| *wanted > 0)?;
-        // Most have their brackets, and may be megabytes.
+        // Most have their brackets, and may be megabytes long.
         let behind = self.sources.get(count.span.file).text.get(count.span.end as usize..)?;
         if behind.trim_start_matches(|c: char| c == ',' || c.is_whitespace()).starts_with('<') {
             return None;
@@ -87,7 +89,7 @@ impl Evaluator<'_> {
         let start = count.span.start;
         let rest = self.entries_from(Span { end: start, ..count.span })?;
         let numbers: Vec<(usize, &str)> = parted(rest).collect();
-        // Before the count of a prism stand its heights, in one piece with it.
+        // The heights of a prism precede its count, in one piece with it.
         let before = numbers.len().checked_sub(wanted + 1).filter(|before| *before < 3)?;
         let is_count = numbers[before].1.parse() == Ok(count.value);
         if !is_count || !numbers.iter().all(|(_, number)| number.parse::<f64>().is_ok()) {
@@ -117,7 +119,8 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// Of points as plain numbers, of which one stands beyond their count: the count, and how many there are.
+    /// For points written as literal numbers, one of which exceeds their count, returns the count's span and
+    /// the actual number.
     pub(super) fn count_before(&self, extra: Span) -> Option<(Span, usize)> {
         let block = self.within_block()?.span;
         if !block.contains(extra) {
@@ -141,7 +144,7 @@ impl Evaluator<'_> {
         Some((count, points.matches('<').count() + more.matches('<').count()))
     }
 
-    /// A vector of more numbers than a point of its list has, `width`; `what` is such a point.
+    /// Reports a vector with more components than the `width` of its list; `what` names an entry.
     pub(super) fn too_wide(
         &mut self,
         given: &Given<Value>,
@@ -178,7 +181,8 @@ impl Evaluator<'_> {
         self.report(&given.here, told)
     }
 
-    /// Points of three numbers where two are wanted, from `first` on, of which one number is 0 in all: without it.
+    /// For points of three components where two are expected, returns each one from `first` on without the
+    /// component that is 0 in all of them.
     fn flattened(&self, first: Span, list: Word) -> Vec<(Span, String)> {
         let Some(rest) = self.entries_from(first) else { return Vec::new() };
         let mut points: Vec<(Span, Vec<&str>)> = Vec::new();
@@ -195,7 +199,7 @@ impl Evaluator<'_> {
         let is_zero = |part: &str| part.parse::<f64>() == Ok(0.0);
         let flat =
             |axis: usize| points.iter().all(|(_, parts)| parts.len() == 3 && is_zero(parts[axis]));
-        // A prism stands on the plane of x and z, a lathe turns in that of x and y.
+        // A prism is based on the xz plane; a lathe's profile is in the xy plane.
         let axis = match list {
             Word::Prism if flat(1) => 1,
             _ if flat(2) => 2,
@@ -206,8 +210,8 @@ impl Evaluator<'_> {
         points.iter().map(|(span, parts)| (*span, without(parts))).collect()
     }
 
-    /// `lathe { 4, linear_spline … }`, `sor { linear_spline 4, … }`, `lathe { b_spline … }`: the kind of a spline that
-    /// `shape` has not, or in the wrong place, behind its `count`.
+    /// Reports a spline kind that `shape` does not have, or that follows its `count`: `lathe { 4,
+    /// linear_spline … }`, `sor { linear_spline 4, … }`, `lathe { b_spline … }`.
     pub(super) fn misplaced_spline(
         &mut self,
         shape: Word,
@@ -264,7 +268,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// `prism { 0, 5, <…>, … }`: one height, and the count where the other should stand.
+    /// Reports a single height, with the count in the place of the other: `prism { 0, 5, <…>, … }`.
     pub(super) fn lone_height(&mut self, prism: &Token, count: Span) -> Option<Reported> {
         self.skip_commas();
         let next = self.peek().cloned()?;
@@ -287,7 +291,7 @@ fn is_whole(part: &str) -> bool {
     !part.is_empty() && part.trim_start_matches('-').bytes().all(|b| b.is_ascii_digit())
 }
 
-/// What an entry of a list of a `mesh2` is.
+/// Returns the description of an entry in a list of a `mesh2`.
 pub(super) fn entry_of(list: Word) -> &'static str {
     match list {
         Word::VertexVectors => "a vertex",
@@ -297,7 +301,7 @@ pub(super) fn entry_of(list: Word) -> &'static str {
     }
 }
 
-/// What commas and blanks part, and where each begins.
+/// Splits a text at commas and blanks; returns each part with its offset.
 fn parted(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let parts = text.split([',', ' ', '\t', '\r', '\n']);
     let placed = parts.scan(0, |at, part| {

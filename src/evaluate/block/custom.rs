@@ -1,13 +1,13 @@
-//! What is said of other tools' words otherwise than by one word of ours: `intensity 3` of a light, `far 100` of a
-//! camera, `ellipsoid { … }`.
+//! Suggestions for other tools' keywords that have no single equivalent: `intensity 3` in a light, `far 100`
+//! in a camera, `ellipsoid { … }`.
 
 use crate::diagnostic::suggest;
 use crate::vocabulary::{Family, Word};
 
 use super::Place;
 
-/// Whether what another tool calls `theirs` has other parts than our word: four corners are too many for a
-/// triangle.
+/// Returns whether the block that another tool calls `theirs` has different parts than ours: four corners are
+/// too many for a triangle.
 pub(super) fn has_other_parts(theirs: &str, word: Word) -> bool {
     use Word as W;
     let is_listed = matches!(
@@ -24,7 +24,8 @@ pub(super) fn has_other_parts(theirs: &str, word: Word) -> bool {
     is_listed && suggest::closest(theirs, [word.name()]).is_none()
 }
 
-/// What is said otherwise here than by one word: `intensity 3` of a light, `far 100` of a camera.
+/// Returns the advice for a keyword without a single equivalent: `intensity 3` in a light, `far 100` in a
+/// camera.
 pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
     let name = name.to_lowercase();
     if matches!(name.as_str(), "hsv" | "hsl") {
@@ -73,7 +74,7 @@ pub(super) fn custom(name: &str, place: Place) -> Option<&'static str> {
     }
 }
 
-/// Whether a name has no word of `place` that it was meant as, whatever resembles it.
+/// Returns whether no word of `place` is the equivalent of a name, whatever resembles it.
 pub(super) fn has_no_word(name: &str, place: Place) -> bool {
     place.word == Some(Word::Camera) && matches!(name, "height" | "size" | "resolution")
 }

@@ -1,7 +1,7 @@
-//! What stands behind an object and belongs in it: `sphere { 0, 1 } pigment { rgb 1 }`.
+//! Diagnostics for items after an object that belong inside it: `sphere { 0, 1 } pigment { rgb 1 }`.
 //!
-//! **In:** a word at the top level that stands only in objects. **Out:** one message at the brace that
-//! closes too early. Where braces are too many as well, `syntax/repair/early.rs` has told it.
+//! **In:** a word at the top level that is only valid in objects. **Out:** one message at the brace that
+//! closes too early. If there are surplus braces as well, `syntax/repair/early.rs` has reported it.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
@@ -11,18 +11,18 @@ use super::super::Evaluator;
 use super::super::stream::{Token, TokenKind};
 use super::is_object_word;
 
-/// How many objects are looked at: the last one has its parts before it.
+/// Maximum number of objects that are examined: the last one has its parts before it.
 const MOST_OBJECTS: usize = 4;
 
 impl Evaluator<'_> {
-    /// Tells of a `token` that belongs in the object right before it, and passes over all that does.
-    /// `false` where no object ends there.
+    /// Reports a `token` that belongs in the object right before it, and skips everything that does. Returns
+    /// `false` if no object ends there.
     pub(super) fn closed_too_early(&mut self, token: &Token, word: Word) -> bool {
         if !is_of_object(word) {
             return false;
         }
         let Some(closer) = self.closer_before(token) else { return false };
-        // On a line of its own it may belong to what comes, as in other languages.
+        // On a line of its own it may belong to what follows, as in other languages.
         let gap = Span { start: closer.end, end: token.span.start, ..closer };
         if word.family() == Family::Transform && self.sources.text(gap).contains('\n') {
             return false;
@@ -63,12 +63,12 @@ impl Evaluator<'_> {
         true
     }
 
-    /// Whether nothing but blanks parts two places, the second behind the first.
+    /// Returns whether only blanks separate two spans, the second after the first.
     fn is_beside(&self, first: Span, second: Span) -> bool {
         self.sources.between(first, second).is_some_and(|between| between.trim().is_empty())
     }
 
-    /// The `}` that nothing but blanks parts from `token`.
+    /// Returns the `}` that only blanks separate from `token`.
     fn closer_before(&self, token: &Token) -> Option<Span> {
         let text = &self.sources.get(token.span.file).text;
         let before = text.get(..token.span.start as usize)?.trim_end().strip_suffix('}')?;
@@ -76,7 +76,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether a text is one block with its braces: these are counted, wherever they stand.
+/// Returns whether a text is one block with its braces, by counting braces wherever they appear.
 fn is_one_block(text: &str) -> bool {
     let mut depth = 0_usize;
     let end = text.trim_start().char_indices().find(|&(_, c)| {
@@ -91,7 +91,7 @@ fn is_one_block(text: &str) -> bool {
     block.starts_with('{') && end.is_some_and(|(at, _)| at + 1 == block.len())
 }
 
-/// Words that stand in objects, and nowhere at the top level.
+/// Returns whether a word is valid in objects and not at the top level.
 fn is_of_object(word: Word) -> bool {
     use Word as W;
     matches!(word.family(), Family::Transform | Family::Modifier) && !is_object_word(word)

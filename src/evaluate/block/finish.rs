@@ -1,4 +1,4 @@
-//! `finish`: POV-Ray's words, or the seed's three; never both.
+//! `finish`: POV-Ray's keywords, or the seed's three; never both.
 
 mod albedo;
 mod reflection;
@@ -17,20 +17,20 @@ use super::pieces::WrittenColor;
 use super::{Given, Place};
 use whole::Written;
 
-/// What POV-Ray does with a negative power.
+/// How POV-Ray treats a negative power.
 const AS_A_POWER: &str = "light is taken to this negative power";
 
-/// A finish under way.
+/// A finish during reading.
 pub(super) struct OpenFinish {
     opener: Token,
     finish: Finish,
     written: Written,
     failed: bool,
-    /// How many messages there were before.
+    /// Number of messages before it.
     told: usize,
 }
 
-/// A loop may go through one place again and again.
+/// Adds a site unless it is listed: a loop may visit one position repeatedly.
 pub(super) fn list_once(sites: &mut Vec<Site>, item: Site) {
     if sites.iter().all(|site| site.span != item.span) {
         sites.push(item);
@@ -38,7 +38,7 @@ pub(super) fn list_once(sites: &mut Vec<Site>, item: Site) {
 }
 
 impl Evaluator<'_> {
-    /// `finish { [Name] … }`, starting from the default texture's finish.
+    /// Reads `finish { [Name] … }`, starting from the default texture's finish.
     pub(super) fn finish(&mut self, token: &Token) -> Outcome<FinishId> {
         let start = self.scene.textures[self.default_texture.index()].finish;
         self.finish_from(token, start)
@@ -54,10 +54,10 @@ impl Evaluator<'_> {
         })
     }
 
-    /// A finish that items are read into, and that `token` began.
+    /// Returns a finish, begun by `token`, into which items are read.
     pub(super) fn open_finish(&self, token: &Token, start: FinishId) -> OpenFinish {
         let origin = self.finish_origin(start);
-        // The default's words make way for those of the other vocabulary.
+        // The default's words yield to those of the other vocabulary.
         let origin = match start == self.scene.textures[self.default_texture.index()].finish {
             true => FinishOrigin { seed: None, classic: None, ..origin },
             false => origin,
@@ -80,7 +80,7 @@ impl Evaluator<'_> {
 
     pub(super) fn close_finish(&mut self, open: OpenFinish) -> Outcome<FinishId> {
         let OpenFinish { opener, mut finish, mut written, failed, told } = open;
-        // What failed may be what is missing.
+        // The missing word may be in the item that failed.
         if failed && written.classic.is_none() {
             return Err(Reported);
         }
@@ -92,7 +92,7 @@ impl Evaluator<'_> {
         if let Some(ambient) = &written.ambient {
             self.lint_ambient(ambient, &finish);
         }
-        // A word that is not known may be the one that is missing.
+        // An unknown word may be the missing one.
         if self.diagnostics.len() == told {
             self.lint_unlit_highlight(&finish, &written.highlights);
         }
@@ -118,8 +118,8 @@ impl Evaluator<'_> {
         Ok(FinishId(self.scene.finishes.len() as u32 - 1))
     }
 
-    /// The finishes from number `first` on are defaults, whose words make way for those of the other
-    /// vocabulary.
+    /// Clears the keywords recorded for the finishes from number `first` on. These are defaults, whose
+    /// keywords yield to those of the other vocabulary.
     pub(super) fn forget_words_of_finishes(&mut self, first: usize) {
         for origin in self.scene.finish_origins.iter_mut().skip(first) {
             (origin.seed, origin.classic) = (None, None);
@@ -188,7 +188,7 @@ impl Evaluator<'_> {
         }
         let mut classic = match finish {
             Finish::Classic(classic) => classic.clone(),
-            // POV-Ray's words replace a seed's finish that came by default.
+            // POV-Ray's words replace a seed finish that came from the default.
             Finish::Seed { .. } => ClassicFinish::default(),
         };
         written.pieces = None;
@@ -220,7 +220,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// `Ok(false)` when the word is none of the built ones.
+    /// Reads one item; returns `Ok(false)` if its word is not a supported one.
     fn classic_item(
         &mut self,
         token: &Token,
@@ -262,7 +262,7 @@ impl Evaluator<'_> {
             Word::ConserveEnergy => finish.conserve_energy = true,
             Word::Ior => {
                 let before = finish.ior.replace(self.index_of_refraction(token)?);
-                // What is as the air hides what was before it.
+                // An index like that of air hides the one before it.
                 if before == Some(1.0) || finish.ior == Some(1.0) {
                     written.origin.ior.clear();
                 }
@@ -284,7 +284,8 @@ impl Evaluator<'_> {
         Ok(true)
     }
 
-    /// `roughness`: with 0 a highlight has no edge, as in POV-Ray 3.7 (measured), as if it were without bound.
+    /// Reads `roughness`: with 0, as in POV-Ray 3.7 (measured), a highlight has no edge, as if the exponent
+    /// were unbounded.
     fn roughness(&mut self, token: &Token) -> Outcome<f64> {
         let given = self.number_after(token, "a number")?;
         if given.value == 0.0 {
@@ -299,7 +300,7 @@ impl Evaluator<'_> {
         Ok(given.value)
     }
 
-    /// A power of a cosine: POV-Ray 3.7 takes a negative one, too (measured).
+    /// Reads the exponent of a cosine; POV-Ray 3.7 also accepts a negative one (measured).
     pub(super) fn power_after(&mut self, token: &Token, word: Word) -> Outcome<f64> {
         let given = self.number_after(token, "a number")?;
         if given.value < 0.0 {
@@ -309,7 +310,7 @@ impl Evaluator<'_> {
         Ok(given.value)
     }
 
-    /// A colour of light, or a number for white light.
+    /// Reads a light colour, or a number for white light.
     fn intensity_after(&mut self, token: &Token) -> Outcome<Given<Rgb>> {
         let given = self.written_intensity_after(token)?;
         let light = given.value.color().rgb;
@@ -324,8 +325,8 @@ impl Evaluator<'_> {
         Ok(given)
     }
 
-    /// `diffuse front, back`: light from behind is not built yet, but for none. POV-Ray 3.7 does without the
-    /// comma (measured).
+    /// Reads `diffuse front, back`: light from behind is unsupported unless it is zero. POV-Ray 3.7 accepts
+    /// it without the comma (measured).
     fn back_side(&mut self, token: &Token) -> Outcome<()> {
         let is_pov = self.options.dialect == Dialect::Pov;
         if !is_pov && !matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. })) {
@@ -345,7 +346,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// How strongly a surface answers light.
+    /// Reads how strongly a surface reflects light.
     fn strength_after(&mut self, token: &Token, word: Word) -> Outcome<f64> {
         if let Some(reported) = self.color_for_number(token, word) {
             return Err(reported);
@@ -355,7 +356,8 @@ impl Evaluator<'_> {
         Ok(given.value)
     }
 
-    /// `diffuse rgb 0.6`, `specular <0.5, 0.5, 0.5>`: one number is for all colours of light.
+    /// Reports a colour where one number applies to all colours of light: `diffuse rgb 0.6`, `specular <0.5,
+    /// 0.5, 0.5>`.
     fn color_for_number(&mut self, token: &Token, word: Word) -> Option<Reported> {
         let first = self.peek()?.clone();
         let text = self.sources.text(first.span);

@@ -1,6 +1,6 @@
-//! What other tools, and other countries, write in the place of a value: `0,5`, `"#ff0000"`, `opacity 0.5`.
+//! Recognition of values written as in other tools and countries: `0,5`, `"#ff0000"`, `opacity 0.5`.
 //!
-//! **In:** a place that is told already. **Out:** what was meant, where the text shows it.
+//! **In:** a position that already has a diagnostic. **Out:** the intended value, if the text shows it.
 
 use crate::color::{self, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
@@ -13,13 +13,13 @@ use super::super::{Evaluator, Reported};
 use super::{Place, opens_value};
 
 impl Evaluator<'_> {
-    /// `0,5` whose `5` stands at `span`: all of it, and how it is written.
+    /// For the `5` of `0,5` at `span`, returns the whole span and the number with a decimal point.
     pub(super) fn comma_before(&self, span: Span) -> Option<(Span, String)> {
         let text = &self.sources.get(span.file).text;
         self.decimal(span, text.get(..span.start as usize)?)
     }
 
-    /// `0,5`, or `0, 5` where nothing else can be meant, whose `0` stands at `span`, likewise.
+    /// Likewise for the `0` of `0,5` at `span`, or of `0, 5` if nothing else can be meant.
     pub(super) fn comma_after(&self, span: Span) -> Option<(Span, String)> {
         let text = &self.sources.get(span.file).text;
         let behind = text.get(span.end as usize..)?.strip_prefix(',')?;
@@ -31,13 +31,14 @@ impl Evaluator<'_> {
             .filter(|(whole, _)| whole.start == span.start)
     }
 
-    /// What to say of `0,5`, whose `0` stands at `span`.
+    /// Returns the diagnostic for `0,5`, whose `0` is at `span`.
     pub(in crate::evaluate) fn decimal_comma(&self, span: Span) -> Option<Diagnostic> {
         let (whole, number) = self.comma_after(span)?;
         Some(told_comma(self.sources.text(whole), whole, number))
     }
 
-    /// `#declare R = 0,5;`: the name has the number that was meant from here on, so that nothing else is told of it.
+    /// Handles `#declare R = 0,5;`: the name gets the intended number, so that no further error is reported
+    /// for it.
     pub(super) fn declare_with_point(&mut self, number: Span, meant: &str) {
         let text = &self.sources.get(number.file).text;
         let before = text.get(..number.start as usize).unwrap_or("").trim_end();
@@ -51,7 +52,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The number whose fraction stands at `span`, after a comma that ends the text `before`.
+    /// Returns the number whose fraction is at `span`, after a comma that ends the text `before`.
     fn decimal(&self, span: Span, before: &str) -> Option<(Span, String)> {
         let fraction = digits(self.sources.text(span))?;
         let before = before.strip_suffix(',')?;
@@ -62,7 +63,8 @@ impl Evaluator<'_> {
         begins.then(|| (Span { start, ..span }, format!("{whole}.{fraction}")))
     }
 
-    /// `<0,5, 1,5, 2>`: the vector of three that is meant where a comma without a blank is a point.
+    /// Returns the vector of three that is meant if commas without a blank are decimal points: `<0,5, 1,5,
+    /// 2>`.
     pub(in crate::evaluate) fn commas_within(&self, span: Span) -> Option<String> {
         let text = self.sources.text(span).strip_prefix('<')?.strip_suffix('>')?;
         let parts: Vec<&str> = text.split(", ").collect();
@@ -74,7 +76,7 @@ impl Evaluator<'_> {
         numbers.filter(|numbers| numbers.len() == 3).map(|n| format!("<{}>", n.join(", ")))
     }
 
-    /// `rotate z, A`: an axis and an angle, as other tools have it.
+    /// Returns the diagnostic for an axis and an angle, as other tools have it: `rotate z, A`.
     pub(super) fn angle_behind_axis(&self, token: &Token, value: &Value) -> Option<Diagnostic> {
         value.as_number()?;
         let text = &self.sources.get(token.span.file).text;
@@ -101,7 +103,7 @@ impl Evaluator<'_> {
         )
     }
 
-    /// `rotate 45 degrees`.
+    /// Returns the diagnostic for a unit: `rotate 45 degrees`.
     pub(super) fn unit_of_angle(&self, token: &Token, word: Word) -> Option<Diagnostic> {
         let name = word.name();
         let text = &self.sources.get(token.span.file).text;
@@ -122,7 +124,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `pigment { gren }`: a component of a colour has a value behind it, where the name of a colour is meant.
+    /// Returns the colour name that is meant by a component's keyword without a value: `pigment { gren }`.
     pub(super) fn color_meant(&mut self, near: &str) -> Option<String> {
         let has_value = matches!(
             self.peek().map(|next| &next.kind),
@@ -135,8 +137,8 @@ impl Evaluator<'_> {
         visible.find(|name| name.eq_ignore_ascii_case(near)).map(str::to_owned)
     }
 
-    /// `0 -2`, where a sign without a blank behind it rather begins a number of its own: where a comma is
-    /// missing, and the two.
+    /// Returns the positions of missing commas, with the separated values, for numbers such as `0 -2`, where
+    /// a sign without a blank after it probably begins a new number.
     pub(super) fn commas_lost(&self, span: Span) -> Vec<(Span, String)> {
         let text = self.sources.text(span);
         let number = |c: char| c.is_ascii_digit() || c == '.';
@@ -150,7 +152,8 @@ impl Evaluator<'_> {
         text.match_indices(" -").filter_map(pair).collect()
     }
 
-    /// A word where a value should stand: `size` for `Size`, which is declared, or what other languages call.
+    /// Handles a keyword where a value is expected: `size` for the declared `Size`, or another language's
+    /// name.
     pub(super) fn meant_by_word(
         &mut self,
         diagnostic: Diagnostic,
@@ -169,7 +172,7 @@ impl Evaluator<'_> {
         next.and_then(|next| self.called_elsewhere(next, wanted)).unwrap_or(diagnostic)
     }
 
-    /// `scale { 2 }`, `rgb {1, 0, 0}`: a value that stands in braces. Passes over it.
+    /// Reports a value in braces and skips it: `scale { 2 }`, `rgb {1, 0, 0}`.
     pub(super) fn value_in_braces(
         &mut self,
         after: &Token,
@@ -206,8 +209,8 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// Whether three numbers in a row may be three vectors, as in `triangle { 0, 0, 0 }`, which POV-Ray 3.7 reads
-    /// (measured).
+    /// Returns whether three numbers in a row may be three vectors, as in `triangle { 0, 0, 0 }`, which
+    /// POV-Ray 3.7 accepts (measured).
     pub(super) fn takes_bare_numbers(&self, after: &Token) -> bool {
         use Word as W;
         self.options.dialect == Dialect::Pov
@@ -224,8 +227,8 @@ impl Evaluator<'_> {
             )
     }
 
-    /// `sphere { 0 0 0, 1 }`: as many bare numbers as make `points` points and `numbers` numbers. Tells the
-    /// points as they are written.
+    /// Reports exactly as many bare numbers as `points` points and `numbers` numbers have, with the points as
+    /// they should be written: `sphere { 0 0 0, 1 }`.
     pub(super) fn bare_points(&mut self, points: usize, numbers: usize) -> Option<Reported> {
         let first = self.peek()?.span;
         let text = &self.sources.get(first.file).text;
@@ -248,7 +251,7 @@ impl Evaluator<'_> {
             found.push(Span::new(first.file, at + blank, at + blank + number.len()));
             at += blank + number.len();
         }
-        // `cone { 0, 0.6, 1.2*y, 0.25 }`: the last is the begin of a vector.
+        // `cone { 0, 0.6, 1.2*y, 0.25 }`: the last is the start of a vector.
         let goes_on = text.get(at..)?.trim_start();
         let is_product = goes_on.starts_with('*') || goes_on.starts_with('/');
         let is_comment = goes_on.starts_with("//") || goes_on.starts_with("/*");
@@ -270,7 +273,8 @@ impl Evaluator<'_> {
         Some(self.report(&here, diagnostic))
     }
 
-    /// `rgba <1, 0, 0, 0.5>`, `rgba(255, 0, 0, 0.5)`: no colour here says how opaque it is.
+    /// Returns the diagnostic for a colour with an alpha component, which the language lacks: `rgba <1, 0, 0,
+    /// 0.5>`, `rgba(255, 0, 0, 0.5)`.
     pub(in crate::evaluate) fn alpha_color(&self, name: &str, span: Span) -> Option<Diagnostic> {
         let ours = match name.to_lowercase().as_str() {
             "rgba" => "rgbt",
@@ -294,7 +298,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Passes over the vector or number right behind `rgba`, where that stood as a value.
+    /// Skips the vector or number right after `rgba` that was used as a value.
     pub(in crate::evaluate) fn skip_behind(&mut self, name: Span) {
         let Some(next) = self.peek_on().map(|next| next.span) else { return };
         let text = &self.sources.get(name.file).text;
@@ -306,7 +310,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The four plain numbers behind `rgba`, the last one turned; and all of it.
+    /// Returns the four literal numbers after `rgba`, the last one inverted, and their whole span.
     fn alpha_numbers(&self, span: Span) -> Option<(Span, String)> {
         let rest = self.sources.get(span.file).text.get(span.end as usize..)?;
         let list = rest.trim_start();
@@ -325,7 +329,7 @@ impl Evaluator<'_> {
         if numbers.len() != 4 || alpha > 1.0 {
             return None;
         }
-        // `rgba(255, 0, 0, 0.5)`, as the web has it.
+        // `rgba(255, 0, 0, 0.5)`, as on the web.
         let most = if numbers[..3].iter().any(|c| *c > 1.0) { 255.0 } else { 1.0 };
         let short = |number: f64| format!("{}", (number * 1000.0).round() / 1000.0);
         let mut texts: Vec<String> = numbers[..3].iter().map(|c| short(c / most)).collect();
@@ -334,7 +338,8 @@ impl Evaluator<'_> {
         Some((Span { end: end as u32, ..span }, texts.join(", ")))
     }
 
-    /// `transparency 0.5`, `opacity 0.5`: `transmit` belongs to a colour.
+    /// Reports a keyword for transparency, `transparency 0.5` or `opacity 0.5`: `transmit` belongs to a
+    /// colour.
     pub(super) fn clear_word(
         &self,
         diagnostic: Diagnostic,
@@ -354,7 +359,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// `0,5` where a number stands.
+/// Returns the diagnostic for `0,5` where a number is expected.
 pub(super) fn told_comma(text: &str, span: Span, number: String) -> Diagnostic {
     let thousands = text.split_once(',').filter(|(whole, rest)| {
         rest.len() == 3 && !whole.trim_start_matches('-').starts_with('0') && !rest.contains('.')
@@ -375,7 +380,7 @@ fn digits(text: &str) -> Option<&str> {
     (!text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())).then_some(text)
 }
 
-/// `"#ff0000"`, `"red"`: what a display shows of a colour of the web, if `text` is one.
+/// Returns the colour on the display of a web colour string, `"#ff0000"` or `"red"`, if `text` is one.
 pub(in crate::evaluate) fn color_of_string(text: &str) -> Option<Rgb> {
     let code = match text.to_ascii_lowercase().as_str() {
         "red" => "#f00",

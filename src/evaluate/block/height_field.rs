@@ -1,4 +1,4 @@
-//! `height_field`: a landscape from a picture or a function.
+//! `height_field`: a terrain from an image or a function.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::named::{NamedFile, is_of_picture};
 use crate::function::Outside;
 
-/// The words for types of pictures, and the endings of their files.
+/// Keywords for image types, and their file extensions.
 const TYPES: [(Word, &[&str]); 12] = [
     (Word::Exr, &[".exr", ".EXR"]),
     (Word::Gif, &[".gif", ".GIF"]),
@@ -34,21 +34,21 @@ const TYPES: [(Word, &[&str]); 12] = [
     (Word::Tiff, &[".tif", ".TIF", ".tiff", ".TIFF"]),
 ];
 
-/// The most heights of a function along a side.
+/// Maximum number of samples of a function along a side.
 const MOST: f64 = (1 << 15) as f64;
 
 impl Evaluator<'_> {
-    /// `height_field { [png] "file" | function W, H { … } [smooth] [water_level n] }`.
+    /// Reads `height_field { [png] "file" | function W, H { … } [smooth] [water_level n] }`.
     ///
-    /// **Source:** POV-Ray 3.7 manual, 3.4.5.1.5 "Height Field". The uppermost row of a picture is at z = 1; a
-    /// function is asked at x and 1 − z, and of its value counts what follows the point (measured).
+    /// **Source:** POV-Ray 3.7 manual, 3.4.5.1.5 "Height Field". The top row of an image is at z = 1; a
+    /// function is evaluated at x and 1 − z, and only the fractional part of its value counts (measured).
     pub(super) fn height_field(&mut self, token: &Token) -> Outcome<Solid> {
         let function = self.take_word(Word::Function);
         let read = match &function {
             Some(function) => self.heights_of_function(function),
             None => self.heights_of_picture(token),
         };
-        // What follows is read for its own mistakes.
+        // The following items are read for their own mistakes.
         let (mut smooth, mut water) = (false, None);
         while let Some((item, word)) = self.next_item(&[Word::Smooth, Word::WaterLevel]) {
             match word {
@@ -73,7 +73,7 @@ impl Evaluator<'_> {
         Ok(Solid::HeightField { field: Arc::new(field) })
     }
 
-    /// The next of what stands behind the heights; a misspelt one is told.
+    /// Returns the next item after the heights; a misspelt one is reported.
     fn next_item(&mut self, words: &[Word]) -> Option<(Token, Word)> {
         self.skip_commas();
         let next = self.peek()?.clone();
@@ -127,7 +127,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `tga "hills.png"`: its first bytes are those of another kind.
+    /// Reports a file named as TGA whose first bytes are those of another type: `tga "hills.png"`.
     fn is_no_tga(&mut self, file: &NamedFile, tga: &Token, told: (&str, &str)) -> Reported {
         let ((kind, word), NamedFile { name, here, span }) = (told, file);
         let message = format!("`{name}` is no TGA: by its first bytes it is a {kind}");
@@ -139,7 +139,7 @@ impl Evaluator<'_> {
         self.report(here, told)
     }
 
-    /// `function { x*y }`, `function 100 { x*y }`: how many heights there are is missing, behind those `before`.
+    /// Reports missing sample counts, after those in `before`: `function { x*y }`, `function 100 { x*y }`.
     fn lacks_sizes(&mut self, before: Option<Span>) -> Option<Reported> {
         let next = self.peek()?.clone();
         let TokenKind::Block(_) = next.kind else { return None };
@@ -164,7 +164,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// `function W, H { … }`, after its word.
+    /// Reads `function W, H { … }`, after its keyword.
     fn heights_of_function(&mut self, word: &Token) -> Outcome<(String, Heights)> {
         let mut before = None;
         let mut size = |name: &str| -> Outcome<usize> {
@@ -184,7 +184,7 @@ impl Evaluator<'_> {
             if !(0.0..2.0).contains(&count) {
                 return Err(self.report(&given.here, diagnostic));
             }
-            // POV-Ray 3.7 draws nothing then (measured).
+            // POV-Ray 3.7 then draws nothing (measured).
             self.opinion(&given.here, diagnostic)?;
             Ok(count as usize)
         };
@@ -208,7 +208,7 @@ impl Evaluator<'_> {
                 .at(word.span, "expected a formula, a pattern or a pigment");
             return Err(self.report(&word.here, diagnostic));
         }
-        // Of a colour, red.
+        // The red of a colour.
         let id = outside_id(id, 0);
         if width.min(rows) < 2 {
             return Ok(("a function".to_owned(), Heights { width: 2, heights: Vec::new() }));
@@ -237,7 +237,7 @@ impl Evaluator<'_> {
             self.opinion(&word.here, diagnostic)?;
         }
         if low < 0.0 || high > 1.0 {
-            // As short as they are told apart.
+            // As short as they remain distinct.
             let (low, high) = (low as f32, high as f32);
             let message =
                 format!("the heights of this function go from {low} to {high}, not from 0 to 1");
@@ -250,9 +250,9 @@ impl Evaluator<'_> {
     }
 }
 
-/// A height beyond 0 … 1, as far as it is above the last whole number below it.
+/// Returns the fractional part of a height beyond 0 … 1, above the greatest integer below it.
 ///
-/// **Source:** measured of POV-Ray 3.7: 2 and 3 are 1, −1 and −2 are 0.
+/// **Source:** measured in POV-Ray 3.7: 2 and 3 become 1, −1 and −2 become 0.
 fn wrapped(height: f64) -> f64 {
     match height {
         0.0..=1.0 => height,

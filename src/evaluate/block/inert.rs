@@ -1,7 +1,8 @@
-//! Words that change no picture: read, what belongs to them checked for its kind, and let go.
+//! Keywords that do not affect the image: they are read, the kinds of their arguments are checked, and they
+//! are discarded.
 //!
-//! **In:** a word that the vocabulary calls inert. **Out:** nothing but what is wrong with it.
-//! **Invariant:** neither what it holds nor poison in it reaches the scene.
+//! **In:** a word that the vocabulary calls inert. **Out:** only the mistakes in it. **Invariant:** neither
+//! its contents nor poison in them reach the scene.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::vocabulary::{Dialect, Family, Word};
@@ -12,7 +13,7 @@ use super::super::{Evaluator, Outcome};
 use super::Place;
 
 impl Evaluator<'_> {
-    /// Reads an inert word and what belongs to it; `None` where `token` is none that may stand here.
+    /// Reads an inert keyword and its arguments; `None` if `token` is not one that is valid here.
     pub(super) fn inert(&mut self, token: &Token, place: Place) -> Option<Outcome<()>> {
         let TokenKind::Word(word) = token.kind else { return None };
         if !word.is_inert() || !place.holds(word) {
@@ -74,8 +75,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `sphere { 0, 1 color Red }`: a colour beside the pigment of an object, which POV-Ray 3.7 passes over
-    /// (measured).
+    /// Reads a colour beside the pigment of an object, which POV-Ray 3.7 ignores (measured): `sphere { 0, 1
+    /// color Red }`.
     pub(super) fn quick_color(&mut self, token: &Token) -> Option<Outcome<()>> {
         let is_color = match token.kind {
             TokenKind::Word(word) => word.family() == Family::Color,

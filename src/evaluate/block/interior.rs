@@ -1,4 +1,4 @@
-//! `interior` and `material`: what a solid is filled with, and what it is made of.
+//! `interior` and `material`: the medium inside a solid, and its texture with interior.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Interior, InteriorId};
@@ -11,7 +11,7 @@ use super::Place;
 use super::finish::list_once;
 
 impl Evaluator<'_> {
-    /// `interior { [Name] ior … }`.
+    /// Reads `interior { [Name] ior … }`.
     pub(super) fn interior(&mut self, token: &Token) -> Outcome<InteriorId> {
         let mut interior = Interior { ior: 1.0, sites: Vec::new(), caustics: None };
         let interior = self.block(token, Word::Interior, |evaluator| {
@@ -30,7 +30,7 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::Ior) => {
                 let before = interior.ior;
                 interior.ior = self.index_of_refraction(token)?;
-                // What is as the air hides what was before it.
+                // An index like that of air hides the one before it.
                 if before == 1.0 || interior.ior == 1.0 {
                     interior.sites.clear();
                 }
@@ -40,7 +40,7 @@ impl Evaluator<'_> {
                 let given = self.number_after(token, "a number")?;
                 interior.caustics = (given.value != 0.0).then(|| token.here.site(token.span));
             }
-            // POV-Ray 3.7 has no use for it (measured).
+            // POV-Ray 3.7 ignores it (measured).
             TokenKind::Word(Word::Refraction) if self.options.dialect == Dialect::Pov => {
                 let given = self.number_after(token, "a number")?;
                 let message = "`refraction` has no effect in an `interior`";
@@ -66,7 +66,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// `material { [Name] texture { … } interior { … } }`; transforms move its texture.
+    /// Reads `material { [Name] texture { … } interior { … } }`; transforms apply to its texture.
     pub(super) fn material(&mut self, token: &Token) -> Outcome<Material> {
         let mut material = Material::default();
         self.block(token, Word::Material, |evaluator| {
@@ -108,8 +108,8 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// An item that the block has no use for: a mistake, unless it is harmless or belongs to what is
-    /// not built.
+    /// Handles an item that the block does not accept: a mistake, unless it is inert or belongs to something
+    /// unsupported.
     fn unfit(&mut self, token: &Token, place: Place) -> Outcome<()> {
         let poisoned = self.poison.is_some();
         self.unexpected(token, place);

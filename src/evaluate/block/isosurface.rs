@@ -1,4 +1,4 @@
-//! Surfaces of functions: `isosurface`, and what holds it.
+//! `isosurface` and `parametric`: surfaces of functions, with their container.
 
 use std::sync::Arc;
 
@@ -14,11 +14,11 @@ use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::{Given, Place};
 
-/// What POV-Ray takes where `accuracy` or `max_gradient` is not said, or is no length.
+/// POV-Ray's value if `accuracy` or `max_gradient` is missing, or not positive.
 const ACCURACY: f64 = 0.001;
 const MAX_GRADIENT: f64 = 1.1;
 
-/// What stands behind the function of an `isosurface`.
+/// Items after the function of an `isosurface`.
 const OF_ISOSURFACE: &[Word] = &[
     // One too many.
     Word::Function,
@@ -32,14 +32,14 @@ const OF_ISOSURFACE: &[Word] = &[
     Word::AllIntersections,
 ];
 
-/// What stands behind the corners of a `parametric`.
+/// Items after the corners of a `parametric`.
 const OF_PARAMETRIC: &[Word] =
     &[Word::Accuracy, Word::ContainedBy, Word::MaxGradient, Word::Precompute];
 
 impl Evaluator<'_> {
-    /// `function { … }` first, then the other items, in any order.
+    /// Reads an `isosurface`: `function { … }` first, then the other items in any order.
     pub(super) fn isosurface(&mut self, token: &Token) -> Outcome<Solid> {
-        // What follows is read for its own mistakes.
+        // The following items are read for their own mistakes.
         let word = self.function_word(token);
         let compared = word.as_ref().ok().and_then(|_| self.compared_surface());
         let function = word.and_then(|word| self.closed_function(&word));
@@ -67,7 +67,7 @@ impl Evaluator<'_> {
             };
             failed |= outcome.is_err();
         }
-        // Between 0 and 1 a threshold parts where an inequality holds from where it does not.
+        // A threshold between 0 and 1 separates where an inequality holds from where it does not.
         if let Some(Compared { here, diagnostic, is_equation }) = compared
             && (is_equation || threshold == 0.0)
         {
@@ -81,7 +81,7 @@ impl Evaluator<'_> {
         Ok(Solid::Isosurface { function, container, threshold, accuracy, open })
     }
 
-    /// `isosurface { function { … } function { … } }`.
+    /// Reports a second function: `isosurface { function { … } function { … } }`.
     fn second_function(&mut self, item: &Token) -> Reported {
         let told = Diagnostic::new(Code::ExtraPart, "an isosurface has one function")
             .at(item.span, "one too many")
@@ -91,13 +91,13 @@ impl Evaluator<'_> {
         reported
     }
 
-    /// A function that gives a number, with all that it asks.
+    /// Reads a function that returns a number, with all functions that it uses.
     pub(super) fn function_part(&mut self, token: &Token) -> Outcome<Arc<Closed>> {
         let word = self.function_word(token)?;
         self.closed_function(&word)
     }
 
-    /// The word `function`, whose block comes next.
+    /// Reads the keyword `function`, whose block comes next.
     fn function_word(&mut self, token: &Token) -> Outcome<Token> {
         self.skip_commas();
         self.semicolon_for_comma();
@@ -134,7 +134,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The word `function`, or what is misspelt for it; that is told.
+    /// Takes the keyword `function`, or a misspelling of it, which is reported.
     fn take_function(&mut self) -> Option<Token> {
         let next = self.peek()?.clone();
         let word = Word::Function;
@@ -145,7 +145,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `isosurface { F … }`, of a declared function.
+    /// Reports the bare name of a declared function: `isosurface { F … }`.
     fn bare_function(&mut self, next: &Token) -> Option<Reported> {
         let TokenKind::Expression(id) = next.kind else { return None };
         if let Some(symbol) = self.unknown_name(&next.here, id) {
@@ -164,9 +164,9 @@ impl Evaluator<'_> {
         Some(self.report(&next.here, diagnostic))
     }
 
-    /// Three functions of u and v, and two corners of what these range over.
+    /// Reads a `parametric`: three functions of u and v, and the two corners of their range.
     pub(super) fn parametric(&mut self, token: &Token) -> Outcome<Solid> {
-        // What follows is read for its own mistakes.
+        // The following items are read for their own mistakes.
         let functions = [(); 3].map(|()| self.function_part(token));
         let first = self.corner(token, "a vector <u, v> for a corner")?;
         let second = self.corner(token, "a vector <u, v> for the opposite corner")?;
@@ -178,7 +178,7 @@ impl Evaluator<'_> {
                 Word::ContainedBy => {
                     self.contained_by(&item, container).map(|held| container = held)
                 }
-                // Every crossing is found as exactly as rounding allows.
+                // Every intersection is found as exactly as rounding allows.
                 Word::Accuracy => self.positive_after(&item, ACCURACY).map(drop),
                 _ => self.inert(&item, Place::shape(Word::Parametric)).unwrap_or(Ok(())),
             };
@@ -205,7 +205,7 @@ impl Evaluator<'_> {
         let given = self.given(token, wanted)?;
         match given.value.numbers().map(|numbers| numbers.as_slice().to_vec()).as_deref() {
             Some([u, v]) => Ok(given.with([*u, *v])),
-            // POV-Ray 3.7 takes it for both (measured).
+            // POV-Ray 3.7 uses it for both (measured).
             Some(&[both]) if self.options.dialect == Dialect::Pov => Ok(given.with([both; 2])),
             Some([_, _, ..]) => {
                 Err(self.too_wide(&given, Word::Parametric, "a corner of u and v", 2))
@@ -214,7 +214,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A number above 0; any other is `otherwise`, as in POV-Ray 3.7 (measured).
+    /// Reads a number above 0; any other is replaced by `otherwise`, as in POV-Ray 3.7 (measured).
     fn positive_after(&mut self, item: &Token, otherwise: f64) -> Outcome<f64> {
         let given = self.number_after(item, "a number more than 0")?;
         if given.value > 0.0 {
@@ -229,8 +229,8 @@ impl Evaluator<'_> {
         Ok(otherwise)
     }
 
-    /// `contained_by { sphere { … } }` or `contained_by { box { … } }`. With nothing in it POV-Ray 3.7 keeps the
-    /// container from `before` (measured).
+    /// Reads `contained_by { sphere { … } }` or `contained_by { box { … } }`. If it is empty, POV-Ray 3.7
+    /// keeps the container from `before` (measured).
     pub(super) fn contained_by(&mut self, token: &Token, before: Container) -> Outcome<Container> {
         let fits = |word| matches!(word, Word::Sphere | Word::Box);
         if let Some(reported) = self.unbraced(token, Word::ContainedBy, fits) {
@@ -264,7 +264,8 @@ impl Evaluator<'_> {
 }
 
 impl Evaluator<'_> {
-    /// A box that has a size along each axis: a flat one holds nothing. One along less than two was told.
+    /// Checks that a box has a size along each axis: a flat one contains nothing. A box with a size along
+    /// fewer than two axes has been reported.
     fn container(&mut self, box_: &Token, corners: [Vector; 2]) -> Outcome<Container> {
         let sides = (corners[1] - corners[0]).to_array();
         if sides.iter().filter(|side| **side == 0.0).count() == 1 {
@@ -277,6 +278,6 @@ impl Evaluator<'_> {
 }
 
 impl Container {
-    /// What holds a surface where nothing else is said.
+    /// The container of a surface that specifies none.
     pub(super) const DEFAULT: Self = Self::Box { corners: [Vector::NEG_ONE, Vector::ONE] };
 }

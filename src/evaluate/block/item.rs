@@ -1,4 +1,4 @@
-//! The parts of a shape that stand in any order, each behind its word.
+//! Parts of a shape that appear in any order, each after its keyword.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::vocabulary::Word;
@@ -8,7 +8,7 @@ use super::super::stream::{Token, TokenKind};
 use super::Place;
 
 impl Evaluator<'_> {
-    /// A name that nothing has where one of `words` was meant: takes it, and tells that.
+    /// Takes and reports an undeclared name where one of `words` was meant.
     pub(super) fn misspelt_part(&mut self, shape: Word, words: &[Word]) -> Option<Word> {
         let token = self.peek()?.clone();
         let TokenKind::Expression(id) = token.kind else { return None };
@@ -25,7 +25,8 @@ impl Evaluator<'_> {
         Some(near)
     }
 
-    /// The next part of `shape`: one of `words`, or a name that is none, where one of these was meant; that is told.
+    /// Returns the next part of `shape`: one of `words`, or an undeclared name where one of these was meant,
+    /// which is reported.
     pub(super) fn next_part(&mut self, shape: Word, words: &[Word]) -> Option<(Token, Word)> {
         loop {
             self.skip_commas();
@@ -39,7 +40,7 @@ impl Evaluator<'_> {
                     if let Some(word) = self.misspelt_part(shape, words) {
                         return Some((Token { kind: TokenKind::Word(word), ..token }, word));
                     }
-                    // What follows are its parts as before.
+                    // The following items are read as its parts.
                     self.next();
                     self.unexpected(&token, Place::shape(shape));
                 }
@@ -49,7 +50,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The one of `words` that a name was meant as.
+/// Returns the one of `words` that a name resembles.
 fn near(name: &str, words: &[Word]) -> Option<Word> {
     let names = || words.iter().map(|word| word.name());
     let foreign = || suggest::foreign(name).find(|ours| names().any(|name| name == *ours));

@@ -1,4 +1,4 @@
-//! `julia_fractal`: its parameter, the algebra and the function that are repeated, and the slice.
+//! `julia_fractal`: its parameter, the algebra and the iterated function, and the slice.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{JuliaFractal, Solid};
@@ -9,7 +9,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Given;
 
-/// What may stand behind the parameter, beside the functions.
+/// Items after the parameter, besides the functions.
 const ITEMS: &[Word] =
     &[Word::Quaternion, Word::Hypercomplex, Word::MaxIteration, Word::Precision, Word::Slice];
 
@@ -18,12 +18,12 @@ fn is_item(word: Word) -> bool {
 }
 
 impl Evaluator<'_> {
-    /// `<x, y, z, w>` first, then the other items, in any order.
+    /// Reads a `julia_fractal`: `<x, y, z, w>` first, then the other items in any order.
     pub(super) fn julia_fractal(&mut self, token: &Token) -> Outcome<Solid> {
-        // What follows is read for its own mistakes.
+        // The following items are read for their own mistakes.
         let parameter = self.four_after(token, "a vector of four for the parameter");
         let mut fractal = JuliaFractal::default();
-        // The function as it was written: quaternions know two.
+        // The function as written: quaternions support two.
         let mut function = None;
         let mut failed = false;
         loop {
@@ -46,7 +46,7 @@ impl Evaluator<'_> {
                         function = Some((Word::Pwr, next));
                         continue;
                     }
-                    // A misspelt one.
+                    // A misspelt item.
                     _ => match self.next_part(Word::JuliaFractal, ITEMS) {
                         Some(part) => part,
                         None => break,
@@ -78,7 +78,7 @@ impl Evaluator<'_> {
                 Word::MaxIteration => {
                     self.iterations(&item).map(|iterations| fractal.iterations = iterations)
                 }
-                // Every crossing is found as exactly as rounding allows.
+                // Every intersection is found as exactly as rounding allows.
                 Word::Precision => self.precision(&item),
                 Word::Slice => self.slice(&item, &mut fractal),
                 _ => {
@@ -106,7 +106,7 @@ impl Evaluator<'_> {
         Ok(Solid::JuliaFractal(Box::new(fractal)))
     }
 
-    /// `pwr(x, y)`: to the power of x + y·i.
+    /// Reads `pwr(x, y)`: the power with exponent x + y·i.
     fn power(&mut self, token: &Token, powers: &[f64], fractal: &mut JuliaFractal) -> Outcome<()> {
         let &[x, y] = powers else {
             let message = format!("`pwr` takes 2 numbers, not {}", powers.len());
@@ -142,7 +142,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// The normal of the three dimensions that are seen, and how far they are from the origin along it.
+    /// Reads the normal of the three-dimensional slice, and its distance from the origin along it.
     fn slice(&mut self, item: &Token, fractal: &mut JuliaFractal) -> Outcome<()> {
         let normal = self.four_after(item, "a vector of four for the normal")?;
         let distance = self.number_after(item, "a number for the distance")?;
@@ -157,7 +157,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Four numbers; of a shorter vector the others are 0, and a number is all four.
+    /// Reads four numbers. A shorter vector is padded with zeros; a number fills all four.
     fn four_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<[f64; 4]>> {
         let given = self.given(after, wanted)?;
         let numbers = given.value.numbers().map(|numbers| numbers.as_slice().to_vec());
@@ -178,7 +178,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// What may be repeated.
+/// Returns whether a word is a function that can be iterated.
 fn is_function(word: Word) -> bool {
     use Word as W;
     matches!(

@@ -1,4 +1,4 @@
-//! `light_source`: a point, a beam, parallel rays, or the seed's direction.
+//! `light_source`: a point light, a beam, parallel rays, or the seed's direction.
 
 mod doubt;
 mod form;
@@ -36,7 +36,7 @@ impl Evaluator<'_> {
                     let _: Outcome<()> = evaluator.light_modifiers(&mut modifiers, None, None);
                     return Err(reported);
                 }
-                // A light of its own from here on: its words can change it.
+                // From here on an independent light, which its words can change.
                 let (mut light, mut modifiers) = evaluator.light_of(declared);
                 let outcome = evaluator.light_modifiers(&mut modifiers, light.as_mut(), None);
                 let kind = light.map_or(ObjectKind::Use(declared), |light| {
@@ -64,7 +64,7 @@ impl Evaluator<'_> {
         self.add_object(Object { kind, modifiers, site, item: None })
     }
 
-    /// A declared light's own parts, and every modifier it has got, in order.
+    /// Returns a declared light's own parts, and every modifier applied to it, in order.
     fn light_of(&self, mut object: ObjectId) -> (Option<LightSource>, Vec<Modifier>) {
         let mut layers = Vec::new();
         loop {
@@ -92,8 +92,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The place and the colour; or, in a `.scene`, `direction` and the colour. Where another word of the
-    /// light stands instead of the colour, that may come late.
+    /// Reads the position and the colour; in a `.scene`, also `direction` and the colour. If another word of
+    /// the light precedes the colour, the colour may come late.
     fn light_parts(&mut self, opener: &Token) -> (Outcome<LightSource>, Option<Late>) {
         if self.at_color_word() {
             return (self.color_before_place(opener), None);
@@ -105,7 +105,7 @@ impl Evaluator<'_> {
         self.semicolon_for_comma();
         let late = self.late_color(opener);
         let color = match late {
-            // It is told where it comes, or that it never does.
+            // Reported where it appears, or as missing.
             Some(_) => Ok((Rgb::BLACK, None, None)),
             None => self.written_color_after(opener, "a colour for the light").map(|given| {
                 let black = given.value.without(|color| color.rgb.is_black());
@@ -141,7 +141,7 @@ impl Evaluator<'_> {
         Ok(LightKind::Direction { to_light })
     }
 
-    /// The words after the place and the colour. `light` is `None` where there is none to change.
+    /// Reads the words after the position and the colour. `light` is `None` if there is none to modify.
     fn light_modifiers(
         &mut self,
         modifiers: &mut Vec<Modifier>,
@@ -235,11 +235,11 @@ impl Evaluator<'_> {
             let diagnostic =
                 Diagnostic::new(Code::ZeroVector, "this light points at its own place")
                     .at(token.span, "expected a `point_at` other than the light's place");
-            // It gives no light, as in POV-Ray 3.7 (measured).
+            // It emits no light, as in POV-Ray 3.7 (measured).
             failed = self.opinion(&token.here, diagnostic).is_err();
             light.color = Rgb::BLACK;
         }
-        // What failed may be the word that is missing.
+        // The missing word may be in the item that failed.
         if let Some(light) = light
             && !failed
         {
@@ -258,7 +258,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The transforms among the modifiers of a light.
+/// Returns the transforms among the modifiers of a light.
 fn transforms_of(modifiers: &[Modifier]) -> Vec<TransformId> {
     let transform = |modifier: &Modifier| match modifier.kind {
         ModifierKind::Transform(id) => Some(id),
@@ -267,7 +267,7 @@ fn transforms_of(modifiers: &[Modifier]) -> Vec<TransformId> {
     modifiers.iter().filter_map(transform).collect()
 }
 
-/// A word that says how light leaves a place, or loses strength with the distance from it.
+/// Returns whether a word specifies how light leaves a position, or fades with the distance from it.
 fn is_of_a_place(token: &Token) -> bool {
     matches!(
         token.kind,

@@ -1,4 +1,4 @@
-//! Objects that stand by themselves at the top level, without a word: `Ball`, `Balls[2]`, `Tower translate x`.
+//! Bare object names at the top level, without `object`: `Ball`, `Balls[2]`, `Tower translate x`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::ObjectId;
@@ -12,9 +12,9 @@ use super::is_object_word;
 use super::place::is_at_top_level;
 
 impl Evaluator<'_> {
-    /// `Ball`, as POV-Ray takes it for `object { Ball }`; nothing may follow that belongs to it.
+    /// Reads `Ball` as `object { Ball }`, as POV-Ray does; no modifiers may follow.
     pub(super) fn lone_object(&mut self, token: &Token, id: ExpressionId) -> Option<ObjectId> {
-        // Before anything behind it is run, which may declare it.
+        // Before anything after it runs, which may declare it.
         let object = match token.here.unit.expression(id).kind {
             ExpressionKind::Name(name) => match self.scopes.read(token.here.symbol(name)) {
                 Some(&Value::Object(object)) => object,
@@ -45,7 +45,7 @@ impl Evaluator<'_> {
         (!follows).then_some(object)
     }
 
-    /// `Tower translate x`, of a `Tower` whose declaration was told to be wrong.
+    /// Handles `Tower translate x` for a `Tower` whose declaration was reported.
     pub(super) fn changed_object(&mut self, token: &Token, id: ExpressionId) -> bool {
         let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return false };
         let symbol = token.here.symbol(name);

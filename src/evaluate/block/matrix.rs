@@ -1,5 +1,5 @@
-//! The numbers of a `matrix` as other tools print them: in rows, with a fourth column, without brackets; and
-//! columns of zeros.
+//! Diagnostics for a `matrix` as other tools print it (in rows, with a fourth column, or without brackets),
+//! and for columns of zeros.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
@@ -9,16 +9,17 @@ use crate::source::Span;
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 
-/// How many rows and columns a matrix has here, and how many columns elsewhere.
+/// Dimensions of a matrix: its rows, and its columns here and in other tools.
 const ROWS: usize = 4;
 const COLUMNS: usize = 3;
 const COLUMNS_ELSEWHERE: usize = 4;
 
-/// Below this POV-Ray 3.7 takes an element of a matrix for 0 (measured: 1e-11 is, 1e-10 is not).
+/// POV-Ray 3.7 takes a smaller element of a matrix for 0 (measured: 1e-11 is, 1e-10 is not).
 const NO_LENGTH: f64 = 1e-10;
 
 impl Evaluator<'_> {
-    /// Replaces the diagonal element of a column of zeros by 1, with a warning, as POV-Ray 3.7 does (measured).
+    /// Replaces the diagonal element of a column of zeros by 1 with a warning, as POV-Ray 3.7 does
+    /// (measured).
     pub(super) fn with_columns(&mut self, matrix: &Token, rows: [Vector; 4]) -> Outcome<Step> {
         let [mut x, mut y, mut z, place] = rows.map(|row| row.to_array());
         let linear = [&mut x, &mut y, &mut z];
@@ -37,7 +38,7 @@ impl Evaluator<'_> {
         Ok(Step::Matrix([x, y, z, place].map(Vector::from_array)))
     }
 
-    /// `matrix 1,0,0, 0,1,0, 0,0,1, 0,0,0`: the first of the numbers is taken.
+    /// Reports a matrix without brackets, whose first number was taken: `matrix 1,0,0, 0,1,0, 0,0,1, 0,0,0`.
     pub(super) fn bare_matrix(&mut self, first: &Token) -> Option<Reported> {
         let text = self.sources.get(first.span.file).text.get(first.span.start as usize..)?;
         let of_number = |c: char| c.is_ascii_digit() || c.is_whitespace() || ".,+-eE".contains(c);
@@ -66,7 +67,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// `matrix <<1,0,0>, <0,1,0>, <0,0,1>, <0,0,0>>`.
+    /// Reports a matrix of rows: `matrix <<1,0,0>, <0,1,0>, <0,0,1>, <0,0,0>>`.
     pub(super) fn matrix_of_rows(&mut self, matrix: &Token) -> Option<Reported> {
         let TokenKind::Expression(_) = matrix.kind else { return None };
         let inside = self.sources.text(matrix.span).strip_prefix('<')?.strip_suffix('>')?;
@@ -88,7 +89,7 @@ impl Evaluator<'_> {
         Some(self.report(&matrix.here, told))
     }
 
-    /// `<1,0,0,0, 0,1,0,0, 0,0,1,0, 5,0,0,1>` without its fourth column.
+    /// Returns `<1,0,0,0, 0,1,0,0, 0,0,1,0, 5,0,0,1>` without its fourth column.
     pub(super) fn without_column(&self, matrix: Span) -> Option<String> {
         let inside = self.sources.text(matrix).strip_prefix('<')?.strip_suffix('>')?;
         let numbers: Vec<&str> = inside.split(',').map(str::trim).collect();

@@ -1,5 +1,5 @@
-//! What was meant by what a block has no use for, or by what stands before one: the place of a camera
-//! without its word, `on` behind a word that takes no value, a name before the braces.
+//! Suggestions for items that a block does not accept, or that precede one: a camera's position without its
+//! keyword, `on` after a word that takes no value, a name before the braces.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
@@ -13,7 +13,7 @@ use super::Place;
 use super::place::home;
 
 impl Evaluator<'_> {
-    /// What to say of a value that is written as it stands, where its block takes none.
+    /// Returns the diagnostic for a literal value where the block takes none.
     pub(super) fn needless_value(
         &self,
         token: &Token,
@@ -23,7 +23,7 @@ impl Evaluator<'_> {
         self.needless_flag(token).or_else(|| self.place_without_word(token, value, place))
     }
 
-    /// `shadowless on`, `conserve_energy on`: a word that is enough by itself.
+    /// Returns the diagnostic for the argument of a flag: `shadowless on`, `conserve_energy on`.
     fn needless_flag(&self, token: &Token) -> Option<Diagnostic> {
         let is_on = match self.sources.text(token.span) {
             "on" | "yes" | "true" => true,
@@ -45,7 +45,8 @@ impl Evaluator<'_> {
         Some(Diagnostic::new(Code::ExtraPart, message).at(token.span, label).fix(whole, ""))
     }
 
-    /// `camera { <0, 1, -5> look_at 0 }`: where it stands, as a light has it.
+    /// Returns the diagnostic for a position without its keyword, as in a light: `camera { <0, 1, -5> look_at
+    /// 0 }`.
     fn place_without_word(&self, token: &Token, value: &Value, place: Place) -> Option<Diagnostic> {
         let text = self.sources.text(token.span);
         let is_point = matches!(value, Value::Vector(_)) && text.starts_with('<');
@@ -66,8 +67,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `camera perspective { … }`, `camera Cam { … }`: what stands between a word and its braces. Passes over
-    /// both.
+    /// Reports an item between a keyword and its braces, and skips both: `camera perspective { … }`, `camera
+    /// Cam { … }`.
     pub(super) fn before_braces(&mut self, word: Word) -> Option<Reported> {
         let next = self.peek()?.clone();
         let text = &self.sources.get(next.span.file).text;
@@ -84,7 +85,7 @@ impl Evaluator<'_> {
             Diagnostic::new(Code::MissingPart, message).at(next.span, "expected `{` before this")
         };
         let without = Span { end: brace.start, ..next.span };
-        // It stands in the braces, first.
+        // It belongs first in the braces.
         let moved = |told: Diagnostic| {
             told.help(format!("write `{of} {{ {name} … }}`"))
                 .fix(without, "")
@@ -120,7 +121,8 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// `light_source { point <1, 2, 3> … }`: a word of others for a light that shines all around.
+    /// Returns whether an item is another tool's keyword for an omnidirectional light: `light_source { point
+    /// <1, 2, 3> … }`.
     pub(super) fn is_all_around(&self, token: &Token) -> bool {
         let TokenKind::Expression(id) = token.kind else { return false };
         let name = self.sources.text(token.span).to_lowercase();
@@ -132,7 +134,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether the block of a word may begin with a declared name.
+/// Returns whether the block of a word may begin with a declared name.
 fn begins_with_name(word: Word) -> bool {
     use Word as W;
     matches!(
@@ -150,7 +152,8 @@ fn begins_with_name(word: Word) -> bool {
     )
 }
 
-/// `texture { M }` of a material, `pigment { F }` of a finish: the block that takes what `text` names.
+/// Returns the block for the value that `text` names: `texture { M }` with a material, `pigment { F }` with a
+/// finish.
 pub(super) fn block_for(value: &Value, of: Word, text: &str) -> Option<String> {
     let of_surface = matches!(of, Word::Pigment | Word::Finish);
     let (own, instead) = match value {
@@ -165,7 +168,7 @@ pub(super) fn block_for(value: &Value, of: Word, text: &str) -> Option<String> {
     Some(format!("write `{} {{ {text} }}` {where_to} this `{}`", own.name(), of.name()))
 }
 
-/// `finish { shiny }`: the word with a number, where it needs one and none follows.
+/// Returns a finish keyword with a typical number, for a misspelling without one: `finish { shiny }`.
 pub(super) fn with_number(near: &str) -> Option<&'static str> {
     Some(match Word::from_name(near)? {
         Word::Specular => "specular 0.5",
@@ -178,7 +181,7 @@ pub(super) fn with_number(near: &str) -> Option<&'static str> {
     })
 }
 
-/// What to say of a directive as another language writes it.
+/// Returns the diagnostic for a directive written as in another language.
 pub(super) fn told_directive(name: &str, span: Span, place: Place) -> Option<Diagnostic> {
     let is_directive =
         |ours: &&str| Word::from_name(ours).is_some_and(|word| word.family() == Family::Directive);

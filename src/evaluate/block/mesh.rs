@@ -1,6 +1,6 @@
-//! Triangles: alone, one after another in a `mesh`, as lists of vertices and faces in a `mesh2`.
+//! Triangles: single, listed in a `mesh`, or as vertices and faces in a `mesh2`.
 //!
-//! **Invariant:** a face that is a line or a point is told and left out; every index is that of an entry.
+//! **Invariant:** a degenerate face is reported and omitted; every index refers to an existing entry.
 
 mod dress;
 mod file;
@@ -25,7 +25,7 @@ use super::{Given, Place};
 use dress::{Dress, Textures};
 use flaw::{Flaws, is_degenerate};
 
-/// Triangles as they are written one by one: equal vertices become one.
+/// Triangles that are specified one by one; equal vertices are merged.
 #[derive(Default)]
 struct Gathered {
     triangles: Triangles,
@@ -34,11 +34,11 @@ struct Gathered {
     flaws: Flaws,
 }
 
-/// Three corners, and the normals there where it is smooth.
+/// Three corners, and their normals if the triangle is smooth.
 type Triangle = ([Given<Vector>; 3], Option<[Given<Vector>; 3]>);
 
 impl Gathered {
-    /// Adds what `token` opened; `false` where it is a line or a point, which is left out.
+    /// Adds the triangle that `token` opened. Returns `false` for a degenerate one, which is omitted.
     fn add(&mut self, token: &Token, (corners, normals): &Triangle, dress: Dress) -> bool {
         let corners = corners.each_ref().map(|corner| corner.value);
         if is_degenerate(corners) {
@@ -87,7 +87,7 @@ impl Evaluator<'_> {
         let mut gathered = Gathered::default();
         if !gathered.add(token, triangle, Dress::default()) {
             let [first, .., last] = &triangle.0;
-            // POV-Ray tells it, too.
+            // POV-Ray reports it, too.
             let code = match self.options.dialect {
                 Dialect::Scene => Code::ZeroSize,
                 Dialect::Pov => Code::DegenerateTriangle,
@@ -133,7 +133,7 @@ impl Evaluator<'_> {
         Ok(([a, b, c], Some([m, n, o])))
     }
 
-    /// `mesh { triangle { … } smooth_triangle { … } … inside_vector … }`, or `mesh { file "…" … }`.
+    /// Reads `mesh { triangle { … } smooth_triangle { … } … inside_vector … }`, or `mesh { file "…" … }`.
     pub(super) fn mesh(&mut self, token: &Token) -> Outcome<Solid> {
         if let Some(reported) = self.file_unworded(token, Word::Mesh) {
             return Err(reported);
@@ -182,7 +182,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `mesh { vertex_vectors … }`, `mesh2 { triangle … }`: whether the first part is one of the `other`, which is told.
+    /// Returns whether the first part belongs to the `other` kind of mesh, and reports it: `mesh {
+    /// vertex_vectors … }`, `mesh2 { triangle … }`.
     fn is_other_mesh(&mut self, token: &Token, other: Word) -> bool {
         let Some(Token { kind: TokenKind::Word(part), span, here }) = self.peek().cloned() else {
             return false;
@@ -205,7 +206,7 @@ impl Evaluator<'_> {
         true
     }
 
-    /// One triangle of a mesh. A texture of its own, and coordinates for one, it may have.
+    /// Reads one triangle of a mesh, with an optional texture and texture coordinates of its own.
     fn mesh_triangle(&mut self, token: &Token, word: Word, all: &mut Gathered) -> Outcome<()> {
         self.block(token, word, |evaluator| {
             let triangle = match word {
@@ -235,7 +236,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `triangle { <…>, <…>, <…> pigment { … } }` in a mesh.
+    /// Reports a pigment without a texture in a triangle of a mesh: `triangle { <…>, <…>, <…> pigment { … }
+    /// }`.
     fn untextured(&mut self, first: &Token) -> Reported {
         let mut next = Some(first.clone());
         while let Some(Token { kind: TokenKind::Word(word), .. }) = next {
@@ -259,12 +261,12 @@ impl Evaluator<'_> {
         self.report(&first.here, told)
     }
 
-    /// `inside_vector` and `hierarchy`, which may stand among a mesh's parts.
+    /// Reads `inside_vector` and `hierarchy`, which are allowed among a mesh's parts.
     fn mesh_word(&mut self, token: &Token, word: Word, inside: &mut Option<Vector>) -> Outcome<()> {
         match word {
             Word::InsideVector => {
                 let way = self.vector_after(token, "a vector for the way out")?;
-                // None at all is how a mesh has no inside.
+                // The zero vector is how a mesh has no inside.
                 *inside = (way.value != Vector::ZERO).then_some(way.value);
                 Ok(())
             }

@@ -1,4 +1,4 @@
-//! What to say of a word that the place where it stands does not hold.
+//! Diagnostics for words that are not valid in their block.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
@@ -13,7 +13,7 @@ use super::place::{home, is_at_top_level};
 use super::unknown::is_transform;
 
 impl Evaluator<'_> {
-    /// `finish { alpha 0.5 }`, as other tools have it.
+    /// Reports transparency in a finish, as in other tools: `finish { alpha 0.5 }`.
     fn clear_finish(&mut self, token: &Token, place: Place) {
         let message = format!("`alpha` is not a word {}", place.name());
         let diagnostic = Diagnostic::new(Code::ForeignWord, message)
@@ -23,7 +23,7 @@ impl Evaluator<'_> {
         self.skip_values();
     }
 
-    /// What others call a word of the block around, whether that is built or not.
+    /// Returns the equivalent of another tool's word in the surrounding block, supported or not.
     pub(in crate::evaluate) fn word_of_block(&self, name: &str) -> Option<&'static str> {
         let opener = self.openers.last().map(|opener| self.sources.text(*opener))?;
         let block = Word::from_name(opener)?;
@@ -32,7 +32,7 @@ impl Evaluator<'_> {
         suggest::foreign(name).find(of_block)
     }
 
-    /// `camera { type perspective }`, `light_source { … type spotlight }`.
+    /// Reports `type` before a kind: `camera { type perspective }`, `light_source { … type spotlight }`.
     fn type_of(&mut self, token: &Token, of: Word) {
         let next = self.peek().cloned();
         let what = if of == Word::Camera { "camera" } else { "light" };
@@ -57,7 +57,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `{ drawn by my father }`, a comment of the oldest versions: words, of which none is one of the language.
+    /// Returns whether a block is a comment of the oldest versions, `{ drawn by my father }`: words, none of
+    /// which is a keyword.
     pub(super) fn is_prose(&self, block: Span) -> bool {
         let text = self.sources.text(block);
         let signs = |c: char| c.is_alphanumeric() || c.is_whitespace() || "_.,:;-!?'{}".contains(c);
@@ -69,8 +70,8 @@ impl Evaluator<'_> {
         text.chars().all(signs) && words.clone().count() > 1 && !words.any(is_ours)
     }
 
-    /// Tells of what stands among the parts of a blob or a mesh and is none: a name that nothing has, or another
-    /// shape. What follows are its parts as before.
+    /// Reports and skips an item among the parts of a blob or a mesh that is not one: an undeclared name, or
+    /// another shape. Returns whether there was one.
     pub(super) fn passes_no_part(&mut self, place: Place, parts: &[Word]) -> bool {
         let is_other = match self.peek().map(|next| &next.kind) {
             Some(TokenKind::Word(word)) => word.family() == Family::Shape && !parts.contains(word),
@@ -109,7 +110,7 @@ impl Evaluator<'_> {
         }
         let is_part = match place.word {
             None => !is_at_top_level(word) && home(word).is_some_and(|home| home != word),
-            // The map of a texture is one of textures.
+            // The map of a texture consists of textures.
             Some(Word::Texture) => matches!(home(word), Some(Word::Pigment | Word::Normal)),
             Some(_) => false,
         };
@@ -127,7 +128,7 @@ impl Evaluator<'_> {
             return;
         }
         if self.missing_at == Some(token.here.site(token.span)) {
-            // Told: a value should stand here.
+            // Reported: a value is missing here.
             return self.skip_arguments(word);
         }
         let has_block = self.is_before_block();
@@ -161,9 +162,9 @@ impl Evaluator<'_> {
             let diagnostic = Diagnostic::new(Code::UnknownWord, message)
                 .at(token.span, format!("did you mean `{meant}`?"))
                 .help(sentence.to_owned());
-            // What stands in the block of a `sky` is rarely what a `sky_sphere` takes.
+            // The contents of a `sky` block are rarely valid in a `sky_sphere`.
             if word == Word::Sky { diagnostic } else { diagnostic.fix(token.span, meant) }
-        // Of a `julia_fractal` it is a function, and everywhere else what others call a box.
+        // In a `julia_fractal` it is a function, and elsewhere other tools' name for a box.
         } else if let (Some(near), false) = (near, word.is_built() && word != Word::Cube) {
             Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
                 .at(token.span, format!("did you mean `{near}`?"))
@@ -303,7 +304,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `texture { color Red phong 1 }`: what `token` began and was taken last ends, as the block that it belongs in.
+    /// Completes the diagnostic for items from `token` to the one taken last that belong in a block of their
+    /// own: `texture { color Red phong 1 }`.
     fn in_block_of_its_own(&self, token: &Token, own: Word, told: Diagnostic) -> Diagnostic {
         let whole = self.whole(token);
         let text = self.sources.text(whole.span);
@@ -315,7 +317,7 @@ impl Evaluator<'_> {
         told.help(format!("write `{right}`")).fix(whole.span, right)
     }
 
-    /// The `#case` right before `token`, where what stands before that is no `#break`.
+    /// Returns the span of the `#case` right before `token`, if a block and no `#break` precedes it.
     fn runs_on_into(&self, token: &Token) -> Option<Span> {
         let before = self.sources.get(token.span.file).text.get(..token.span.start as usize)?;
         let start = before.rfind('#')?;
@@ -327,7 +329,7 @@ impl Evaluator<'_> {
         runs_on.then(|| Span::new(token.span.file, start, start + head[..word].trim_end().len()))
     }
 
-    /// `composite { … }`, `alpha 0.5`: the word of today is meant.
+    /// Reports an obsolete keyword such as `composite { … }` or `alpha 0.5`, and suggests its replacement.
     pub(super) fn old_word(&mut self, token: &Token, word: Word, today: Word) -> Reported {
         let (name, meant) = (word.name(), today.name());
         let message = format!("`{name}` is a word of old versions");
@@ -349,9 +351,9 @@ impl Evaluator<'_> {
         reported
     }
 
-    /// `alpha 0.2`: the number behind it is how opaque a colour is, in all other programs of today.
+    /// Returns the number after `alpha 0.2` if it is meant as an opacity, as in all other current programs.
     fn opacity(&self, token: &Token, word: Word) -> Option<(Span, String)> {
-        /// Since when `alpha` is no word any more.
+        /// The version from which `alpha` is no longer a keyword.
         const TODAY: f64 = 3.0;
         let text = self.sources.get(token.span.file).text.get(token.span.end as usize..)?;
         let blanks = text.len() - text.trim_start().len();
@@ -359,14 +361,15 @@ impl Evaluator<'_> {
         let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len());
         let number = rest[..end].parse::<f64>().ok().filter(|n| (0.0..=1.0).contains(n))?;
         let end = token.span.end + (blanks + end) as u32;
-        // As many digits as it has.
+        // With as many digits as it has.
         let digits = rest[..(end - token.span.end) as usize - blanks].split_once('.');
         let digits = digits.map_or(0, |(_, digits)| digits.len());
         (word == Word::Alpha && self.version >= TODAY)
             .then(|| (Span { end, ..token.span }, format!("transmit {:.digits$}", 1.0 - number)))
     }
 
-    /// `version 3.7;`, `debug "…"`: a directive's word that `syntax/habits` leaves as it is.
+    /// Reports a directive's keyword without its `#` that `syntax/habits` does not repair: `version 3.7;`,
+    /// `debug "…"`.
     fn directive_without_sign(&mut self, token: &Token, word: Word) {
         let name = word.name();
         let message = format!("`{name}` is written with a `#` before it");

@@ -1,4 +1,4 @@
-//! What to say of a part that is missing, and where it belongs.
+//! Diagnostics for missing parts, with the position where they belong.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -10,7 +10,7 @@ use super::super::{Evaluator, Reported};
 use super::opens_object;
 
 impl Evaluator<'_> {
-    /// `next` stands where `wanted` should, which belongs to `after`.
+    /// Reports that `next` appears where `wanted`, which belongs to `after`, is expected.
     pub(super) fn missing(
         &mut self,
         after: &Token,
@@ -30,7 +30,7 @@ impl Evaluator<'_> {
                     .also(found.span_head(), format!("expected {wanted}"))
                     .also(after.span, "for this")
             }
-            // What is missing belongs at the end of the line before.
+            // The missing part belongs at the end of the line before.
             (Some(found), Some(end), None) if self.is_on_a_later_line(found, end) => {
                 Diagnostic::new(code, format!("{message}, found {}", self.describe(found)))
                     .at(self.sources.sign_before(end), format!("expected {wanted} after this"))
@@ -96,8 +96,8 @@ impl Evaluator<'_> {
         self.meant_by_word(diagnostic, next, wanted)
     }
 
-    /// `sphere { pigment { rgb 1 } 0, 1 }`: a modifier at `next`, and the parts of `after`, of which `wanted` is one,
-    /// behind it.
+    /// Reports a modifier at `next` before the parts of `after`, one of which is `wanted`: `sphere { pigment
+    /// { rgb 1 } 0, 1 }`.
     pub(super) fn late_parts(
         &mut self,
         after: &Token,
@@ -123,12 +123,12 @@ impl Evaluator<'_> {
             .fix(Span { end: next.span.start, ..next.span }, format!("{right} "))
             .fix(parts, "");
         let reported = self.report(&next.here, diagnostic);
-        // What stands too late is told.
+        // A part that comes too late is reported.
         self.missing_at = Some(after.here.site(next.span));
         Some(reported)
     }
 
-    /// Whether a part of the block being read was told to be missing.
+    /// Returns whether a part of the block being read was reported missing.
     pub(super) fn lacks_part(&self) -> bool {
         let Some(block) = self.blocks.last().map(|block| block.span) else { return false };
         self.missing_at.is_some_and(|at| {
@@ -136,7 +136,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// The values right behind a block among the items that follow, up to where they end.
+    /// Returns the span of the values right after a block among the following items.
     fn values_behind_block(&self) -> Option<Span> {
         let frame = self.frames.last()?;
         let ast = &frame.here.unit.ast;
@@ -160,7 +160,7 @@ impl Evaluator<'_> {
         Some(first.span.to(last.span))
     }
 
-    /// `green ,5`: a comma right behind the word whose value it stands for.
+    /// Reports a comma right after the word whose value is missing: `green ,5`.
     pub(super) fn comma_for_value(&mut self, after: &Token, wanted: &str) -> Option<Reported> {
         let comma = self.peek()?.clone();
         let behind = Span { start: after.span.end, end: comma.span.start, ..after.span };
@@ -186,8 +186,8 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// `Base() -x`, where a sign without a blank behind it rather begins a value of its own: the two, and
-    /// how they are parted.
+    /// Splits parts such as `Base() -x`, where a sign without a blank after it probably begins a new value;
+    /// returns the span and the text with a comma.
     pub(in crate::evaluate) fn lost_comma(&self, parts: Span) -> Option<(Span, String)> {
         let text = self.sources.text(parts);
         let of_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.');
@@ -203,7 +203,7 @@ impl Evaluator<'_> {
             if sign == ".-" && !is_point {
                 return None;
             }
-            // A word of blocks is no value.
+            // A word with a block is not a value.
             let last = before.trim_end_matches(of_name).len();
             let is_value =
                 Word::from_name(&before[last..]).is_none_or(|word| word.role() != Role::Statement);
@@ -232,8 +232,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Behind the last part that was taken for `after` in its block; `None` before the first, and in a block
-    /// without an end.
+    /// Returns the end of the last part taken for `after` in its block; `None` before the first, and in an
+    /// unclosed block.
     fn end_of_parts(&self, after: &Token) -> Option<Span> {
         let (taken, after) = (self.taken?, after.here.site(after.span));
         self.within_block()?;
@@ -244,7 +244,7 @@ impl Evaluator<'_> {
         is_part.then(|| taken.span.after())
     }
 
-    /// Whether lines end between a place and what was found behind it.
+    /// Returns whether a line break separates a position from the item found after it.
     fn is_on_a_later_line(&self, found: &Token, place: Span) -> bool {
         let between = Span { start: place.start, end: found.span.start, ..place };
         found.span.file == place.file
@@ -252,7 +252,7 @@ impl Evaluator<'_> {
             && self.sources.text(between).contains('\n')
     }
 
-    /// How what `word` begins is written where it stands: the parts of a blob have a strength.
+    /// Returns the syntax of what `word` begins, in the current block: the parts of a blob have a strength.
     pub(in crate::evaluate) fn form_of(&self, word: Word) -> &'static str {
         let blob = |opener: &Span| self.sources.text(*opener) == Word::Blob.name();
         let in_blob = self.openers.iter().rev().take(2).any(blob);

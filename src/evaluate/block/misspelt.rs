@@ -1,4 +1,4 @@
-//! A misspelt word where a colour or a value should stand.
+//! Diagnostics for a misspelt word where a colour or a value is expected.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::ExpressionId;
@@ -12,7 +12,7 @@ use super::Place;
 use super::custom::custom;
 use super::unknown::{UNKNOWN, meant};
 
-/// The words beside shapes and textures whose block is a value.
+/// The words other than shapes and textures whose block is a value.
 const OPENERS: &[Word] = &[
     Word::Camera,
     Word::LightSource,
@@ -27,7 +27,7 @@ const OPENERS: &[Word] = &[
 ];
 
 impl Evaluator<'_> {
-    /// `colr rgb 1` where a colour should stand, or `intensity 2`.
+    /// Reports `colr rgb 1` where a colour is expected, or `intensity 2`.
     pub(super) fn misspelt_color(&mut self, after: &Token) -> Option<Reported> {
         let token = self.peek()?.clone();
         let TokenKind::Expression(id) = token.kind else { return None };
@@ -52,7 +52,7 @@ impl Evaluator<'_> {
         let near = self.near(token.span, Asked::Color, || {
             word_like(&name, |word| word.family() == Family::Color)
         })?;
-        // Without a value behind it, it is rather the name of a colour.
+        // Without a value after it, it is more likely the name of a colour.
         let rest = self.sources.get(token.span.file).text.get(token.span.end as usize..)?;
         let has_value =
             rest.trim_start().starts_with(|c: char| c == '<' || c == '.' || c.is_alphanumeric());
@@ -67,7 +67,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// `color power 100`: a name that was never declared and its value, where a colour should stand.
+    /// Reports an undeclared name with a value where a colour is expected: `color power 100`.
     pub(super) fn unknown_part_of_color(&mut self) -> Option<Reported> {
         let token = self.peek()?.clone();
         let TokenKind::Expression(id) = token.kind else { return None };
@@ -94,7 +94,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// `camra { … }` where a value should stand.
+    /// Reports `camra { … }` where a value is expected.
     pub(in crate::evaluate) fn misspelt_block(
         &mut self,
         token: &Token,
@@ -114,7 +114,7 @@ impl Evaluator<'_> {
         };
         let message = format!("`{name}` is not a word that begins a value");
         let diagnostic = Diagnostic::new(Code::UnknownWord, message);
-        // Before a block a capital does not make it one of the author's names.
+        // Before a block, a capital does not make it one of the author's names.
         let near = self.near(token.span, Asked::Block, || {
             let in_case = || Word::from_name(&name.to_lowercase()).filter(|word| opens(*word));
             in_case().map(Word::name).or_else(|| word_like(&name.to_lowercase(), opens))
@@ -130,7 +130,7 @@ impl Evaluator<'_> {
             return Some(reported);
         }
         self.next();
-        // What is inside belongs to a word that is not known: run, but not judged.
+        // The contents belong to an unknown word: run, but not checked.
         let before = self.told();
         self.inside_block(&here, contents, block, Self::run_items);
         self.take_back(before);

@@ -1,6 +1,6 @@
-//! Parts of a solid in the order, or in the number, that another solid has them: `torus { 0, 1, 0.2 }`.
+//! Diagnostics for a solid's parts in the order or number of another solid: `torus { 0, 1, 0.2 }`.
 //!
-//! **In:** a solid of which a part was refused. **Out:** what was meant, where the text of all its parts shows it.
+//! **In:** a solid with an invalid part. **Out:** the intended parts, if the text of all parts shows them.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -12,17 +12,18 @@ use super::super::value::Value;
 use super::super::{Evaluator, Here, Reported};
 use super::Given;
 
-/// How deep in a part is looked for what it is.
+/// Maximum expression depth that is examined.
 const DEEPEST: u32 = 20;
 
-/// A part as it is written: a point or a direction, or a number.
+/// A part as it is written: a point or direction, or a number.
 struct Part {
     span: Span,
     is_point: bool,
 }
 
 impl Evaluator<'_> {
-    /// A number is wanted for `after`, and this is none. Where the other parts show why, they are passed over.
+    /// Handles a non-number where `after` needs a number. If the other parts explain the mistake, they are
+    /// skipped.
     pub(super) fn no_number(
         &mut self,
         after: &Token,
@@ -44,7 +45,7 @@ impl Evaluator<'_> {
         reported
     }
 
-    /// What to say of the part at `refused`, of the solid that is being read.
+    /// Returns the diagnostic for the part at `refused` of the solid being read.
     pub(super) fn mistaken_parts(&self, solid: Word, refused: Span) -> Option<Diagnostic> {
         let opener = *self.openers.last()?;
         let parts = self.plain_parts()?;
@@ -52,7 +53,7 @@ impl Evaluator<'_> {
         if self.sources.text(opener) != solid.name() || !parts.iter().any(holds) {
             return None;
         }
-        // `cylinder { 0, y, 1 }`: a number stands for a point.
+        // `cylinder { 0, y, 1 }`: a number denotes a point.
         let begins = matches!(solid, Word::Cone | Word::Cylinder | Word::Disc);
         let letter = |(i, part): (usize, &Part)| {
             if part.is_point || begins && i == 0 { 'p' } else { 'n' }
@@ -145,7 +146,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `sphere { <1, 2, 3, 0.5> }`: the number that should stand behind the vector is its fourth.
+    /// Handles a missing number that is the vector's fourth component: `sphere { <1, 2, 3, 0.5> }`.
     pub(super) fn number_within(&mut self, given: &Given<Value>, wanted: &str) -> Option<Reported> {
         let Value::Vector(components) = &given.value else { return None };
         let text = self.sources.text(given.span).to_owned();
@@ -163,14 +164,15 @@ impl Evaluator<'_> {
         Some(self.report(&given.here, told))
     }
 
-    /// Whether the block being read has so many points before its first word, and nothing else.
+    /// Returns whether the block being read has exactly this many points, and nothing else, before its first
+    /// keyword.
     pub(super) fn has_plain_points(&self, count: usize) -> bool {
         let parts = self.plain_parts().unwrap_or_default();
         parts.len() == count && parts.iter().all(|part| part.is_point)
     }
 
-    /// The parts of the block being read, up to its first word, where they are values as they stand. What they are is
-    /// seen in how they are written.
+    /// Returns the parts of the block being read, up to its first keyword, if they are literal values. Their
+    /// kinds are inferred from the text.
     fn plain_parts(&self) -> Option<Vec<Part>> {
         let block = self.within_block()?.span;
         let frame = self.frames.last()?;
@@ -178,7 +180,7 @@ impl Evaluator<'_> {
         if !matches!(frame.kind, FrameKind::Block) || unit.ast.file != block.file {
             return None;
         }
-        // The items of the block stand in one row, before it what is inside of them.
+        // The items of the block are contiguous, preceded by the contents of nested blocks.
         let items = &unit.ast.items;
         let mut first = frame.at as usize;
         while let Some(before) = first.checked_sub(1).and_then(|at| items.get(at))
@@ -204,7 +206,8 @@ impl Evaluator<'_> {
         (!parts.is_empty()).then_some(parts)
     }
 
-    /// Whether an expression is a point or a direction, where it is no number; `None` where neither is seen.
+    /// Returns whether an expression is a point or direction rather than a number; `None` if neither is
+    /// evident.
     fn is_point(&self, here: &Here, id: ExpressionId, depth: u32) -> Option<bool> {
         let depth = depth.checked_sub(1)?;
         match here.unit.expression(id).kind {
@@ -212,7 +215,7 @@ impl Evaluator<'_> {
             ExpressionKind::Vector(_) | ExpressionKind::Word(Word::X | Word::Y | Word::Z) => {
                 Some(true)
             }
-            // In a macro the order of its arguments may be what is wrong.
+            // In a macro the order of its arguments may be the mistake.
             ExpressionKind::Name(_) if self.macro_depth > 0 => None,
             ExpressionKind::Name(name) => match self.scopes.look(here.symbol(name))? {
                 Value::Number(_) => Some(false),

@@ -1,7 +1,6 @@
-//! Blocks: what a word and its braces mean; one file a family.
+//! Blocks: reading the contents of each keyword's braces, with one file for each family.
 //!
-//! **Invariant:** a mistake inside a block costs that block's object and no other; the items after it are
-//! read as if nothing had happened.
+//! **Invariant:** a mistake in a block costs only that block's object; the items after it are read as usual.
 
 mod bare;
 mod blob;
@@ -76,7 +75,7 @@ pub(in crate::evaluate) use text::Fonts;
 pub(in crate::evaluate) use unknown::Unknown;
 
 impl Evaluator<'_> {
-    /// The items of the scene itself.
+    /// Reads the top-level items of the scene.
     pub(super) fn scene_items(&mut self) {
         while let Some(token) = self.next() {
             self.poison = None;
@@ -103,7 +102,7 @@ impl Evaluator<'_> {
                 }
                 self.needs_poison()
             }
-            // After another directive the `#` may be left out, as in POV-Ray.
+            // After another directive the `#` is optional, as in POV-Ray.
             TokenKind::Word(Word::Default)
                 if self.options.dialect == Dialect::Pov
                     && matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) =>
@@ -152,7 +151,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Poison that stands in the scene itself has reached it.
+    /// Reports poison at the top level of the scene.
     fn needs_poison(&mut self) -> Outcome<()> {
         match self.poison.take() {
             Some(poison) => Err(self.not_supported(poison, None)),
@@ -165,7 +164,7 @@ impl Evaluator<'_> {
         self.scene.roots.push(Root { object, default_texture: self.default_texture });
     }
 
-    /// The next value, whatever its kind: a right-hand side, an argument.
+    /// Reads the next value of any kind: a right-hand side or an argument.
     pub(super) fn value_or(&mut self, here: &Here, after: Span) -> Outcome<Value> {
         let Some(token) = self.next() else {
             return Err(self.expected("a value", None, (here, after.after())));
@@ -204,7 +203,7 @@ impl Evaluator<'_> {
         };
         let inner = self.poison.take();
         self.poison = outer;
-        // What ended for want of something not built has told nothing: that is told where it is needed.
+        // Poison reports nothing by itself; it is reported where its value is needed.
         match inner {
             Some(poison) => Ok(Value::Poison(match token.kind {
                 TokenKind::Word(word) => Poison { of: Some(word), ..poison },
@@ -214,7 +213,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `[1, 2, 3]` or `{ "a", "b" }`: how the list is written here.
+    /// Returns the native syntax for a list such as `[1, 2, 3]` or `{ "a", "b" }`.
     fn list_meant(&self, token: &Token) -> Option<String> {
         let text = self.sources.text(token.span);
         let inside = text.get(1..text.len().checked_sub(1)?)?.trim();
@@ -233,7 +232,7 @@ impl Evaluator<'_> {
         (plain && count > 1).then(|| format!("write `array[{count}] {{ {inside} }}`{vector}"))
     }
 
-    /// A value that a word opens: `sphere { … }`, `rgb <…>`, `texture { … }`.
+    /// Reads a value that a keyword opens: `sphere { … }`, `rgb <…>`, `texture { … }`.
     fn word_block(&mut self, token: &Token, word: Word) -> Outcome<Value> {
         match word {
             Word::Texture => self.texture(token).map(Value::Texture),
@@ -277,7 +276,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `seed 99`.
+    /// Reports missing parentheses: `seed 99`.
     fn lacks_parentheses(&mut self, token: &Token, word: Word) -> Reported {
         let name = word.name();
         let message = format!("`{name}` takes its arguments in parentheses");
@@ -299,7 +298,7 @@ impl Evaluator<'_> {
         reported
     }
 
-    /// `pigment rgb 1`: what stands from `from` to what was taken last belongs in braces.
+    /// Adds the fix that puts braces around the text from `from` to the item taken last: `pigment rgb 1`.
     fn braces_around(&self, token: &Token, from: Span, told: Diagnostic, word: Word) -> Diagnostic {
         let whole = Span { start: from.start, ..self.whole(token).span };
         let text = self.sources.text(whole);
@@ -310,7 +309,7 @@ impl Evaluator<'_> {
         told.help(format!("write `{} {text}`", word.name())).fix(whole, text)
     }
 
-    /// Enters the block after `token`.
+    /// Reads the block after `token` with a consumer.
     pub(in crate::evaluate) fn block<T>(
         &mut self,
         token: &Token,
@@ -328,7 +327,7 @@ impl Evaluator<'_> {
                 let name = word.name();
                 let message = format!("expected `{{` after `{name}`, found {found}");
                 let diagnostic = Diagnostic::new(Code::MissingPart, message);
-                // Where its parts stand in parentheses, at these.
+                // If its parts are in parentheses, at these.
                 let group = next.as_ref().filter(|next| {
                     matches!(next.kind, TokenKind::Expression(_))
                         && self.sources.text(next.span).starts_with('(')
@@ -386,7 +385,7 @@ impl Evaluator<'_> {
             Some(Token { kind: TokenKind::Block(contents), here, span }) => {
                 self.openers.push(token.span);
                 self.blocks.push(here.site(span));
-                // What stands in here is no part of what is not built before it.
+                // The contents are not part of an unsupported item before the block.
                 let outer = self.poison.take();
                 let outcome = self.inside_block(&here, contents, span, consumer);
                 if let Some(inner) = std::mem::replace(&mut self.poison, outer) {
@@ -401,17 +400,17 @@ impl Evaluator<'_> {
     }
 }
 
-/// Words that open an object.
+/// Returns whether a word opens an object.
 fn opens_object(word: Word) -> bool {
     matches!(word.family(), Family::Shape | Family::Csg) || is_object_word(word)
 }
 
-/// Words that open an object and are no shapes.
+/// Returns whether a word opens an object that is not a shape.
 fn is_object_word(word: Word) -> bool {
     matches!(word, Word::Object | Word::LightSource | Word::LightGroup)
 }
 
-/// Words with a block that is a value.
+/// Returns whether a word has a block that is a value.
 fn opens_value(word: Word) -> bool {
     opens_object(word)
         || matches!(

@@ -1,4 +1,4 @@
-//! What follows an object's parts: its transforms, textures, interior and flags, in written order.
+//! Object modifiers: transforms, textures, interior and flags, in source order.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{FinishId, Modifier, ModifierKind, ObjectId, ObjectKind};
@@ -10,7 +10,7 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 use super::place::is_before_modifiers;
 
-/// The first part behind the modifiers of its block, and how many others follow.
+/// The first part after the modifiers of its block, and the number of others that follow.
 struct Late {
     token: Token,
     diagnostic: Diagnostic,
@@ -18,8 +18,8 @@ struct Late {
 }
 
 impl Evaluator<'_> {
-    /// Everything after the parts. `used`: the declared object that is modified. Where it has a texture, a
-    /// pigment or finish alone changes that in part.
+    /// Reads everything after the parts. `used` is the declared object being modified; if it has a texture, a
+    /// pigment or finish alone modifies that texture.
     pub(super) fn modifiers(
         &mut self,
         word: Word,
@@ -59,7 +59,7 @@ impl Evaluator<'_> {
             match token.kind {
                 TokenKind::Word(Word::Pigment) => {
                     let site = token.here.site(token.span);
-                    // What a macro gives may be changed by who calls it.
+                    // A macro's result may be modified by its caller.
                     let of_texture = std::mem::take(&mut within);
                     if let Some(first) = painted.replace(site)
                         && first.expansion == site.expansion
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
                 TokenKind::Word(Word::Texture) => {
                     let inner = self.pigment_within(&token);
                     let before = painted.filter(|_| !within);
-                    // Through a clear one it is seen.
+                    // It is visible through a transparent one.
                     if let (Some(first), Some(inner)) = (before, inner)
                         && first.expansion == inner.expansion
                         && self.is_opaque_as_written(inner)
@@ -88,7 +88,7 @@ impl Evaluator<'_> {
                 Some(Ok(kind)) => {
                     if let Some(kind) = kind {
                         let site = match kind {
-                            // With its `on`: a piece that can be taken out.
+                            // With its `on`, as a removable piece.
                             ModifierKind::NoImage(_)
                             | ModifierKind::NoReflection(_)
                             | ModifierKind::DoubleIlluminate(_) => self.whole(&token),
@@ -102,7 +102,7 @@ impl Evaluator<'_> {
                     Some(outcome) => failed |= outcome.is_err(),
                     None => {
                         self.unexpected(&token, place());
-                        // Behind an object by a misspelt word, or a camera, others may follow.
+                        // After an object with a misspelt word, or a camera, others may follow.
                         let no_modifier = match token.kind {
                             TokenKind::Expression(_) => true,
                             TokenKind::Word(of) => modifiers.is_empty() && !place().holds(of),
@@ -129,7 +129,8 @@ impl Evaluator<'_> {
         if failed { Err(Reported) } else { Ok(()) }
     }
 
-    /// `union { sphere { 0, 1 } pigment { rgb 1 } box { … } }`: one message for all of them.
+    /// Reports children after a modifier, with one message for all: `union { sphere { 0, 1 } pigment { rgb 1
+    /// } box { … } }`.
     fn late_part(
         &mut self,
         token: &Token,
@@ -161,7 +162,7 @@ impl Evaluator<'_> {
         *late = Some(Late { token: token.clone(), diagnostic, others: 0 });
     }
 
-    /// `cylinder { 0, y, 1 pigment { … } open }`: a part of the shape behind the first of its modifiers.
+    /// Reports a part of the shape after its first modifier: `cylinder { 0, y, 1 pigment { … } open }`.
     fn too_late(&mut self, token: &Token, shape: Word, first: Site, late: &mut Option<Late>) {
         let TokenKind::Word(item) = token.kind else { return };
         if matches!(item.family(), Family::Shape | Family::Csg)
@@ -189,7 +190,7 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    /// The finish that another one after these modifiers starts from, as in POV-Ray (measured).
+    /// Returns the finish from which another one after these modifiers starts, as in POV-Ray (measured).
     fn finish_of(&self, modifiers: &[Modifier], used: Option<ObjectId>) -> FinishId {
         let (mut modifiers, mut used) = (modifiers, used);
         loop {
@@ -214,7 +215,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// One modifier; `None` when the token is none, `Some(Ok(None))` when it changes nothing.
+    /// Reads one modifier; returns `None` if the token is not one, `Some(Ok(None))` if it has no effect.
     fn modifier(
         &mut self,
         token: &Token,
@@ -229,7 +230,7 @@ impl Evaluator<'_> {
         let site = token.here.site(token.span);
         let start_texture =
             |evaluator: &Self, modifiers: &mut Vec<Modifier>, textured: &mut bool| {
-                // A pigment or finish alone changes a copy of the default texture.
+                // A pigment or finish alone modifies a copy of the default texture.
                 if !*textured {
                     let kind = ModifierKind::Texture(evaluator.default_texture);
                     modifiers.push(Modifier { kind, site });
@@ -272,7 +273,7 @@ impl Evaluator<'_> {
             Word::DoubleIlluminate => {
                 self.optional_flag(token).map(|on| Some(ModifierKind::DoubleIlluminate(on)))
             }
-            // It tells where fog and media are, and there are none yet.
+            // It affects fog and media, which are unsupported.
             Word::Hollow => self.optional_flag(token).map(|_| None),
             Word::Inverse => {
                 self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse))

@@ -1,4 +1,4 @@
-//! Files that a block names: fonts, pictures and meshes.
+//! Files that a block names: fonts, images and meshes.
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
@@ -19,17 +19,17 @@ fn ends_with(name: &str, endings: &[&str]) -> bool {
     ending.is_some_and(|ending| endings.contains(&ending.as_str()))
 }
 
-/// Whether a file's name is that of a font.
+/// Returns whether a file name has a font's extension.
 pub(super) fn is_of_font(name: &str) -> bool {
     ends_with(name, &FONTS)
 }
 
-/// Whether a file's name is that of a picture.
+/// Returns whether a file name has an image's extension.
 pub(super) fn is_of_picture(name: &str) -> bool {
     ends_with(name, &PICTURES)
 }
 
-/// The name of a file, and where it is written.
+/// A file name and its span.
 pub(super) struct NamedFile {
     pub name: String,
     pub here: Here,
@@ -37,7 +37,7 @@ pub(super) struct NamedFile {
 }
 
 impl Evaluator<'_> {
-    /// The name that comes next; `wanted` says of what.
+    /// Reads the file name that comes next; `wanted` describes the file.
     pub(super) fn named_file(&mut self, token: &Token, wanted: &str) -> Outcome<NamedFile> {
         self.skip_commas();
         if let Some(Token { kind: TokenKind::Expression(id), here, span }) = self.peek().cloned() {
@@ -55,8 +55,8 @@ impl Evaluator<'_> {
         Ok(NamedFile { name: name.to_string(), here: given.here, span: given.span })
     }
 
-    /// `t.ply`, `models/tree.ply`: the name of a file without its quotes, which reads as part of something or as a
-    /// quotient; told.
+    /// Reports a file name without quotes, which parses as a component or a quotient: `t.ply`,
+    /// `models/tree.ply`.
     pub(super) fn unquoted(&mut self, here: &Here, id: ExpressionId) -> Option<Reported> {
         let expression = here.unit.expression(id);
         if expression.kind == ExpressionKind::String {
@@ -81,15 +81,15 @@ impl Evaluator<'_> {
         Some(self.report(here, told))
     }
 
-    /// The file of this name; if there is none and the name has no ending, of the name with one of these, as
-    /// POV-Ray looks for it.
+    /// Reads the file of this name; if there is none and the name has no extension, tries these extensions in
+    /// order, as POV-Ray does.
     pub(super) fn read_named(
         &mut self,
         file: &NamedFile,
         endings: &[&str],
     ) -> Result<Found, FileError> {
         let found = self.found_named(file, endings)?;
-        // It is no text, and has its name among what was read alone.
+        // It is not scene text, so the sources hold only its name.
         if self.sources.iter().all(|(_, source)| source.name != found.name) {
             self.sources.add(Source::new(found.name.clone(), ""));
         }

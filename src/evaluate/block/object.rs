@@ -1,4 +1,4 @@
-//! Shapes, unions and uses of objects, with their modifiers in written order.
+//! Shapes, unions and uses of objects, with their modifiers in source order.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Modifier, ModifierKind, Object, ObjectId, ObjectKind, Operation};
@@ -9,12 +9,12 @@ use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::{Place, opens_object};
 
-/// What an object is in the end, through all uses of uses.
+/// Properties of an object, resolved through all levels of use.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::evaluate) struct Made {
-    /// The word of its kind.
+    /// Keyword of its kind.
     word: Word,
-    /// It, or what it is a use of, has a texture of its own.
+    /// Whether it, or the object that it uses, has its own texture.
     pub(super) textured: bool,
 }
 
@@ -28,7 +28,7 @@ fn own_word(kind: &ObjectKind) -> Word {
 }
 
 impl Evaluator<'_> {
-    /// The object that `token` opens: an object, or poison.
+    /// Reads the object that `token` opens; returns an object, or poison.
     pub(super) fn object(&mut self, token: &Token, word: Word) -> Outcome<Value> {
         let outer = self.poison.take();
         let built = match word {
@@ -77,7 +77,7 @@ impl Evaluator<'_> {
         Ok(ObjectId(self.scene.objects.len() as u32 - 1))
     }
 
-    /// A block that is `parts` first and modifiers after; or a declared object of the same kind.
+    /// Reads a block of `parts` followed by modifiers, or a declared object of the same kind.
     fn shape(
         &mut self,
         token: &Token,
@@ -112,7 +112,7 @@ impl Evaluator<'_> {
         self.add_object(Object { kind, modifiers, site, item: None })
     }
 
-    /// `sphere { Ball … }`: a declared object where the parts would stand.
+    /// Reads a declared object in place of the parts: `sphere { Ball … }`.
     fn declared_object(&mut self, word: Word) -> Option<Outcome<ObjectKind>> {
         match *self.peek_declared()? {
             Value::Object(object) => {
@@ -155,7 +155,7 @@ impl Evaluator<'_> {
             }
             Value::Broken => {
                 let token = self.next()?;
-                // Its own mistake is told; what it was to be is known.
+                // Its own mistake was reported; its intended kind is known.
                 let symbol = self.scopes.symbol(self.sources.text(token.span));
                 let own = symbol.and_then(|symbol| self.declared_as(symbol)).map(|(own, _)| own);
                 let is_object = |own: &Word| matches!(own.family(), Family::Shape | Family::Csg);
@@ -168,7 +168,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether another object comes next, with a comma before it or without.
+    /// Returns whether another object comes next, with or without a comma before it.
     fn object_follows(&mut self) -> bool {
         let Some(next) = self.peek().cloned() else { return false };
         let name = match next.kind {
@@ -190,7 +190,7 @@ impl Evaluator<'_> {
         matches!(value, Some(Value::Object(_)))
     }
 
-    /// `plane { Ball }`: a declared object stands in a block of its own kind, or in `object`.
+    /// Reports a declared object in a block of another kind, which only `object` accepts: `plane { Ball }`.
     pub(super) fn wrong_kind(
         &mut self,
         token: &Token,
@@ -216,7 +216,7 @@ impl Evaluator<'_> {
         self.opinion(&token.here, diagnostic).err()
     }
 
-    /// Takes a name that stands for something not built, and remembers it.
+    /// Takes a name of an unsupported value, and records it.
     pub(super) fn takes_poison(&mut self) -> bool {
         let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.peek() else {
             return false;
@@ -232,7 +232,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `object { Name … }` or `object { sphere { … } … }`.
+    /// Reads `object { Name … }` or `object { sphere { … } … }`.
     fn object_use(&mut self, token: &Token) -> Outcome<ObjectKind> {
         self.skip_commas();
         let Some(next) = self.peek().cloned() else {
@@ -250,7 +250,7 @@ impl Evaluator<'_> {
                     None => self.expression(&next.here, id)?,
                 }
             }
-            // What an object may have stays, and is read as what it is.
+            // Items that an object accepts remain, and are read as such.
             _ => {
                 if let TokenKind::Word(word) = next.kind
                     && word.family() == Family::Pattern
@@ -278,7 +278,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `object { ttf "…" … }`.
+    /// Reports text in an object: `object { ttf "…" … }`.
     fn letters_in_object(&mut self, opener: &Token, font: &Token) -> Reported {
         let told =
             Diagnostic::new(Code::ExpectedExpression, "letters stand in `text`, not in `object`")
@@ -292,7 +292,7 @@ impl Evaluator<'_> {
         reported
     }
 
-    /// `object { marble }`, of a `Marble` that is declared.
+    /// Reports a keyword where a declared name is meant: `object { marble }` with a declared `Marble`.
     fn word_for_object(&mut self, next: &Token, word: Word) -> Reported {
         let name = word.name();
         let message = format!("expected a declared object, found `{name}`");
@@ -316,7 +316,7 @@ impl Evaluator<'_> {
             evaluator.lint_light_of_csg(word, operation, &children);
             Ok(ObjectKind::Csg { operation, children })
         });
-        // Where a part was misread, that is what is told.
+        // If a part was misread, that is reported.
         if count == 1 && self.diagnostics.len() == told && self.lost_children == lost {
             self.lint_lone_child(token, operation);
         }
@@ -333,7 +333,7 @@ impl Evaluator<'_> {
         Ok(ObjectKind::Union(children))
     }
 
-    /// `union { pigment { … } }`: what directives may leave empty is no mistake.
+    /// Warns of an empty union, `union { pigment { … } }`, unless it contains directives.
     fn lint_empty_union(&mut self, token: &Token) {
         let is_plain =
             self.within_block().is_some_and(|block| !self.sources.text(block.span).contains('#'));
@@ -349,18 +349,18 @@ impl Evaluator<'_> {
         }
         let diagnostic = Diagnostic::new(Code::DegenerateShape, "this union has nothing in it")
             .at(token.span, "no object stands in its block");
-        // Unless they stand too late.
+        // Unless they come too late.
         self.owed = Some((token.here.clone(), diagnostic));
     }
 
-    /// The objects that a block holds before its modifiers.
+    /// Reads the objects of a block before its modifiers.
     pub(super) fn children(&mut self) -> Vec<ObjectId> {
         let mut children = Vec::new();
         self.more_children(&mut children, false);
         children
     }
 
-    /// `names`: the first may be a bare name, too.
+    /// As [`Self::children`]; with `names`, the first may also be a bare name.
     pub(super) fn more_children(&mut self, children: &mut Vec<ObjectId>, names: bool) {
         loop {
             let sign = |kind: &TokenKind| matches!(kind, TokenKind::Semicolon | TokenKind::Comma);
@@ -397,7 +397,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `union { sphere { … } Ball }`, as POV-Ray takes `Ball` for `object { Ball }` behind the first child.
+    /// Reads a bare name as a child, as POV-Ray takes `Ball` for `object { Ball }` after the first child:
+    /// `union { sphere { … } Ball }`.
     fn lone_child(&mut self) -> Option<Option<ObjectId>> {
         if self.options.dialect != Dialect::Pov {
             return None;

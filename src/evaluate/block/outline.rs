@@ -1,7 +1,7 @@
-//! Solids made of a curve in a plane: `prism`, `lathe`, `sor`.
+//! Solids generated from a plane curve: `prism`, `lathe`, `sor`.
 //!
-//! **Invariant:** there are as many points as the curve needs; the curves of a prism are closed, the heights
-//! of a `sor` rise.
+//! **Invariant:** there are enough points for the curve, the curves of a prism are closed, and the heights of
+//! a `sor` increase.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
@@ -16,14 +16,14 @@ use super::super::value::Value;
 use super::super::{Evaluator, Here, Outcome};
 use super::part::Given;
 
-/// Points, and where each is written.
+/// Points with their spans.
 type Points = Vec<Given<Point>>;
 
 fn values(points: &Points) -> Vec<Point> {
     points.iter().map(|point| point.value).collect()
 }
 
-/// What may stand before the numbers of a prism; behind the two sweeps, of a lathe.
+/// Keywords before the numbers of a prism; without the first two, the sweeps, those of a lathe.
 const SWEEPS_AND_SPLINES: &[Word] = &[
     Word::LinearSweep,
     Word::ConicSweep,
@@ -34,11 +34,11 @@ const SWEEPS_AND_SPLINES: &[Word] = &[
 ];
 
 impl Evaluator<'_> {
-    /// `lathe { SPLINE count, <radius, height> … }`.
+    /// Reads `lathe { SPLINE count, <radius, height> … }`.
     pub(super) fn lathe(&mut self, token: &Token) -> Outcome<Solid> {
         let (spline, _) = self.spline_and_sweep(false);
         let points = self.points(token, Word::Lathe, spline)?;
-        // Measured: POV-Ray takes the first and the last as they are.
+        // Measured: POV-Ray uses the first and the last as they are.
         let inner = points.get(1..points.len() - 1).unwrap_or(&[]);
         let left = inner.iter().find(|point| point.value[0] < 0.0);
         if let Some(left) = left
@@ -60,7 +60,7 @@ impl Evaluator<'_> {
                 Diagnostic::new(self.sizeless(), message).at(last.span, "expected another place");
             self.nothing(token, &last.here, diagnostic)?;
         } else if points.iter().all(|point| point.value[1] == last.value[1]) {
-            // POV-Ray draws a flat ring: it is not left out without a word.
+            // POV-Ray draws a flat ring, so it is not omitted silently.
             let message = "a lathe whose points have one height is flat, and has no size";
             let diagnostic = Diagnostic::new(Code::ZeroSize, message)
                 .at(last.span, "expected another height")
@@ -74,7 +74,7 @@ impl Evaluator<'_> {
         Ok(solid)
     }
 
-    /// `prism { SPLINE SWEEP low, high, count, <x, z> … open }`.
+    /// Reads `prism { SPLINE SWEEP low, high, count, <x, z> … open }`.
     pub(super) fn prism(&mut self, token: &Token) -> Outcome<Solid> {
         let (spline, conic) = self.spline_and_sweep(true);
         if let Some(reported) = self.misplaced_spline(Word::Prism, None) {
@@ -101,7 +101,7 @@ impl Evaluator<'_> {
         }
         match spline {
             Spline::Bezier => self.pieces_meet(token, &mut points)?,
-            // Where one more point follows, that is what is told.
+            // If one more point follows, that is reported.
             Spline::Linear if !self.goes_on() => self.lint_open_prism(&points),
             Spline::Linear | Spline::Quadratic | Spline::Cubic => {}
         }
@@ -123,7 +123,7 @@ impl Evaluator<'_> {
         Ok(solid)
     }
 
-    /// One point behind a closed curve: POV-Ray passes over it.
+    /// Handles a single point after a closed curve, which POV-Ray ignores.
     fn stray_point(&mut self, points: &mut Points) -> Outcome<()> {
         let Some(stray) = points.pop() else { return Ok(()) };
         let code = match self.options.dialect {
@@ -140,8 +140,7 @@ impl Evaluator<'_> {
         if code == Code::OpenOutline { Ok(()) } else { Err(reported) }
     }
 
-    /// A curve that does not come back to where it began. Of Bézier pieces, POV-Ray leaves the prism out; of
-    /// others, it ends.
+    /// Reports an unclosed curve. POV-Ray omits a prism of Bézier pieces, and aborts with any other.
     fn unclosed_curve(
         &mut self,
         token: &Token,
@@ -168,7 +167,7 @@ impl Evaluator<'_> {
         self.nothing(token, &here, diagnostic)
     }
 
-    /// Whether a value comes next, or a comma before one.
+    /// Returns whether a value comes next, with or without a comma before it.
     pub(super) fn goes_on(&mut self) -> bool {
         matches!(
             self.peek().map(|next| &next.kind),
@@ -176,7 +175,7 @@ impl Evaluator<'_> {
         )
     }
 
-    /// The last of several lines may lack the point that closes it.
+    /// Warns if the last of several curves lacks its closing point.
     fn lint_open_prism(&mut self, points: &Points) {
         let all = values(points);
         let contours = Spline::Linear.contours(&all).unwrap_or_default();
@@ -188,7 +187,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// An outline that ends elsewhere than it begins: POV-Ray closes it, and warns.
+    /// Warns of an outline that does not end at its start, which POV-Ray closes with a warning.
     pub(super) fn lint_open_outline(
         &mut self,
         name: &str,
@@ -203,7 +202,7 @@ impl Evaluator<'_> {
             format!("the outline of this {name} does not end where it began; it is closed");
         let diagnostic =
             Diagnostic::new(Code::OpenOutline, message).at(end, "the outline ends here");
-        // Of many points in a run, the text of one has no place of its own.
+        // In a run of many points, a single one has no span of its own.
         let diagnostic = match point.matches('<').count() > 1 {
             true => diagnostic.help("add its first point at its end, and count it"),
             false => diagnostic
@@ -213,7 +212,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// The pieces of a closed curve meet end to end; where they do not, POV-Ray leaves the prism out.
+    /// Checks that the pieces of a closed curve are connected; if they are not, POV-Ray omits the prism.
     fn pieces_meet(&mut self, token: &Token, points: &mut Points) -> Outcome<()> {
         let all = values(points);
         let same = sameness(&all);
@@ -235,9 +234,9 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// `sor { count, <radius, height> … open }`.
+    /// Reads `sor { count, <radius, height> … open }`.
     pub(super) fn sor(&mut self, token: &Token) -> Outcome<Solid> {
-        // Of its points, too, the first and the last tell slopes.
+        // Of its points, too, the first and the last define slopes.
         let points = self.points(token, Word::Sor, Spline::Cubic)?;
         for pair in points[1..points.len() - 1].windows(2) {
             let [below, above] = pair else { continue };
@@ -284,7 +283,7 @@ impl Evaluator<'_> {
         Ok(Solid::Sor { points: points.into(), open })
     }
 
-    /// The words that may stand before all numbers, in any order; of several the last counts.
+    /// Reads the keywords before the numbers, in any order; the last one of each kind counts.
     fn spline_and_sweep(&mut self, sweeps: bool) -> (Spline, bool) {
         let (mut spline, mut conic) = (Spline::Linear, false);
         let (shape, words) = match sweeps {
@@ -319,7 +318,7 @@ impl Evaluator<'_> {
         (spline, conic)
     }
 
-    /// `spline quadratic`, for `quadratic_spline`.
+    /// Handles `spline quadratic` for `quadratic_spline`.
     fn spline_in_two_words(&mut self) -> Option<Spline> {
         let word = self.next()?;
         let kind = self.peek()?.clone();
@@ -338,7 +337,7 @@ impl Evaluator<'_> {
         named
     }
 
-    /// How many points there are, and the points.
+    /// Reads the number of points, and the points.
     fn points(&mut self, token: &Token, word: Word, spline: Spline) -> Outcome<Points> {
         let label = "expected how many there are before this".to_owned();
         let lacks = self.misplaced_spline(word, None);
@@ -391,7 +390,7 @@ impl Evaluator<'_> {
                 Value::Vector(numbers) if numbers.as_slice().len() == 2 => {
                     [numbers.as_slice()[0], numbers.as_slice()[1]]
                 }
-                // POV-Ray 3.7 takes it for both (measured).
+                // POV-Ray 3.7 uses it for both (measured).
                 &Value::Number(both) if self.options.dialect == Dialect::Pov => [both; 2],
                 Value::Vector(_) => {
                     let what = format!("a point of a {}", word.name());
@@ -407,7 +406,8 @@ impl Evaluator<'_> {
         Ok(points)
     }
 
-    /// Where the second number of a point stands; the point, where it is not written as one.
+    /// Returns the span of the second component of a point, or of the whole point if it is not a vector
+    /// literal.
     fn height_of(&self, point: &Given<[f64; 2]>) -> Span {
         let written = point.expression.map(|id| point.here.unit.expression(id).kind);
         let Some(ExpressionKind::Vector(components)) = written else { return point.span };

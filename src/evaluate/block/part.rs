@@ -1,4 +1,4 @@
-//! The parts of a block: values after words, of the kind the place needs.
+//! Parts of a block: values after keywords, converted to the expected kind.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
@@ -11,13 +11,13 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Here, Outcome, Reported};
 
-/// A value and where it stands.
+/// A value and its span.
 #[derive(Debug, Clone)]
 pub(in crate::evaluate) struct Given<T> {
     pub value: T,
     pub span: Span,
     pub here: Here,
-    /// How it is written, where that is one expression.
+    /// Its expression, if it is a single one.
     pub expression: Option<ExpressionId>,
 }
 
@@ -32,20 +32,20 @@ impl<T> Given<T> {
 }
 
 impl Evaluator<'_> {
-    /// All of what `opener` opened and what was taken last ends, as a piece that can be taken out of the
-    /// text. Where a directive stands between the two, it is all of the items that hold both.
+    /// Returns the span from the start of `opener` to the end of the item taken last, as a removable piece of
+    /// text. If a directive separates the two, it includes all items that contain both.
     pub(super) fn whole(&self, opener: &Token) -> Site {
         let opener = opener.here.site(opener.span);
         self.joined(opener, self.taken.unwrap_or(opener))
     }
 
-    /// As [`Self::whole`], of two places in one block.
+    /// As [`Self::whole`], for two positions in one block.
     pub(super) fn joined(&self, a: Site, b: Site) -> Site {
         let [a, b] = self.scene.expansions.side_by_side(a, b);
         let between = Span { end: b.span.start, ..a.span };
         if a.span.file != b.span.file || self.sources.text(between).contains('#') {
             let all = a.span.to(b.span);
-            // A macro may have been left while looking ahead; what is written in its file is not.
+            // Lookahead may have left a macro; what is written in its file has not.
             let unit = self.frames.iter().rev().map(|frame| &frame.here.unit);
             let unit = unit.into_iter().find(|unit| unit.ast.file == all.file);
             return match unit.and_then(|unit| unit.ast.around(all)) {
@@ -56,8 +56,7 @@ impl Evaluator<'_> {
         Site { span: a.span.to(b.span), ..a }
     }
 
-    /// What stands between the braces of the block being read. A block that is never closed has no end to
-    /// stop before.
+    /// Returns the span between the braces of the block being read; `None` if the block is never closed.
     pub(in crate::evaluate) fn within_block(&self) -> Option<Site> {
         let Site { span, expansion } = *self.blocks.last()?;
         let inside = self.sources.text(span).strip_prefix('{')?.strip_suffix('}')?;
@@ -65,16 +64,16 @@ impl Evaluator<'_> {
         Some(Site { span: Span { start, end: start + inside.len() as u32, ..span }, expansion })
     }
 
-    /// An object that the scene or a union holds: it could be taken out.
+    /// Records the site of an object in the scene or a union, as a removable piece.
     pub(super) fn note_item(&mut self, object: ObjectId, token: &Token) {
         let whole = self.whole(token);
         self.scene.objects[object.index()].item = Some(whole);
     }
 
-    /// The token of the value after `after` (a word of the block, or what opened it), which is taken.
+    /// Takes and returns the token of the value after `after` (a keyword of the block, or what opened it).
     fn value_token(&mut self, after: &Token, wanted: &str) -> Outcome<Token> {
         let passed = self.silent.is_none() && self.pass(ItemKind::Comma);
-        // As most are written.
+        // The most common form.
         if passed && self.peeks_value() {
             return self.next().ok_or(Reported);
         }
@@ -120,7 +119,7 @@ impl Evaluator<'_> {
         matches!(next, Some(TokenKind::Expression(_) | TokenKind::Literal(_)))
     }
 
-    /// The value after `after`.
+    /// Reads the value after `after`.
     pub(super) fn given(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Value>> {
         let token = self.value_token(after, wanted)?;
         self.given_by(token)
@@ -202,7 +201,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The vector that a token is, if it is a plain one, or the token.
+    /// Returns the vector that a token denotes if it is a plain one, otherwise the token.
     fn given_vector(&mut self, token: Token) -> Result<Given<Vector>, Token> {
         if let TokenKind::Expression(id) = token.kind
             && let Some(Ok(value)) = self.vector_of_component(&token.here, id)
@@ -220,7 +219,7 @@ impl Evaluator<'_> {
         Err(token)
     }
 
-    /// A vector and a number, in this order.
+    /// Reads a vector followed by a number.
     pub(super) fn vector_and_number(
         &mut self,
         after: &Token,
@@ -245,7 +244,7 @@ impl Evaluator<'_> {
         let second = self.given(after, number);
         if let (Ok(a), Ok(b)) = (&first, &second)
             && let (Value::Number(a_number), Value::Vector(_)) = (&a.value, &b.value)
-            // A sphere of radius 0 was not meant.
+            // A sphere of radius 0 is not intended.
             && (*a_number != 0.0 || after.kind != TokenKind::Word(Word::Sphere))
         {
             let reported = match self.arguments_behind([a, b]) {
@@ -279,7 +278,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A vector of three is wanted, and this is none.
+    /// Reports a value that is not a vector of three where one is expected.
     fn wrong_vector(&mut self, given: &Given<Value>, wanted: &str) -> Reported {
         match &given.value {
             Value::Vector(components) => {
@@ -300,7 +299,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A direction: any vector but zero.
+    /// Reads a direction: any vector but zero.
     pub(super) fn direction_after(&mut self, after: &Token, what: &str) -> Outcome<Given<Vector>> {
         let given = self.vector_after(after, &format!("a vector for {what}"))?;
         self.as_direction(given, what)
@@ -317,7 +316,8 @@ impl Evaluator<'_> {
         Ok(given)
     }
 
-    /// As [`Self::direction_after`]; the zero vector, too, where POV-Ray renders the scene with it.
+    /// As [`Self::direction_after`], but also accepts the zero vector where POV-Ray renders the scene with
+    /// it.
     pub(super) fn any_direction_after(
         &mut self,
         after: &Token,
@@ -330,9 +330,9 @@ impl Evaluator<'_> {
         Ok(given)
     }
 
-    /// A number that may be left out.
+    /// Reads an optional number.
     pub(super) fn optional_number(&mut self, after: &Token, otherwise: f64) -> Outcome<f64> {
-        // Rather the next word, misspelt.
+        // Probably the next word, misspelt.
         if self.peeks_unknown_name() {
             return Ok(otherwise);
         }
@@ -342,7 +342,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether a name comes next that was never declared.
+    /// Returns whether an undeclared name comes next.
     pub(super) fn peeks_unknown_name(&mut self) -> bool {
         let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.peek() else {
             return false;
@@ -351,7 +351,7 @@ impl Evaluator<'_> {
         self.unknown_name(&here, id).is_some()
     }
 
-    /// A truth value that may be left out: then true.
+    /// Reads an optional truth value; without one, true.
     pub(super) fn optional_flag(&mut self, after: &Token) -> Outcome<bool> {
         Ok(self.optional_number(after, 1.0)? != 0.0)
     }

@@ -1,4 +1,4 @@
-//! `pattern { … }`: a pattern by itself, as a function has it.
+//! `pattern { … }`: a pattern alone, as used in a function.
 
 use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic};
@@ -11,7 +11,7 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 
 impl Evaluator<'_> {
-    /// `pattern { … }`, after its word: a pigment whose red is the pattern's value.
+    /// Reads `pattern { … }`, after its keyword, as a pigment whose red is the pattern's value.
     pub(in crate::evaluate) fn pattern_block(&mut self, token: &Token) -> Outcome<PigmentId> {
         let (mut found, mut transforms) = (None, Vec::new());
         let told = self.reports;

@@ -1,5 +1,4 @@
-//! What can be taken out of a colour or a map so that no more than this changes: the smallest pieces
-//! of the text without which it calls for nothing.
+//! Removable pieces of a colour or a map: the smallest parts of the text whose removal cancels an effect.
 
 use std::collections::HashSet;
 
@@ -8,24 +7,25 @@ use crate::scene::ColorMap;
 use crate::source::{Site, Span};
 use crate::vocabulary::Word;
 
-/// Components after a colour whose choices are gone through; more are taken out with all of it.
+/// Maximum number of components after a colour whose combinations are tried; with more, the whole colour is
+/// removed.
 const MOST_COMPONENTS: usize = 8;
 
-/// A colour as it is written: what it starts from, and what is set in it after that.
+/// A colour as it is written: a base, and the components set after it.
 #[derive(Debug, Clone)]
 pub(super) struct WrittenColor {
-    /// `None` where it is written by its components alone.
+    /// `None` if it is written by its components alone.
     base: Option<Color>,
-    /// All of the base, where the components could do without it.
+    /// The span of the base, if the components suffice without it.
     base_piece: Option<Site>,
-    /// The word and the number of each, and both as a piece.
+    /// Keyword, value and site of each component.
     components: Vec<(Word, f64, Site)>,
-    /// It starts with mere numbers, which are a colour only where nothing else can stand.
+    /// It starts with bare numbers, which are a colour only where nothing else is allowed.
     pub bare: bool,
 }
 
 impl WrittenColor {
-    /// Written by components that follow.
+    /// A colour without a base, defined by the components that follow.
     pub fn of_components() -> Self {
         Self { base: None, base_piece: None, components: Vec::new(), bare: false }
     }
@@ -42,7 +42,7 @@ impl WrittenColor {
         self.of(|_| true)
     }
 
-    /// With some of its parts only: its base is the first, its components follow.
+    /// Returns the colour with only some of its parts: its base is part 0, its components follow.
     fn of(&self, stays: impl Fn(usize) -> bool) -> Color {
         let mut color = self.base.filter(|_| stays(0)).unwrap_or(Color::BLACK);
         let components = self.components.iter().enumerate();
@@ -58,14 +58,14 @@ impl WrittenColor {
         color
     }
 
-    /// The fewest parts without which the colour suits; the first of those written where several do.
-    /// `None` where only all of the colour is enough.
+    /// Returns the smallest set of parts whose removal makes the colour satisfy `suits`; among several, the
+    /// first in source order. Returns `None` if only removing the whole colour is enough.
     pub fn without(&self, suits: impl Fn(Color) -> bool) -> Option<Vec<Site>> {
         let n = self.components.len();
         if n > MOST_COMPONENTS {
             return suits(self.color()).then(Vec::new);
         }
-        // Something of a colour has to stay.
+        // Part of a colour has to remain.
         let has_base = u32::from(self.base.is_some());
         let all = (1_u32 << (n + 1)) - 2 + has_base;
         let fixed = u32::from(self.base_piece.is_none());
@@ -79,14 +79,14 @@ impl WrittenColor {
         Some(base.chain(gone.map(|(_, (.., piece))| *piece)).collect())
     }
 
-    /// As [`Self::without`], until no light goes through it.
+    /// As [`Self::without`], for an opaque colour.
     pub fn without_clear(&self) -> Option<Vec<Site>> {
         self.without(|color| !color.is_clear())
     }
 }
 
-/// What makes two colours in one block both black, of which the second may be missing. `None` where only
-/// all of the block is enough.
+/// Returns the pieces whose removal makes two colours in one block black; the second may be missing. Returns
+/// `None` if only removing the whole block is enough.
 pub(super) fn without_light(both: [(&WrittenColor, Site); 2]) -> Option<Vec<Site>> {
     let [first, second] =
         both.map(|(color, item)| (color.without(|color| color.rgb.is_black()), item));
@@ -99,23 +99,25 @@ pub(super) fn without_light(both: [(&WrittenColor, Site); 2]) -> Option<Vec<Site
     }
 }
 
-/// A `color_map`, and what can be taken out of it.
+/// A `color_map` and its removable pieces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WrittenMap {
     pub map: ColorMap,
-    /// Without these no colour of it is clear; `None` where only all of the map is enough.
+    /// The pieces whose removal leaves no transparent colour; `None` if only removing the whole map is
+    /// enough.
     pub clear: Option<Vec<Site>>,
-    /// Without these it is of one colour, likewise.
+    /// The pieces whose removal leaves a single colour, likewise.
     pub pattern: Option<Vec<Site>>,
 }
 
-/// What stands in a `color_map`: an entry, or the name of another map.
+/// A part of a `color_map`: an entry, or the name of another map.
 pub(super) struct Part {
     pub item: Site,
     pub colors: Vec<WrittenColor>,
-    /// Of the old `[from, to color a color b]`: without it, `to color a`, it is `[from color b]`.
+    /// In the old `[from, to color a color b]`, the piece `to color a`, whose removal leaves `[from color
+    /// b]`.
     pub first: Option<Site>,
-    /// Of a name, as [`WrittenMap::clear`] and [`WrittenMap::pattern`].
+    /// For a name, its [`WrittenMap::clear`] and [`WrittenMap::pattern`].
     named: Option<[Option<Vec<Site>>; 2]>,
 }
 
@@ -129,7 +131,8 @@ impl Part {
         Self { item, colors, first: None, named: Some([map.clear.clone(), map.pattern.clone()]) }
     }
 
-    /// What makes each of its colours suit; `None` where only all of the part is enough.
+    /// Returns the pieces whose removal makes each of its colours satisfy `suits`; `None` if only removing
+    /// the whole part is enough.
     fn without(&self, suits: impl Fn(Color) -> bool) -> Option<Vec<Site>> {
         let pieces = self.colors.iter().enumerate().map(|(i, color)| {
             let first = self.first.filter(|_| i == 0).map(|first| vec![first]);
@@ -140,7 +143,7 @@ impl Part {
     }
 }
 
-/// What makes a map of these parts one without clear colours.
+/// Returns the pieces whose removal leaves a map of these parts without transparent colours.
 pub(super) fn without_clear(parts: &[Part]) -> Option<Vec<Site>> {
     pieces(parts, |part| match &part.named {
         Some([clear, _]) => clear.clone(),
@@ -148,12 +151,12 @@ pub(super) fn without_clear(parts: &[Part]) -> Option<Vec<Site>> {
     })
 }
 
-/// What makes a map of these parts one of a single colour.
+/// Returns the pieces whose removal leaves a map of these parts with a single colour.
 pub(super) fn without_pattern(parts: &[Part]) -> Option<Vec<Site>> {
     if let [Part { named: Some([_, pattern]), .. }] = parts {
         return pattern.clone();
     }
-    // One entry stays, the first or else the last.
+    // One entry remains, the first or else the last.
     let mut entries = parts.iter().filter(|part| part.named.is_none());
     let (first, last) = (entries.next(), entries.next_back());
     first.into_iter().chain(last).find_map(|staying| {
@@ -162,10 +165,10 @@ pub(super) fn without_pattern(parts: &[Part]) -> Option<Vec<Site>> {
     })
 }
 
-/// Pieces of each part, or all of it; `None` where nothing would be left of the map.
+/// Returns the pieces of each part, or the whole part; `None` if nothing would remain of the map.
 fn pieces(parts: &[Part], of: impl Fn(&Part) -> Option<Vec<Site>>) -> Option<Vec<Site>> {
     let mut all: Vec<Site> = Vec::new();
-    // A loop comes to one entry again and again, and it goes for all turns.
+    // A loop may visit one entry repeatedly; the removal applies to all turns.
     let mut gone: HashSet<Span> = HashSet::new();
     for part in parts {
         match of(part) {

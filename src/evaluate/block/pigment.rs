@@ -1,4 +1,4 @@
-//! `pigment`.
+//! `pigment`: one colour, or a pattern with its colours.
 
 mod open;
 mod second;
@@ -23,17 +23,18 @@ pub(super) use open::OpenPigment;
 use second::First;
 pub(super) use second::colors_of;
 
-/// What was written in one block: its last pattern, with what gave the pigment one before, and its last map.
+/// What a block has specified: its last pattern, with the items that gave the pigment an earlier one, and its
+/// last map.
 #[derive(Default)]
 struct Written {
     pattern: Option<(Site, Vec<Site>)>,
     map: Option<(Arc<WrittenMap>, Token, Site)>,
     first: Option<First>,
-    /// It began as a declared pigment.
+    /// Whether it began as a declared pigment.
     named: bool,
 }
 
-/// What gave a pigment its pattern, if that has more than one colour.
+/// Returns the items that gave a pigment its pattern, if that has more than one colour.
 fn called_pattern(pigment: &mut Pigment) -> Vec<Site> {
     match &pigment.kind {
         PigmentKind::Patterned { map, .. } if map.lone_color().is_none() => {
@@ -43,7 +44,8 @@ fn called_pattern(pigment: &mut Pigment) -> Vec<Site> {
     }
 }
 
-/// The colours of `checker`, what makes them clear, and without what one is left, if not without all of it.
+/// The colours of `checker`, the items that make them transparent, and the pieces whose removal leaves one
+/// colour, if not the whole.
 struct Pair {
     colors: [Color; 2],
     clear: Vec<Site>,
@@ -51,7 +53,7 @@ struct Pair {
 }
 
 impl Evaluator<'_> {
-    /// `pigment { [Name] … }`, starting from the default texture's pigment.
+    /// Reads `pigment { [Name] … }`, starting from the default texture's pigment.
     pub(super) fn pigment(&mut self, token: &Token) -> Outcome<PigmentId> {
         let start = self.scene.textures[self.default_texture.index()].pigment;
         self.pigment_from(token, start)
@@ -67,7 +69,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Puts the colours of a map over the values of the pigment's pattern. `is_new`: nothing else gave it any.
+    /// Applies the colours of a map to the pigment's pattern. `is_new`: it had no other colours.
     fn paint(
         &mut self,
         pigment: &mut Pigment,
@@ -87,7 +89,7 @@ impl Evaluator<'_> {
                 *map = given;
                 Ok(())
             }
-            // The pattern is one that is not built.
+            // The pattern is unsupported.
             PigmentKind::Color(_) | PigmentKind::Faces(_) if self.poison.is_some() => Ok(()),
             PigmentKind::Color(_) | PigmentKind::Faces(_) => {
                 let diagnostic = Diagnostic::new(
@@ -105,7 +107,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What calls for an effect in a pigment with the map `given`, which is all of `item`.
+    /// Records the pieces that cause an effect in a pigment with the map `given`, whose site is `item`.
     fn note_map(
         &self,
         pigment: &mut Pigment,
@@ -115,7 +117,7 @@ impl Evaluator<'_> {
     ) {
         match &given.clear {
             Some(pieces) => pigment.clear.clone_from(pieces),
-            // The pattern's own colours show again.
+            // The pattern's own colours become visible again.
             None => list_once(&mut pigment.clear, item),
         }
         match (&given.pattern, pattern) {
@@ -132,7 +134,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The item that `token` began gives the pigment one colour.
+    /// Sets the pigment to one colour, by the item that `token` began.
     fn color_of(&self, pigment: &mut Pigment, color: &WrittenColor, token: &Token) {
         pigment.kind = PigmentKind::Color(color.color());
         pigment.pattern.clear();
@@ -142,7 +144,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The item that `token` began gives the pigment a pattern; `pieces` of it are enough.
+    /// Sets the pigment's pattern, by the item that `token` began; `pieces` of it suffice as the cause.
     fn pattern_of(
         &self,
         pigment: &mut Pigment,
@@ -259,7 +261,7 @@ impl Evaluator<'_> {
                         self.alone_in_pigment(token, None, written)?;
                         self.color_of(pigment, &color, token);
                     }
-                    // Not an error: what it lacks is told where it is needed.
+                    // Not an error: what it lacks is reported where it is needed.
                     Value::Poison(poison) => {
                         self.is_of_place(token, poison, Place::PIGMENT);
                         self.set_poison(poison);
@@ -271,7 +273,7 @@ impl Evaluator<'_> {
                     }
                 }
             }
-            // Of a colour too many, which is told.
+            // The site of a surplus colour, which is reported.
             TokenKind::Comma if written.first.is_some() && self.at_color() => {}
             _ => {
                 if let Some(outcome) = self.inert(token, Place::PIGMENT) {
@@ -296,14 +298,15 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// `pigment { Glass }` of five numbers: POV-Ray 3.7 keeps such a vector as a colour (measured).
+    /// Returns whether a value of five numbers counts as a colour in `pigment { Glass }`: POV-Ray 3.7 stores
+    /// such a vector as one (measured).
     fn is_kept_as_color(&self, token: &Token, value: &Value) -> bool {
         let is_written = self.sources.text(token.span).starts_with('<');
         let has_five = matches!(value, Value::Vector(numbers) if numbers.as_slice().len() == 5);
         self.options.dialect == Dialect::Pov && has_five && !is_written
     }
 
-    /// `pigment { <1, 0, 0> }`, which POV-Ray refuses, too.
+    /// Reports `pigment { <1, 0, 0> }`, which POV-Ray refuses as well.
     fn bare_color(&mut self, token: &Token) {
         let text = self.sources.text(token.span).to_owned();
         let message = "expected a pigment: a colour or a pattern, found a vector";
@@ -314,14 +317,14 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    /// The two colours of `checker`; blue and green where they are missing.
+    /// Reads the two colours of `checker`; missing ones are blue and green.
     fn color_pair(&mut self, token: &Token) -> Outcome<Pair> {
         let mut colors =
             [Color::opaque(Rgb::new(0.0, 0.0, 1.0)), Color::opaque(Rgb::new(0.0, 1.0, 0.0))];
         let mut clear = Vec::new();
         let mut said: Vec<WrittenColor> = Vec::new();
         let (mut given, mut pigments) = (0, 0);
-        // All before the last colour.
+        // All items before the last colour.
         let mut lead = self.whole(token);
         for color in &mut colors {
             let before = self.whole(token);

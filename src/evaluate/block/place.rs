@@ -1,14 +1,14 @@
-//! What may stand where.
+//! Which words are valid in which block.
 
 use crate::vocabulary::{Dialect, Family, Role, Word};
 
-/// A kind of block, and the families of words that may stand in it.
+/// A kind of block, and the families of words that are valid in it.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::evaluate) struct Place {
-    /// The word that opens it; `None` is the scene itself.
+    /// The keyword that opens it; `None` for the top level of the scene.
     pub word: Option<Word>,
     pub families: &'static [Family],
-    /// Words of other families that may stand in it, too.
+    /// Valid words of other families.
     pub others: &'static [Word],
 }
 
@@ -58,7 +58,7 @@ impl Place {
         families: &[Family::FinishItem, Family::Color],
         others: &[],
     };
-    /// Of an object.
+    /// The `radiosity` block of an object.
     pub const RADIOSITY: Self =
         Self { word: Some(Word::Radiosity), families: &[], others: &[Word::Importance] };
     pub const TEXTURE: Self = Self {
@@ -74,7 +74,7 @@ impl Place {
     pub const INTERIOR: Self = Self {
         word: Some(Word::Interior),
         families: &[Family::Interior],
-        // Built for lights.
+        // Supported for lights.
         others: &[Word::FadeDistance, Word::FadePower],
     };
     pub const MATERIAL: Self = Self {
@@ -120,7 +120,7 @@ impl Place {
         others: &[Word::ClippedBy],
     };
 
-    /// The block of a shape.
+    /// Returns the block of a shape.
     pub fn shape(word: Word) -> Self {
         const FAMILIES: &[Family] =
             &[Family::Modifier, Family::Transform, Family::Texture, Family::ShapeItem];
@@ -128,13 +128,13 @@ impl Place {
         Self { word: Some(word), families: FAMILIES, others: OTHERS }
     }
 
-    /// The block of a part of a blob.
+    /// Returns the block of a blob's component.
     pub fn component(word: Word) -> Self {
         let families = &[Family::Transform, Family::Texture];
         Self { word: Some(word), families, others: &[] }
     }
 
-    /// The block of a union and its kin: shapes and modifiers.
+    /// Returns the block of a CSG operation: shapes and modifiers.
     pub fn csg(word: Word) -> Self {
         const FAMILIES: &[Family] = &[
             Family::Shape,
@@ -149,7 +149,7 @@ impl Place {
         Self { word: Some(word), families: FAMILIES, others: OTHERS }
     }
 
-    /// The word that was rather meant, where one of the language has no meaning here.
+    /// Returns the word that was probably meant by a word of the language that is not valid here.
     pub(super) fn meant(self, word: Word, has_block: bool) -> Option<Word> {
         match (self.word, word) {
             (None, Word::Sky) if has_block => Some(Word::SkySphere),
@@ -160,13 +160,13 @@ impl Place {
             (Some(Word::LightSource), Word::NoShadow) => Some(Word::Shadowless),
             (Some(Word::LightSource), Word::LookAt) => Some(Word::PointAt),
             (Some(Word::Camera), Word::PointAt) => Some(Word::LookAt),
-            // Its block of the oldest versions.
+            // Its block in the oldest versions.
             (Some(_), Word::Refraction)
                 if has_block && self.families.contains(&Family::Modifier) =>
             {
                 Some(Word::Interior)
             }
-            // As modellers call where an object is.
+            // Modellers' name for the position of an object.
             (Some(_), Word::Location) if self.families.contains(&Family::Transform) => {
                 Some(Word::Translate)
             }
@@ -181,9 +181,9 @@ impl Place {
         }
     }
 
-    /// Whether a word fits: by its family, and by its block if it has one.
+    /// Returns whether a word is valid: by its family, and by its block if it has one.
     pub(super) fn holds(self, word: Word) -> bool {
-        // `samples` of a medium is no setting of the scene.
+        // `samples` of a medium is not a setting of the scene.
         let is_of_a_setting = self.word == Some(Word::GlobalSettings)
             && home(word).is_some_and(|home| home != word && home != Word::GlobalSettings);
         let is_of_family = self.families.contains(&word.family()) && !is_of_a_setting;
@@ -192,7 +192,7 @@ impl Place {
             && word.block().is_none_or(|block| Some(block) == self.word)
     }
 
-    /// Whether a word can be meant here by what another tool calls so.
+    /// Returns whether a word of another tool can have its equivalent here.
     pub(super) fn may_mean(self, word: &str, dialect: Dialect) -> bool {
         let is_object = word == "object" && self.word.is_none();
         let is_itself = self.word.is_some_and(|own| own.name() == word);
@@ -200,12 +200,12 @@ impl Place {
         is_object || word == "transmit" || is_here()
     }
 
-    /// The words to suggest here.
+    /// Returns the words to suggest here.
     pub(super) fn words(self, dialect: Dialect) -> impl Iterator<Item = &'static str> {
         let fits = move |word: &&Word| {
             self.holds(**word)
                 && (dialect == Dialect::Scene || word.block().is_none())
-                // Of the families that have one opener, only that stands at the top level.
+                // Of the families with one opener, only that is valid at the top level.
                 && (self.word.is_some() || !is_part(**word))
                 && !self.is_of_another_shape(**word)
         };
@@ -213,7 +213,7 @@ impl Place {
         Word::ALL.iter().filter(fits).map(|word| word.name()).chain(parts)
     }
 
-    /// The shapes that one is made of.
+    /// Returns the shapes that are parts of this one.
     fn parts(self) -> &'static [Word] {
         match self.word {
             Some(Word::Blob) => &[Word::Sphere, Word::Cylinder],
@@ -230,7 +230,7 @@ impl Place {
     }
 }
 
-/// Whether a word only stands inside the block that its family is about, or after a `#`.
+/// Returns whether a word is valid only in the block of its family, or after a `#`.
 fn is_part(word: Word) -> bool {
     match word.family() {
         Family::Camera => word != Word::Camera,
@@ -241,12 +241,13 @@ fn is_part(word: Word) -> bool {
     }
 }
 
-/// Whether a word and its block stand in the scene itself.
+/// Returns whether a word and its block are valid at the top level.
 pub(super) fn is_at_top_level(word: Word) -> bool {
     Place::SCENE.holds(word) && !is_part(word)
 }
 
-/// A block that belongs to nothing in another but what names it there.
+/// Returns whether a word's block is independent: inside another block, it is valid only if that block names
+/// the word.
 pub(super) fn stands_alone(word: Word) -> bool {
     use Word as W;
     matches!(
@@ -255,13 +256,13 @@ pub(super) fn stands_alone(word: Word) -> bool {
     )
 }
 
-/// The block that a word is for, where it is not the one it stands in.
+/// Returns the block to which a word belongs, if it is not the one in which it appears.
 pub(super) fn home(word: Word) -> Option<Word> {
     use Word as W;
     Some(match word {
         _ if word.block().is_some() => return word.block(),
         W::IridWavelength => W::GlobalSettings,
-        // Reserved, and nobody knows what for.
+        // Reserved for an unknown purpose.
         W::Size | W::Altitude | W::Tile2 => return None,
         W::Bumps | W::BumpMap | W::BumpSize | W::Dents | W::Facets | W::Wrinkles => W::Normal,
         W::SlopeMap | W::NormalMap | W::NoBumpScale => W::Normal,
@@ -310,7 +311,7 @@ pub(super) fn home(word: Word) -> Option<Word> {
     })
 }
 
-/// Whether an item is one of the parts of a shape, which stand before its transforms and textures.
+/// Returns whether an item is a part of a shape, and so must precede its transforms and textures.
 ///
 /// **Source:** POV-Ray 3.7 refuses each behind a modifier (measured).
 pub(super) fn is_before_modifiers(shape: Word, item: Word) -> bool {
@@ -362,8 +363,9 @@ pub(super) fn is_before_modifiers(shape: Word, item: Word) -> bool {
     }
 }
 
-/// Whether a word is one of a block that nothing in this place has, built or not: no part of a light is one of a
-/// camera, none of a texture one of a finish or a pigment's map, none of an object one of its interior.
+/// Returns whether a word, supported or not, belongs to a block that is no part of this place: no part of a
+/// light is valid in a camera, none of a texture in a finish or a pigment's map, none of an object in its
+/// interior.
 pub(super) fn is_of_no_part(word: Word, place: Place) -> bool {
     let of_interior = home(word) == Some(Word::Interior);
     match (place.word, word.family()) {

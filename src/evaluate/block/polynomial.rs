@@ -13,14 +13,14 @@ use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::part::Given;
 
-/// The orders that `poly` and `polynomial` take.
+/// The orders that `poly` and `polynomial` accept.
 const ORDERS: std::ops::RangeInclusive<f64> = 2.0..=15.0;
 
-/// The greatest order that POV-Ray 3.7 takes.
+/// The highest order that POV-Ray 3.7 accepts.
 const POV_ORDER: f64 = 35.0;
 
 impl Evaluator<'_> {
-    /// `<A, B, C>, <D, E, F>, <G, H, I>, J`: Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J.
+    /// Reads `<A, B, C>, <D, E, F>, <G, H, I>, J`: Ax² + By² + Cz² + Dxy + Exz + Fyz + Gx + Hy + Iz + J.
     pub(super) fn quadric(&mut self, token: &Token) -> Outcome<Solid> {
         if let Some(reported) = self.bare_points(3, 1) {
             return Err(reported);
@@ -35,8 +35,8 @@ impl Evaluator<'_> {
         self.polynomial_of(token, &rest, Word::Quadric, 2, terms)
     }
 
-    /// A vector, or one number for all three: `0, 0, 0, -1` is three vectors and a number here, and no point
-    /// that lacks its brackets.
+    /// Reads a vector, or one number for all three components: `0, 0, 0, -1` is three vectors and a number
+    /// here, not a point without brackets.
     fn number_or_vector(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Vector>> {
         let given = self.given(after, wanted)?;
         self.as_vector(given, wanted)
@@ -55,7 +55,7 @@ impl Evaluator<'_> {
         self.listed(token, Word::Poly, degree)
     }
 
-    /// `order, xyz(i, j, k): number …`; of two numbers for one term the last counts.
+    /// Reads `order, xyz(i, j, k): number …`; the last of several numbers for one term counts.
     pub(super) fn polynomial(&mut self, token: &Token) -> Outcome<Solid> {
         let degree = self.order(token)?;
         let mut terms = vec![0.0; count_of_terms(degree)];
@@ -121,7 +121,7 @@ impl Evaluator<'_> {
         Ok(value as usize)
     }
 
-    /// `poly { <1, 0, …> }`: coefficients without the order before them.
+    /// Reports coefficients without an order before them: `poly { <1, 0, …> }`.
     fn lacks_order(&mut self) -> Option<Reported> {
         let (list, numbers) = self.peeks_list()?;
         let degree = (2..=15).find(|&degree| count_of_terms(degree) == numbers);
@@ -140,7 +140,7 @@ impl Evaluator<'_> {
         Some(self.report(&list.here, told))
     }
 
-    /// The list of numbers in angle brackets that comes next, and how many there are.
+    /// Returns the next list of numbers in angle brackets without consuming it, and its length.
     fn peeks_list(&mut self) -> Option<(Token, usize)> {
         let next = self.peek()?.clone();
         let TokenKind::Expression(id) = next.kind else { return None };
@@ -151,7 +151,7 @@ impl Evaluator<'_> {
         Some((next, count))
     }
 
-    /// `cubic { 3, <…> }`: an order where the word of the solid says it.
+    /// Reports an order that the keyword implies: `cubic { 3, <…> }`.
     fn needless_order(&mut self, form: Word, degree: usize) -> Option<Reported> {
         let first = self.peek()?.clone();
         let TokenKind::Expression(id) = first.kind else { return None };
@@ -173,7 +173,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// Which term `xyz(i, j, k)` is.
+    /// Returns the index of the term `xyz(i, j, k)`.
     fn powers(&mut self, term: &Token, powers: Arguments, degree: usize) -> Outcome<usize> {
         let mut given = self.numbers_of(&term.here, powers, term.span)?;
         if self.options.dialect == Dialect::Pov {
@@ -191,7 +191,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// A list in angle brackets, of as many numbers as there are terms.
+    /// Reads a list in angle brackets, with one number for each term.
     fn listed(&mut self, token: &Token, form: Word, degree: usize) -> Outcome<Solid> {
         self.skip_commas();
         if let Some(reported) = self.needless_order(form, degree) {

@@ -1,4 +1,4 @@
-//! Numbers that their place allows within a range only, and what is reported of those outside of it.
+//! Numbers restricted to a range, and the diagnostics for those outside it.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::vocabulary::{Dialect, Word};
@@ -8,7 +8,7 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::Given;
 
 impl Evaluator<'_> {
-    /// Reports a number outside of what its place allows.
+    /// Reports a number outside its valid range.
     pub(in crate::evaluate) fn out_of_range(
         &mut self,
         given: &Given<f64>,
@@ -19,7 +19,7 @@ impl Evaluator<'_> {
         self.report(&given.here, diagnostic)
     }
 
-    /// Reports a number outside of what its place allows, where POV-Ray goes on: `read` says with what.
+    /// Reports a number outside its valid range that POV-Ray accepts; `read` describes the value it uses.
     pub(in crate::evaluate) fn out_of_range_but_read(
         &mut self,
         given: &Given<f64>,
@@ -65,7 +65,7 @@ impl Evaluator<'_> {
         Ok(given.value)
     }
 
-    /// A number above zero.
+    /// Reads a number above zero.
     pub(in crate::evaluate) fn number_of(
         &mut self,
         after: &Token,

@@ -1,4 +1,4 @@
-//! `global_settings`, `background` and `sky_sphere`.
+//! Settings of the whole scene: `global_settings`, `background` and `sky_sphere`.
 
 use std::sync::Arc;
 
@@ -14,10 +14,10 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 use super::finish::list_once;
 
-/// The deepest `max_trace_level` that POV-Ray goes by; it warns of more.
+/// The maximum `max_trace_level` that POV-Ray uses; it warns of more.
 const DEEPEST: f64 = 256.0;
 
-/// The deepest `max_trace_level` here.
+/// The maximum `max_trace_level` here.
 const MOST_LEVELS: f64 = 1_000_000.0;
 
 impl Evaluator<'_> {
@@ -42,7 +42,7 @@ impl Evaluator<'_> {
                     Some(_) => Gamma::Srgb,
                     None => Gamma::Power(self.more_than_zero(token, Word::AssumedGamma)?),
                 };
-                // Said twice, the first counts, as in POV-Ray.
+                // If repeated, the first counts, as in POV-Ray.
                 if !std::mem::replace(&mut self.says_gamma, true) {
                     if let Some(site) = self.srgb_before_gamma
                         && gamma != Gamma::LINEAR
@@ -103,7 +103,8 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// `max_trace_level 9` outside of `global_settings`, as in old files; POV-Ray 3.7 reads it (measured).
+    /// Reads `max_trace_level 9` outside `global_settings`, as in old files; POV-Ray 3.7 accepts it
+    /// (measured).
     pub(super) fn lone_setting(&mut self, token: &Token) -> Outcome<()> {
         let name = self.sources.text(token.span).to_owned();
         let message = format!("`{name}` stands outside of `global_settings`");
@@ -186,7 +187,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// The sky from here on, in the place of any before it.
+    /// Sets the sky, replacing any earlier one.
     pub(super) fn place_sky(&mut self, sky: SkySphere) {
         self.scene.sky_sphere = Some(sky);
     }

@@ -1,4 +1,4 @@
-//! Sheets by their points: polygons and Bézier patches.
+//! Surfaces defined by their points: polygons and Bézier patches.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
@@ -12,18 +12,20 @@ use super::super::stream::Token;
 use super::super::{Evaluator, Outcome};
 use super::Given;
 
-/// How far a polygon's points may be from its plane, over its size: as much as numbers of six digits may.
+/// Maximum distance of a polygon's points from its plane, relative to its size: the error of numbers with six
+/// digits.
 const FLAT_ENOUGH: f64 = 1e-5;
 
-/// Among so many points the one that is not in the plane of the others is looked for.
+/// Maximum number of points among which a single point outside the plane is searched for.
 const MOST_COMPARED: usize = 64;
 
-/// What stands before the points of a `bicubic_patch`.
+/// Items before the points of a `bicubic_patch`.
 const OF_PATCH: &[Word] =
     &[Word::Type, Word::USteps, Word::VSteps, Word::Flatness, Word::UvVectors];
 
 impl Evaluator<'_> {
-    /// `polygon { count, <…>, … }`: a point that is its line's first closes it, and the next begins another.
+    /// Reads `polygon { count, <…>, … }`: a point equal to its outline's first point closes the outline, and
+    /// the next point begins another.
     ///
     /// **Source:** POV-Ray 3.7 manual, 3.4.5.2.5 "Polygon".
     pub(super) fn polygon(&mut self, token: &Token) -> Outcome<Solid> {
@@ -85,7 +87,8 @@ impl Evaluator<'_> {
         Ok(Solid::Polygon { polygon })
     }
 
-    /// A polygon in a line is nothing; of one that is not flat POV-Ray draws nothing.
+    /// Checks that a polygon is flat: a collinear one is nothing, and POV-Ray draws nothing if it is not
+    /// flat.
     fn check_flat(
         &mut self,
         token: &Token,
@@ -107,7 +110,7 @@ impl Evaluator<'_> {
         let lone = lone_stray(places);
         let of = if lone.is_some() { "the others" } else { "others" };
         let point = crate::math::vector::written(lone.map_or(*point, |(point, _)| point));
-        // Of many points in a run, the text of one has no place of its own.
+        // In a run of many points, a single one has no span of its own.
         let is_one = |span: &Span| self.sources.text(*span).matches('<').count() <= 1;
         let place = lone.map(|(_, span)| span).filter(is_one).unwrap_or(token.span);
         let message = format!("this polygon is not flat: {point} lies beside the plane of {of}");
@@ -118,8 +121,8 @@ impl Evaluator<'_> {
         self.nothing(token, &token.here, diagnostic)
     }
 
-    /// `bicubic_patch { type 0 u_steps 3 v_steps 3 flatness 0 <…> }`, 16 points in four rows. The patch is
-    /// met where it is: how it would be divided changes nothing.
+    /// Reads `bicubic_patch { type 0 u_steps 3 v_steps 3 flatness 0 <…> }`, with 16 points in four rows. The
+    /// exact patch is intersected; the subdivision settings have no effect.
     ///
     /// **Source:** POV-Ray 3.7 manual, 3.4.5.2.1 "Bicubic Patch".
     pub(super) fn bicubic_patch(&mut self, token: &Token) -> Outcome<Solid> {
@@ -135,7 +138,7 @@ impl Evaluator<'_> {
                 Word::Type => {
                     let kind = self.number_after(&item, "0 or 1")?;
                     if ![0.0, 1.0].contains(&kind.value) {
-                        // How it is divided changes nothing here. POV-Ray drops fractions (measured).
+                        // The subdivision has no effect here. POV-Ray drops fractions (measured).
                         if kind.value.trunc() < 0.0 {
                             return Err(self.out_of_range(&kind, word, "0 or 1"));
                         }
@@ -178,7 +181,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The one point without which the others are flat. Of four, each is such a point.
+/// Returns the only point whose removal leaves the others flat. Among four points, each is such a point.
 fn lone_stray(places: &[(Vector, Span)]) -> Option<(Vector, Span)> {
     let mut points: Vec<(Vector, Span)> = Vec::new();
     for place in places {
@@ -199,16 +202,17 @@ fn lone_stray(places: &[(Vector, Span)]) -> Option<(Vector, Span)> {
     strays.next().filter(|_| strays.next().is_none()).copied()
 }
 
-/// Whether two corners of a polygon of this size are one, as far as the rounding tells of the calculations they
-/// may come from: `<10*cos(2*pi), 10*sin(2*pi), 0>` is `<10, 0, 0>`.
+/// Returns whether two corners of a polygon of this size are equal within the rounding error of the
+/// calculations they may come from: `<10*cos(2*pi), 10*sin(2*pi), 0>` is `<10, 0, 0>`.
 fn is_same(a: Vector, b: Vector, size: f64) -> bool {
     (a - b).abs().max_element() <= size * ROUNDED
 }
 
-/// Where, in a line of points that does not come back to its first, another begins that ends with the last of them.
+/// Returns where, in an outline that does not return to its first point, another one begins that ends with
+/// the last point.
 fn unclosed_before(line: &[Vector]) -> Option<usize> {
     let (last, before) = line.split_last()?;
     let begins = before.iter().position(|point| point == last)?;
-    // Both have three corners at least.
+    // Both have at least three corners.
     (begins >= 3 && before.len() >= begins + 3).then_some(begins)
 }

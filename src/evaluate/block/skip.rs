@@ -1,6 +1,6 @@
-//! Passing over what belongs to something that was told, running what is in it.
+//! Skipping of what belongs to a reported mistake, while running its directives and calls.
 //!
-//! **Invariant:** what is passed over is no second mistake, but for a name that is not declared.
+//! **Invariant:** skipped items cause no second error, except for undeclared names.
 
 use crate::syntax::ast::{Callee, ExpressionId, ExpressionKind};
 use crate::vocabulary::{Family, Word};
@@ -16,7 +16,7 @@ impl Evaluator<'_> {
         matches!(self.peek().map(|next| &next.kind), Some(TokenKind::Block(_)))
     }
 
-    /// Passes over what was written instead of a block: `(…) { … }`, `[…] […]`, `phong 1`, a colour.
+    /// Skips what was written instead of a block: `(…) { … }`, `[…] […]`, `phong 1`, a colour.
     pub(super) fn skip_missing_block(&mut self, token: &Token) {
         let before = self.told();
         self.skip_values();
@@ -45,7 +45,7 @@ impl Evaluator<'_> {
         self.take_back(before);
     }
 
-    /// Passes over a colour that was the value of a word that is not known.
+    /// Skips a colour that was the value of an unknown word.
     pub(super) fn skip_color(&mut self, after: &Token) {
         if let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek()
             && word.family() == Family::Color
@@ -56,8 +56,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Passes over what is left of parts that were reported: they are no second mistake. A name that is
-    /// not declared is one, and stays.
+    /// Skips the rest of parts that were reported. An undeclared name is an error of its own, and is not
+    /// skipped.
     pub(super) fn skip_parts(&mut self) {
         let before = self.told();
         while let Some(token) = self.peek().cloned() {
@@ -86,7 +86,7 @@ impl Evaluator<'_> {
         self.take_back(before);
     }
 
-    /// Whether a name is rather the next mistake than a part of a shape.
+    /// Returns whether a name is probably the next mistake, not a part of a shape.
     fn is_no_part(&self, symbol: Symbol) -> bool {
         use super::super::value::Value;
         match self.scopes.look(symbol) {
@@ -98,7 +98,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// As [`Self::skip_parts`], for what is left of a shape, with the words that only its parts are.
+    /// As [`Self::skip_parts`], for the rest of a shape, including the words that are valid only as its
+    /// parts.
     pub(super) fn skip_shape_parts(&mut self) {
         self.skip_parts();
         while let Some(&Token { kind: TokenKind::Word(word), .. }) = self.peek()
@@ -112,8 +113,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `sky_sphere { gradient y color_map { … } }`: what stands beside a word that belongs in the block of `own`,
-    /// and belongs there, too, is the same mistake.
+    /// Skips, as the same mistake, the items beside a word that belong with it in the block of `own`:
+    /// `sky_sphere { gradient y color_map { … } }`.
     pub(super) fn skip_of_home(&mut self, own: Word, place: Place) -> Vec<String> {
         let stands = |word| match place.word {
             Some(_) => place.holds(word),
@@ -131,7 +132,7 @@ impl Evaluator<'_> {
         beside
     }
 
-    /// The name that an expression is, where it was never declared.
+    /// Returns the name that an expression is, if it was never declared.
     #[inline]
     pub(in crate::evaluate) fn unknown_name(
         &self,
@@ -142,7 +143,7 @@ impl Evaluator<'_> {
         Some(here.symbol(name)).filter(|symbol| self.scopes.slot(*symbol).is_none())
     }
 
-    /// Whether an expression is a call of what was never declared.
+    /// Returns whether an expression is a call of an undeclared name.
     fn unknown_callee(&self, here: &Here, id: ExpressionId) -> bool {
         match here.unit.expression(id).kind {
             ExpressionKind::Call(Callee::Name(name, _), _) => {
@@ -152,14 +153,14 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Passes over the values after a word, running what is in them.
+    /// Skips the values after a word, running their directives and calls.
     pub(in crate::evaluate) fn skip_values(&mut self) {
         loop {
             match self.peek().map(|token| (&token.kind, &token.here)) {
                 Some((TokenKind::Comma | TokenKind::Literal(_), _)) => drop(self.next()),
                 Some((TokenKind::Expression(id), here)) => {
                     let id = *id;
-                    // A name that is not declared is the next mistake, not a part of this one.
+                    // An undeclared name is the next mistake, not a part of this one.
                     let here = here.clone();
                     if self.unknown_callee(&here, id) || self.unknown_name(&here, id).is_some() {
                         return;
@@ -175,7 +176,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `checkerboard texture { … }, texture { … }`: the textures of a misspelt pattern.
+    /// Skips the textures of a misspelt pattern: `checkerboard texture { … }, texture { … }`.
     pub(super) fn skip_textures(&mut self, near: Option<&str>) {
         let near = near.and_then(Word::from_name).map(Word::family);
         while near == Some(Family::Pattern) && self.take_word(Word::Texture).is_some() {
@@ -184,7 +185,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Passes over the values and the block that belong to a word, running what is in them.
+    /// Skips the values and the block that belong to a word, running their directives and calls.
     pub(in crate::evaluate) fn skip_arguments(&mut self, word: Word) {
         if word == Word::Function {
             return self.skip_function();
@@ -194,7 +195,7 @@ impl Evaluator<'_> {
                 Some(TokenKind::Comma | TokenKind::Literal(_)) => drop(self.next()),
                 Some(&TokenKind::Expression(id)) => {
                     let Some(Token { here, .. }) = self.peek().cloned() else { return };
-                    // Rather a misspelt word than a part of this one.
+                    // Probably a misspelt word, not a part of this one.
                     if self.unknown_name(&here, id).is_some() {
                         return;
                     }

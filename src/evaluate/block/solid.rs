@@ -1,4 +1,4 @@
-//! What stands in each solid's block before its modifiers.
+//! The parts of each solid, before its modifiers.
 
 use crate::diagnostic::{Code, Diagnostic, Label};
 use crate::math::Vector;
@@ -10,17 +10,17 @@ use super::super::{Evaluator, Here, Outcome};
 use super::habit::told_comma;
 use super::part::Given;
 
-/// What an exponent 0 of a superellipsoid is in POV-Ray 3.7 (measured).
+/// Value that POV-Ray 3.7 substitutes for an exponent of 0 in a superellipsoid (measured).
 const SHARPEST: f64 = 1e-5;
 
 impl Evaluator<'_> {
-    /// Whether `open` stands next, perhaps behind a comma.
+    /// Consumes `open`, with or without a comma before it, and returns whether it came next.
     pub(super) fn take_open(&mut self) -> bool {
         self.skip_commas();
         self.take_word(Word::Open).is_some()
     }
 
-    /// How to read the block of a solid; `None` for other words, and what is not built.
+    /// Returns the reader for a solid's block; `None` for other words, and for unsupported solids.
     pub(super) fn parts_of(word: Word) -> Option<fn(&mut Self, &Token) -> Outcome<Solid>> {
         Some(match word {
             Word::Sphere => Self::sphere,
@@ -57,13 +57,13 @@ impl Evaluator<'_> {
         })
     }
 
-    /// What a shape without size is: POV-Ray draws a scene that has one, as films do whose shapes grow from
-    /// nothing.
+    /// Returns the code for a shape without size: POV-Ray renders a scene that has one, as in animations
+    /// whose shapes grow from nothing.
     pub(super) fn sizeless(&self) -> Code {
         self.undrawn(Code::ZeroSize)
     }
 
-    /// What a shape is of which POV-Ray draws nothing, where here it is a mistake.
+    /// Returns the code for a shape of which POV-Ray draws nothing, and which is a mistake here.
     pub(super) fn undrawn(&self, mistake: Code) -> Code {
         match self.options.dialect {
             Dialect::Scene => mistake,
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Says that a shape has no size; it is left out.
+    /// Reports that a shape has no size; it is omitted.
     pub(super) fn nothing(
         &mut self,
         shape: &Token,
@@ -81,7 +81,7 @@ impl Evaluator<'_> {
         if let TokenKind::Word(word) = shape.kind {
             self.scene.sizeless.push((word.name(), shape.here.site(shape.span)));
         }
-        // `0,5`: the rest of the number comes next, and is told.
+        // `0,5`: the rest of the number comes next, and is reported.
         let number = |kind: &TokenKind| {
             matches!(kind, TokenKind::Comma | TokenKind::Expression(_) | TokenKind::Literal(_))
         };
@@ -100,7 +100,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `sphere { I*x, I/10 }` in a loop: what its counter is there.
+    /// Adds the current value of the loop counter to a diagnostic: `sphere { I*x, I/10 }`.
     pub(super) fn in_this_turn(&self, told: Diagnostic) -> Diagnostic {
         let mut counters = self.frames.iter().rev().filter_map(|frame| match frame.kind {
             FrameKind::For { symbol, value, .. } => Some((self.scopes.name(symbol), value)),
@@ -118,7 +118,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A point where bare numbers may follow that are none of its own.
+    /// Reads a point after which bare numbers may follow that do not belong to it.
     pub(super) fn point(&mut self, shape: &Token, wanted: &str) -> Outcome<Given<Vector>> {
         let given = self.given(shape, wanted)?;
         self.as_vector(given, wanted)
@@ -148,7 +148,7 @@ impl Evaluator<'_> {
     fn plane(&mut self, token: &Token) -> Outcome<Solid> {
         const WANTED: (&str, &str) = ("a vector for the normal", "a number for the distance");
         let (normal, distance) = self.vector_and_number(token, WANTED);
-        // `plane { <0, 0, 0>, y }`: where the two are mistaken, that is what is told.
+        // `plane { <0, 0, 0>, y }`: if the two are swapped, that is reported.
         let distance = distance?;
         let normal = self.as_direction(normal?, "the normal")?;
         Ok(Solid::Plane { normal: normal.value, distance: distance.value })
@@ -199,7 +199,7 @@ impl Evaluator<'_> {
         Ok(Solid::Cylinder { ends: [base.value, cap.value], radius: radius.value, open })
     }
 
-    /// Says so where a shape has no length.
+    /// Reports a shape without length.
     fn ends_apart(
         &mut self,
         shape: &Token,
@@ -212,7 +212,7 @@ impl Evaluator<'_> {
         }
         let message =
             format!("a {name} whose ends are the same point has no length, and is nothing");
-        // POV-Ray refuses it, too.
+        // POV-Ray refuses it as well.
         let diagnostic = Diagnostic::new(Code::ZeroSize, message)
             .at(cap.span, "expected another place")
             .also(base.span, "the base")
@@ -273,7 +273,7 @@ impl Evaluator<'_> {
         };
         let hole_radius = hole.as_ref().map_or(0.0, |hole| hole.value);
         if normal.value == Vector::ZERO {
-            // Told, and left out.
+            // Reported and omitted.
             let (centre, normal) = (centre.value, Vector::Y);
             return Ok(Solid::Disc { centre, normal, radius: 0.0, hole: 0.0 });
         }
@@ -329,7 +329,7 @@ impl Evaluator<'_> {
             self.nothing(token, &minor.here, diagnostic)?;
         }
         self.lint_spindle(&major, &minor);
-        // Asked by pictures of POV-Ray 3.7: of a negative minor radius it draws nothing.
+        // Measured in POV-Ray 3.7: with a negative minor radius it draws nothing.
         if minor.value < 0.0 && self.options.dialect == Dialect::Pov {
             let message = "POV-Ray draws nothing of a torus whose minor radius is negative";
             let diagnostic = Diagnostic::new(Code::DegenerateShape, message)
@@ -373,7 +373,7 @@ impl Evaluator<'_> {
         Ok(Solid::Ovus { bottom: bottom.value, top: top.value })
     }
 
-    /// `<e, n>`, or one number for both.
+    /// Reads `<e, n>`, or one number for both.
     fn superellipsoid(&mut self, token: &Token) -> Outcome<Solid> {
         const WANTED: &str = "a vector of the two exponents";
         let given = self.given(token, WANTED)?;

@@ -1,4 +1,4 @@
-//! What to say of two parts, or two arguments of a call, that stand in each other's place.
+//! Diagnostics for two parts, or two arguments of a call, that are swapped.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
@@ -6,7 +6,7 @@ use crate::source::{Site, Span};
 use super::super::{Evaluator, Reported};
 
 impl Evaluator<'_> {
-    /// Two parts stand in each other's place; or two arguments of a call, which are used elsewhere.
+    /// Reports two swapped parts, or two swapped arguments of a call that are used elsewhere.
     pub(super) fn swapped(
         &mut self,
         a: Site,

@@ -1,4 +1,4 @@
-//! Sphere sweeps: how it goes on, how many spheres, and each.
+//! `sphere_sweep`: its spline, the number of spheres, and the spheres.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 
 impl Evaluator<'_> {
-    /// `linear_spline | b_spline | cubic_spline  count, <centre>, radius, …`.
+    /// Reads `linear_spline | b_spline | cubic_spline  count, <centre>, radius, …`.
     pub(super) fn sphere_sweep(&mut self, token: &Token) -> Outcome<Solid> {
         self.skip_commas();
         let kinds = Kind::ALL.into_iter();
@@ -18,7 +18,7 @@ impl Evaluator<'_> {
             kinds.filter_map(|kind| Some((kind, self.take_word(kind.word())?))).next()
         else {
             let found = self.peek().cloned();
-            // A misspelt kind is told as that.
+            // A misspelt kind is reported as such.
             if let Some(Token { kind: TokenKind::Expression(id), here, .. }) = &found
                 && self.unknown_name(here, *id).is_some()
             {

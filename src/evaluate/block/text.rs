@@ -1,4 +1,4 @@
-//! `text`: a font, a string, how thick the letters are, and how far apart.
+//! `text`: a font, a string, the thickness of the letters, and their spacing.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -22,10 +22,11 @@ use super::named::{NamedFile, is_of_font};
 pub(in crate::evaluate) type Fonts = HashMap<(String, FileId), Arc<[u8]>>;
 
 impl Evaluator<'_> {
-    /// `text { ttf "file" "string" thickness, offset }`, or `internal n` instead of the file, or neither.
+    /// Reads `text { ttf "file" "string" thickness, offset }`, or with `internal n` instead of the file, or
+    /// neither.
     ///
-    /// **Source:** POV-Ray 3.7 manual, 3.4.5.1.16 "Text"; the numbers of its fonts and what an offset along z
-    /// does, nothing, were measured.
+    /// **Source:** POV-Ray 3.7 manual, 3.4.5.1.16 "Text". Measured: the numbers of its fonts, and that an
+    /// offset along z has no effect.
     pub(super) fn text(&mut self, token: &Token) -> Outcome<Solid> {
         let font = self.font()?;
         let wanted = "a string: what is written";
@@ -42,7 +43,7 @@ impl Evaluator<'_> {
             None => (self.given(token, wanted), None),
         };
         if given.is_err() && is_written && !self.is_before_value() {
-            // A mistake in the string hides none behind it.
+            // A mistake in the string does not hide those after it.
             self.number_after(token, "a number for the thickness")?;
         }
         let given = given?;
@@ -75,7 +76,7 @@ impl Evaluator<'_> {
             Ok(font) => {
                 (font.set(&string, [offset.x, offset.y], fits), font.first_missing(&string))
             }
-            // It was when it was read.
+            // It was valid when it was read.
             Err(_) => (Some(Vec::new()), None),
         };
         let Some(letters) = letters else {
@@ -95,13 +96,14 @@ impl Evaluator<'_> {
                 .at(given.span, "expected what is to be written");
             self.nothing(token, &given.here, diagnostic)?;
         } else if text.is_nothing() {
-            // A blank need not be told: loops set letter by letter.
+            // A blank need not be reported: loops may write letter by letter.
             self.scene.sizeless.push((Word::Text.name(), token.here.site(token.span)));
         }
         Ok(Solid::Text { text: Arc::new(text) })
     }
 
-    /// A string and a signed number without a comma between them, `"Pov" -0.5`, which reads as a difference.
+    /// Reads a string and a signed number without a comma between them, `"Pov" -0.5`, which parse as a
+    /// difference.
     fn string_and_number(&mut self) -> Outcome<Option<(Given<Value>, Given<f64>)>> {
         let Some(Token { kind: TokenKind::Expression(id), here, span }) = self.peek().cloned()
         else {
@@ -117,7 +119,7 @@ impl Evaluator<'_> {
             }
             first = left;
         }
-        // What begins with `+` is more of the string to those who wrote it.
+        // An operand after `+` is meant as part of the string.
         let is_number = terms.last().is_some_and(|(sign, _)| *sign < 0.0);
         let value = match here.unit.expression(first).kind {
             ExpressionKind::String if is_number => self.expression(&here, first)?,
@@ -141,7 +143,7 @@ impl Evaluator<'_> {
         Ok(Some((string, Given { value: number, span, here, expression: None })))
     }
 
-    /// `text { "timrom.ttf" "string" … }`: the file of a font, without `ttf` before it.
+    /// Reports a font file without `ttf` before it: `text { "timrom.ttf" "string" … }`.
     fn names_font(&mut self, given: &Given<Value>, string: &str) -> Outcome<()> {
         let ending = string.rsplit('.').next().unwrap_or("").to_ascii_lowercase();
         let is_string = match self.peek().cloned() {
@@ -165,7 +167,7 @@ impl Evaluator<'_> {
         Err(self.report(&given.here, diagnostic))
     }
 
-    /// The bytes of the font that a text is written in: of one that can be parsed.
+    /// Returns the bytes of a text's font, which have been checked to parse.
     fn font(&mut self) -> Outcome<Arc<[u8]>> {
         if let Some(internal) = self.take_word(Word::Internal) {
             return self.internal_font(&internal);
@@ -231,7 +233,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// A font's name without its ending.
+/// Returns a font's name without its extension.
 fn stem(name: &str) -> &str {
     name.strip_suffix(".ttf").unwrap_or(name)
 }

@@ -1,4 +1,4 @@
-//! `texture` and `#default`.
+//! `texture`, and the default texture of `#default`.
 
 mod bare;
 mod pattern;
@@ -14,10 +14,10 @@ use bare::Bare;
 use pattern::Written;
 
 impl Evaluator<'_> {
-    /// `texture { [Name] … }`, starting from the default texture.
+    /// Reads `texture { [Name] … }`, starting from the default texture.
     pub(super) fn texture(&mut self, token: &Token) -> Outcome<TextureId> {
         let texture = self.one_texture(token);
-        // Several in a row are layers, which are not built yet.
+        // Several in a row are layers, which are unsupported.
         while let Some(Token { kind: TokenKind::Word(Word::Texture), .. }) = self.peek_on()
             && let Some(next) = self.next()
         {
@@ -30,7 +30,7 @@ impl Evaluator<'_> {
         Ok(self.add_texture(texture?))
     }
 
-    /// As [`Self::texture`], where others may follow that are no layers of it.
+    /// As [`Self::texture`], where textures that follow are not layers of it.
     pub(super) fn one_texture(&mut self, token: &Token) -> Outcome<Texture> {
         let mut texture = self.scene.textures[self.default_texture.index()].clone();
         self.block(token, Word::Texture, |evaluator| {
@@ -92,7 +92,7 @@ impl Evaluator<'_> {
                     return Err(Reported);
                 }
                 Some(Value::Texture(id)) => *texture = self.scene.textures[id.index()].clone(),
-                // As in POV-Ray, their words may be left out here.
+                // As in POV-Ray, their keywords are optional here.
                 Some(Value::Pigment(id)) => texture.pigment = id,
                 Some(Value::Finish(id)) => texture.finish = id,
                 Some(Value::Poison(poison)) => {
@@ -119,7 +119,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// The items of `#default { … }`: they change what objects take that have no texture.
+    /// Reads the items of `#default { … }`, which apply to objects without a texture.
     pub(in crate::evaluate) fn default_items(&mut self) {
         let outer = self.poison.take();
         while let Some(token) = self.next() {

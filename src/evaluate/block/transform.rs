@@ -1,4 +1,4 @@
-//! `translate`, `rotate`, `scale`, `matrix` and `transform`.
+//! Transforms: `translate`, `rotate`, `scale`, `matrix` and `transform`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
@@ -17,7 +17,7 @@ use super::Given;
 use super::Place;
 
 impl Evaluator<'_> {
-    /// The transform that starts with `token`; `None` when the word starts none.
+    /// Reads the transform that starts with `token`; returns `None` if the word starts none.
     pub(super) fn transform_from(&mut self, token: &Token) -> Option<Outcome<TransformId>> {
         let step = self.step_from(token)?;
         Some(step.map(|step| self.add_transform(vec![step], token)))
@@ -39,7 +39,7 @@ impl Evaluator<'_> {
             return whole;
         }
         self.scene.transform_sites.push(self.whole(token));
-        // Lowering keeps a map for each.
+        // Lowering stores a map for each.
         self.stored += 256 + size_of_val(&steps[..]) as u64;
         self.scene.transforms.push(steps);
         TransformId(self.scene.transforms.len() as u32 - 1)
@@ -100,9 +100,10 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `rotate y 45`, `rotate 45, y`, `translate x 2 y 3`, `scale y 2`, as other tools write it.
+    /// Reports transforms written as in other tools: `rotate y 45`, `rotate 45, y`, `translate x 2 y 3`,
+    /// `scale y 2`.
     fn no_number_after(&mut self, word: Word, given: &Given<Vector>) -> Outcome<()> {
-        // `sphere { translate x 0, 1 }`: the parts that come too late were told.
+        // `sphere { translate x 0, 1 }`: the late parts were reported.
         if self.lacks_part() {
             return Ok(());
         }
@@ -149,7 +150,7 @@ impl Evaluator<'_> {
         let right = match pairs.as_slice() {
             [] => format!("{}*{}", text(self, span), text(self, given.span)),
             [pair] if word != Word::Scale => one(pair),
-            // Turns are made about x first, and then y.
+            // Rotations are applied about x first, and then y.
             pairs if in_order => {
                 let mut all = [if word == Word::Scale { "1" } else { "0" }; 3];
                 for (axis, number) in pairs {
@@ -179,14 +180,14 @@ impl Evaluator<'_> {
         Err(self.report(&here, diagnostic))
     }
 
-    /// `y 45`, `z -2`: an axis and a number that come next, and where they end.
+    /// Returns an axis and a number that come next, and where they end: `y 45`, `z -2`.
     fn axis_and_number(&mut self) -> Option<(usize, String, Span)> {
         let Token { kind: TokenKind::Expression(id), here, span } = self.peek()?.clone() else {
             return None;
         };
         let kind = |here: &Here, id| here.unit.expression(id).kind;
         let is_number = |here: &Here, id| matches!(kind(here, id), ExpressionKind::Number(_));
-        // `z -2` is read as a difference.
+        // `z -2` parses as a difference.
         if let ExpressionKind::Binary(BinaryOperator::Subtract, axis, number) = kind(&here, id) {
             let axis = axis_of(kind(&here, axis)).filter(|_| is_number(&here, number))?;
             let number = self.sources.text(here.unit.expression(number).span);
@@ -206,7 +207,7 @@ impl Evaluator<'_> {
         Some((axis, self.sources.text(span).to_owned(), span))
     }
 
-    /// `matrix <…12 numbers…>`: more numbers than a vector holds.
+    /// Reads `matrix <…12 numbers…>`, which has more numbers than a vector can hold.
     fn matrix(&mut self, token: &Token) -> Outcome<Step> {
         let next = match self.next() {
             Some(next) => next,
@@ -245,7 +246,7 @@ impl Evaluator<'_> {
             let place = match lost.first() {
                 Some((at, _)) => *at,
                 None if numbers.len() < 12 => self.end_of_call(next.span),
-                // The first that is too many.
+                // The first surplus number.
                 None => {
                     let more = unit.ast.arguments(components).get(12..);
                     more.and_then(|more| surplus(&next.here, more)).unwrap_or(next.span)
@@ -261,7 +262,7 @@ impl Evaluator<'_> {
                     .help("the fourth column is always 0, 0, 0, 1, and is left out")
                     .fix(next.span, right),
                 (0, None) => diagnostic.help("the last row is the translation: `matrix <1,0,0, 0,1,0, 0,0,1, 0,0,0>` changes nothing"),
-                // Of several differences only the author knows which are meant.
+                // With several differences, only the author knows which are meant.
                 (n, None) if n + numbers.len() != 12 => diagnostic.help("`0 -2` is one number, and `0, -2` are two"),
                 _ => lost.iter().fold(diagnostic, |told, (at, pair)| {
                     told.help(format!("`{pair}` is one number: a comma is missing in it")).fix(*at, ",")
@@ -272,13 +273,13 @@ impl Evaluator<'_> {
         let row = |i: usize| Vector::new(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
         let rows = [row(0), row(1), row(2), row(3)];
         match self.options.dialect {
-            // Whether it flattens everything is decided in lowering, exactly.
+            // Whether it is singular is decided exactly in lowering.
             Dialect::Scene => Ok(Step::Matrix(rows)),
             Dialect::Pov => self.with_columns(&next, rows),
         }
     }
 
-    /// `transform { … }` or `transform Name`.
+    /// Reads `transform { … }` or `transform Name`.
     pub(super) fn transform_block(&mut self, token: &Token) -> Outcome<TransformId> {
         if let Some(Token { kind: TokenKind::Expression(_), .. }) = self.peek() {
             let given = self.given(token, "a transform")?;
@@ -290,7 +291,7 @@ impl Evaluator<'_> {
             };
             return Ok(id);
         }
-        // In POV-Ray 3.7 it inverts all of the block, wherever it stands and however often (measured).
+        // In POV-Ray 3.7 it inverts the whole block, at any position and if repeated (measured).
         let inverts_all = self.options.dialect == Dialect::Pov;
         let steps = self.block(token, Word::TransformWord, |evaluator| {
             let (mut steps, mut inverse) = (Vec::new(), None);
@@ -326,9 +327,9 @@ impl Evaluator<'_> {
         Ok(self.add_transform(steps, token))
     }
 
-    /// A name that is a word in the block that `block` opened, where only running it shows that it stands
-    /// there: in a macro's body, in an include. What looks like a call of it, `ks (1 - A)*2`, is the word
-    /// and its value, which comes next.
+    /// Handles a name that is a keyword in the block that `block` opened, if only running it shows that it is
+    /// in that block: in a macro's body, or in an include. An apparent call such as `ks (1 - A)*2` is the
+    /// keyword followed by its value.
     pub(super) fn contextual_word(&mut self, token: &Token, block: Word) -> Option<Word> {
         let TokenKind::Expression(id) = token.kind else { return None };
         let unit = token.here.unit.clone();
@@ -361,8 +362,8 @@ impl Evaluator<'_> {
         Some(word)
     }
 
-    /// The value of a taken token that is a lone declared name, or an element of an array, whose faults are
-    /// told.
+    /// Returns the value of a taken token that is a lone declared name or an array element; errors in the
+    /// latter are reported.
     pub(super) fn declared(&mut self, token: &Token, id: ExpressionId) -> Option<Value> {
         match token.here.unit.expression(id).kind {
             ExpressionKind::Index(..) => {
@@ -372,7 +373,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The value that comes next, if it is declared, before it is known whether it is wanted.
+    /// Returns the value that comes next, if it is declared, before it is known whether it is wanted.
     pub(super) fn peek_declared(&mut self) -> Option<&Value> {
         self.settle_element();
         let token = self.peeked.as_ref()?;
@@ -383,7 +384,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Puts the value of an element of an array in the place of its expression, which is evaluated once.
+    /// Replaces an array element's expression by its value, so that it is evaluated once.
     fn settle_element(&mut self) {
         let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.peek() else { return };
         let id = *id;
@@ -395,7 +396,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The value of an expression that is a lone declared name; nothing is reported.
+    /// Returns the value of an expression that is a lone declared name; reports nothing.
     pub(super) fn named(&mut self, here: &Here, id: ExpressionId) -> Option<Value> {
         named(&mut self.scopes, here, id).cloned()
     }
@@ -410,7 +411,7 @@ fn named<'s>(scopes: &'s mut Scopes, here: &Here, id: ExpressionId) -> Option<&'
     }
 }
 
-/// Which axis a word is.
+/// Returns the index of an axis keyword.
 fn axis_of(kind: ExpressionKind) -> Option<usize> {
     match kind {
         ExpressionKind::Word(Word::X) => Some(0),

@@ -1,6 +1,6 @@
-//! What is not built yet: its parts and modifiers are read all the same, for the mistakes in them.
+//! Unsupported blocks: their parts and modifiers are read nevertheless, to report the mistakes in them.
 //!
-//! **Invariant:** it is poison, whatever is found in it.
+//! **Invariant:** the result is poison, whatever is found in the block.
 
 mod items;
 mod left_out;
@@ -18,7 +18,7 @@ use super::super::{Evaluator, Outcome, Reported, Symbol};
 use super::Place;
 use super::place::home;
 
-/// The parts of a shape that come before its modifiers, where their number is fixed: vectors all.
+/// Returns the parts of an unsupported shape before its modifiers, if their number is fixed: all are vectors.
 fn parts_not_built(word: Word) -> Option<&'static [&'static str]> {
     Some(match word {
         Word::JuliaFractal => &["a vector for the parameter"],
@@ -26,7 +26,7 @@ fn parts_not_built(word: Word) -> Option<&'static [&'static str]> {
     })
 }
 
-/// What belongs to a word that is not built, where it is a fixed number of values.
+/// Returns the arguments of an unsupported word, if it has a fixed number of values.
 fn values_not_built(word: Word) -> &'static [&'static str] {
     match word {
         Word::AreaLight => &[
@@ -42,7 +42,7 @@ fn values_not_built(word: Word) -> &'static [&'static str] {
 }
 
 impl Evaluator<'_> {
-    /// Passes over what belongs to a word that is not built, for the mistakes in it.
+    /// Skips what belongs to an unsupported word, reporting the mistakes in it.
     pub(super) fn pass_not_built(&mut self, token: &Token, word: Word) {
         let outer = self.poison.take();
         for wanted in values_not_built(word) {
@@ -95,12 +95,12 @@ impl Evaluator<'_> {
             self.openers.pop();
             return;
         }
-        // `density_file df3 "smoke.df3" interpolate 1`: any number will do there.
+        // `density_file df3 "smoke.df3" interpolate 1`: any number is valid there.
         if word != Word::Interpolate && self.modifier_not_built(token, word) {
             return;
         }
         self.block_is_missing(token, word);
-        // An object, which has mistakes as any other.
+        // An object, which may have mistakes like any other.
         if let Word::LooksLike | Word::ProjectedThrough = word
             && self.is_before_block()
             && self.judge_block(token, Word::Union)
@@ -110,7 +110,7 @@ impl Evaluator<'_> {
         self.skip_arguments(word);
     }
 
-    /// `looks_like sphere { … }`, `radiosity` alone: a word that is not built and has a block, without it.
+    /// Reports an unsupported word without its block: `looks_like sphere { … }`, `radiosity` alone.
     fn block_is_missing(&mut self, token: &Token, word: Word) {
         let has_block = matches!(
             word,
@@ -156,7 +156,8 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    /// Whether a pattern stands before a map in its block, and none is `average`, whose entries need no number.
+    /// Returns whether a pattern precedes a map in its block, and none is `average`, whose entries need no
+    /// number.
     fn follows_a_pattern(&self, map: &Token) -> bool {
         let block = self.blocks.last().map(|block| block.span);
         let Some(block) =
@@ -172,7 +173,7 @@ impl Evaluator<'_> {
             && patterns.all(|other| other != Word::Average)
     }
 
-    /// What stands in a normal: what belongs in a finish is none of it.
+    /// Reads a `normal`, in which items of a finish are not valid.
     fn normal_not_built(&mut self) {
         const PLACE: Place = Place { word: Some(Word::Normal), families: &[], others: &[] };
         while let Some(token) = self.next() {
@@ -210,7 +211,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The entries of a map that is not built: each begins with a number.
+    /// Reads the entries of an unsupported map, each of which begins with a number.
     fn map_not_built(&mut self, map: Word) {
         while let Some(token) = self.peek().cloned() {
             let TokenKind::Entry(items) = token.kind else {
@@ -258,20 +259,20 @@ impl Evaluator<'_> {
         });
         let inside = self.poison.take();
         self.set_poison(poison);
-        // `open` and the like go with their shape.
+        // `open` and the like belong to their shape.
         if let Some(inside) = inside.filter(|inside| inside.word.family() != Family::ShapeItem) {
             self.set_poison(inside);
         }
         Reported
     }
 
-    /// `ovus { Egg … }`.
+    /// Reads a declared object in the block: `ovus { Egg … }`.
     fn takes_declared_object(&mut self) -> bool {
         let declared = matches!(
             self.peek_declared(),
             Some(Value::Object(_) | Value::Poison(_) | Value::Broken)
         );
-        // A name alone, not the first of several values.
+        // A single name, not the first of several values.
         let alone = declared
             && !matches!(
                 self.peek_on().map(|next| &next.kind),
@@ -305,8 +306,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// As [`Self::is_of_place`], of a name whose declaration was told to be wrong: the word behind its `=` says what it
-    /// was to be.
+    /// As [`Self::is_of_place`], for a name whose declaration was reported: the word after its `=` shows what
+    /// was intended.
     pub(super) fn broken_of_place(&mut self, token: &Token, id: ExpressionId, place: Place) {
         let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return };
         if let Some((word, site)) = self.declared_as(token.here.symbol(name)) {
@@ -314,7 +315,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `sphere { Chair, 1 }`, where `Chair` was to be an object, and its own mistake is told.
+    /// Reports a name whose own mistake was reported where its object is used as a part: `sphere { Chair, 1
+    /// }`.
     pub(super) fn tell_broken_object(&mut self, token: &Token, id: ExpressionId) {
         let ExpressionKind::Name(name) = token.here.unit.expression(id).kind else { return };
         let Some((word, site)) = self.declared_as(token.here.symbol(name)) else { return };
@@ -328,7 +330,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The word behind the `=` of a declaration, and where the name stands.
+    /// Returns the word after the `=` of a declaration, and the site of the name.
     pub(in crate::evaluate) fn declared_as(&self, name: Symbol) -> Option<(Word, Site)> {
         let site = self.scopes.declared(name)?.site;
         let text = &self.sources.get(site.span.file).text;
@@ -338,7 +340,7 @@ impl Evaluator<'_> {
         Word::from_name(&value[..end.unwrap_or(value.len())]).map(|word| (word, site))
     }
 
-    /// Says of a name that stands for something not built what it is, in a block that has another use for it.
+    /// Reports a name of an unsupported value in a block that does not accept that kind.
     pub(super) fn is_of_place(&mut self, token: &Token, poison: Poison, place: Place) {
         let Some(of) = place.word.filter(|_| matches!(token.kind, TokenKind::Expression(_))) else {
             return;

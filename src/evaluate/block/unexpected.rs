@@ -1,4 +1,4 @@
-//! What to say of an item that its block has no use for.
+//! Diagnostics for items that a block does not accept.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
@@ -16,14 +16,14 @@ use super::meant::{block_for, told_directive};
 use super::place::{is_of_no_part, stands_alone};
 
 impl Evaluator<'_> {
-    /// An item that the block does not know: says so, and passes over what belongs to it.
+    /// Reports an item that the block does not accept, and skips what belongs to it.
     pub(in crate::evaluate) fn unexpected(&mut self, token: &Token, place: Place) {
-        // What stands behind a word that is not built may belong to it.
+        // Items after an unsupported word may belong to it.
         let of_poison = self.poison.is_some();
         match &token.kind {
             TokenKind::Comma => self.warn_of_comma(token, place),
             TokenKind::Semicolon => self.warn_of_semicolon(token, place),
-            // What comes next is looked at for no name: it may declare it.
+            // The next item is not checked for a name: it may declare it.
             TokenKind::Word(word) if of_poison && stands_alone(*word) && self.is_before_block() => {
                 self.unexpected_word(token, *word, place);
             }
@@ -37,7 +37,7 @@ impl Evaluator<'_> {
                     true => self.pass_not_built(token, *word),
                     false => self.skip_arguments(*word),
                 }
-                // What a pattern that is not built has goes with it.
+                // Items of an unsupported pattern belong to it.
                 if place.holds(*word) && !word.is_built() && word.family() != Family::PatternItem {
                     self.set_poison(poison);
                 }
@@ -98,7 +98,7 @@ impl Evaluator<'_> {
                                 let dialect = self.options.dialect;
                                 let words = || place.words(dialect);
                                 let near = self.near(span, Asked::Call, || {
-                                    // What takes no block.
+                                    // A word without a block.
                                     let moves = |word: Word| word.family() == Family::Transform;
                                     let ours = |word: &&str| {
                                         Word::from_name(word).is_some_and(moves)
@@ -165,7 +165,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `Column { translate x }`, where objects stand, of a name that was told to be wrong, or is not built.
+    /// Handles `Column { translate x }` where objects are expected, for a name that was reported or is
+    /// unsupported.
     fn named_block(&mut self, token: &Token, place: Place) -> bool {
         let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.peek().cloned()
         else {
@@ -201,7 +202,7 @@ impl Evaluator<'_> {
         {
             return self.skip_values();
         }
-        // An argument of a macro that was told, or two that changed places.
+        // An argument of a macro that was reported, or two that were swapped.
         if let TokenKind::Expression(_) = token.kind
             && self.is_refused_again(&token.here, token.span, value)
         {
@@ -209,7 +210,7 @@ impl Evaluator<'_> {
         }
         let told = match (place.word, value) {
             (Some(Word::Object), Value::Object(_)) => self.second_of_object(token.span),
-            // A decimal comma is told as that.
+            // A decimal comma is reported as such.
             (Some(solid), Value::Number(_) | Value::Vector(_))
                 if self.comma_before(token.span).is_none() =>
             {
@@ -325,8 +326,8 @@ impl Evaluator<'_> {
         self.skip_values();
     }
 
-    /// Passes over what changes an object, where it stands behind the object's name and not in its block; up to where
-    /// it goes on its line.
+    /// Skips the modifiers after an object's name that are outside its block; returns the span up to the last
+    /// one on its line.
     pub(super) fn line_of_modifiers(&mut self, name: Span) -> Span {
         let changes = |kind: &TokenKind| match kind {
             TokenKind::Word(word) => {
@@ -353,7 +354,7 @@ impl Evaluator<'_> {
         whole
     }
 
-    /// The braces that stand where a call has parentheses.
+    /// Skips the braces in the place of a call's parentheses.
     fn skip_block_of(&mut self, token: &Token) {
         let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.peek().cloned()
         else {
@@ -371,7 +372,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The first character of a bracketed span.
+/// Returns the first character of a bracketed span.
 pub(super) fn opener(span: Span) -> Span {
     Span { end: span.start + 1, ..span }
 }

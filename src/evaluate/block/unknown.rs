@@ -1,6 +1,7 @@
-//! What to say of a name that is neither a word of the language nor declared, where a word should stand.
+//! Diagnostics for a name that is neither a keyword nor declared, where a keyword is expected.
 //!
-//! **Invariant:** it is one mistake: what belongs to it is passed over, and what only follows it is not.
+//! **Invariant:** it is a single error: what belongs to the name is skipped, and items that merely follow it
+//! are not.
 
 use std::rc::Rc;
 
@@ -17,7 +18,7 @@ use super::place::home;
 use super::{Place, opens_value};
 
 impl Evaluator<'_> {
-    /// A name that is no word of the language and was never declared, where a word should stand.
+    /// Reports a name that is neither a keyword nor declared, where a keyword is expected.
     pub(super) fn unknown_word(&mut self, token: &Token, span: Span, place: Place) {
         let has_block = self.is_before_block();
         let at = (span, place.word, has_block);
@@ -44,7 +45,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Passes over what belongs to an unknown word that was rather meant as `near`.
+    /// Skips what belongs to an unknown word that was probably meant as `near`.
     fn skip_unknown(
         &mut self,
         token: &Token,
@@ -54,7 +55,7 @@ impl Evaluator<'_> {
     ) {
         let meant = near.filter(|_| has_block).and_then(Word::from_name);
         let meant = meant.filter(|word| !has_other_parts(self.sources.text(token.span), *word));
-        // A blob's parts are not those of shapes.
+        // A blob's parts differ from those of shapes.
         if let Some(word) = meant.filter(|_| place.word != Some(Word::Blob))
             && self.judge_block(token, word)
         {
@@ -71,7 +72,7 @@ impl Evaluator<'_> {
             self.skip_color(token);
         }
         if self.is_before_block() {
-            // What is inside belongs to a word that is not known: run, but not judged.
+            // The contents belong to an unknown word: run, but not checked.
             let before = self.told();
             if let Some(Token { kind: TokenKind::Block(contents), here, span }) = self.next() {
                 self.inside_block(&here, contents, span, Self::run_items);
@@ -191,13 +192,13 @@ impl Evaluator<'_> {
         Unknown::Word { told: diagnostic, near }
     }
 
-    /// Whether a value comes next, or a block instead of one.
+    /// Returns whether a value comes next, or a block instead of one.
     fn has_value(&mut self, has_block: bool) -> bool {
         has_block || self.is_before_value() || self.at_color_word()
     }
 
-    /// Reads the block of a misspelt word as that of the word that was meant, for its own mistakes. `false`
-    /// when that word has no block, and nothing was read.
+    /// Reads the block of a misspelt word as that of the intended word, to report the mistakes in it. Returns
+    /// `false` if that word has no block and nothing was read.
     pub(super) fn judge_block(&mut self, token: &Token, word: Word) -> bool {
         let token = Token { kind: TokenKind::Word(word), ..token.clone() };
         let poison = self.poison.take();
@@ -216,7 +217,7 @@ impl Evaluator<'_> {
         judged
     }
 
-    /// Whether a name that may be meant as the word `here` is rather meant as a declared one.
+    /// Returns whether a name that resembles the word `here` is more likely a declared name.
     fn is_rather_a_name(
         &self,
         token: &Token,
@@ -239,7 +240,7 @@ impl Evaluator<'_> {
         if here.is_some_and(is_word) {
             return false;
         }
-        // A name with a capital is rather one of the author's.
+        // A capitalized name is probably one of the author's.
         if here.is_some_and(is_built) && !name.starts_with(char::is_uppercase) {
             return false;
         }
@@ -251,7 +252,8 @@ impl Evaluator<'_> {
             || (here.is_none() && self.scopes.declared(symbol).is_some())
     }
 
-    /// `use <a.scad>`, `import "a"`, `module A() { … }`: all of its line, or up to its block.
+    /// Skips a directive of another language, to the end of its line or to its block: `use <a.scad>`, `import
+    /// "a"`, `module A() { … }`.
     fn foreign_directive(&mut self, token: &Token, told: &Diagnostic, span: Span) {
         self.report_again(&token.here, told);
         let before = self.told();
@@ -280,16 +282,16 @@ impl Evaluator<'_> {
     }
 }
 
-/// What an unknown word is taken for.
+/// The interpretation of an unknown word.
 #[derive(Debug)]
 pub(in crate::evaluate) enum Unknown {
     /// A colour of another tool.
     Written(Diagnostic),
-    /// A name that is not declared.
+    /// An undeclared name.
     Name(Symbol),
     /// A directive of another language.
     Directive(Diagnostic),
-    /// It may stand in the include that was not found, which was told.
+    /// A name that may be declared in the include that was not found, which was reported.
     Included,
     Word {
         told: Diagnostic,
@@ -308,12 +310,12 @@ pub(super) fn meant(diagnostic: Diagnostic, span: Span, near: &str) -> Diagnosti
     }
 }
 
-/// Whether a word takes a vector or a number, and no colour.
+/// Returns whether a word takes a vector or a number, and not a colour.
 pub(super) fn is_transform(name: &str) -> bool {
     Word::from_name(name).is_some_and(|word| word.family() == Family::Transform)
 }
 
-/// The block in which a name is a word.
+/// Returns the block in which a name is a keyword.
 fn contextual(name: &str) -> Option<&'static str> {
     let word = Word::ALL.iter().find(|word| word.block().is_some() && word.name() == name)?;
     word.block().map(Word::name)

@@ -1,17 +1,18 @@
-//! `datetime`: a day, counted from the year 2000, as text.
+//! `datetime`: formats a day, counted from the year 2000, as text.
 //!
-//! **Domain:** the years 1400 to 9999 of the Gregorian calendar, in UTC; to the nearest second. Names of days
-//! and months are English on every machine. **Invariant:** a code that is none stays as it is written.
+//! **Domain:** the years 1400 to 9999 of the Gregorian calendar, in UTC, rounded to the nearest second. Names
+//! of days and months are English on every machine. **Invariant:** an unknown conversion code is copied
+//! unchanged.
 //!
-//! **Source:** POV-Ray 3.7 manual, section 3.3.1.9.4 "String Functions"; codes as C's `strftime` has them.
-//! H. Hinnant, "chrono-Compatible Low-Level Date Algorithms", for the calendar.
+//! **Source:** POV-Ray 3.7 manual, section 3.3.1.9.4 "String Functions"; codes as in C's `strftime`.
+//! Calendar: H. Hinnant, "chrono-Compatible Low-Level Date Algorithms".
 
 use std::fmt::Write;
 
 use super::{Arguments, CallError, CallErrorKind, Function};
 use crate::vocabulary::Word;
 
-/// The function that `word` names, if it is of this family.
+/// Returns the function that `word` names, if it is in this family.
 pub(super) fn function(word: Word) -> Option<Function> {
     match word {
         Word::Datetime => Function::string(1..=2, datetime),
@@ -51,11 +52,11 @@ struct Date {
     seconds: i64,
 }
 
-/// Seconds of a day.
+/// Seconds in a day.
 const DAY: i64 = 86_400;
 /// Days from 0000-03-01 to 2000-01-01.
 const EPOCH: i64 = 730_425;
-/// Days of four hundred years.
+/// Days in four hundred years.
 const ERA: i64 = 146_097;
 const DAYS: [&str; 7] =
     ["Sunday", "Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday"];
@@ -75,7 +76,7 @@ const MONTHS: [&str; 12] = [
 ];
 
 impl Date {
-    /// From seconds since the beginning of 2000.
+    /// Converts from seconds since the beginning of 2000.
     fn of(seconds: i64) -> Self {
         let days = seconds.div_euclid(DAY);
         let since = days.saturating_add(EPOCH);
@@ -98,7 +99,7 @@ impl Date {
         }
     }
 
-    /// Writing into a string cannot fail.
+    /// Appends the formatted date to `text`; writing to a string cannot fail.
     fn write(&self, format: &str, text: &mut String) {
         let mut characters = format.chars();
         while let Some(character) = characters.next() {

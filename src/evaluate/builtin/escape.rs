@@ -1,17 +1,18 @@
-//! What the escapes inside a string literal stand for.
+//! Decoding of escape sequences in string literals.
 //!
-//! **In:** the text between the quotes, as typed. **Out:** the string. File names after `#include`
-//! and in places where a path is expected are not decoded, as in POV-Ray; the caller knows which.
+//! **In:** the text between the quotes, as typed. **Out:** the string. File names after `#include`, and in
+//! other positions that take a path, are not decoded, as in POV-Ray; the caller decides.
 //!
-//! **Source:** POV-Ray 3.7 manual, section 3.3.2.7.2 "Text Formatting"; the program refuses `\0`,
-//! which the manual lists, and every escape that it does not.
+//! **Source:** POV-Ray 3.7 manual, section 3.3.2.7.2 "Text Formatting"; the program refuses `\0`, which the
+//! manual lists, and every escape that the manual does not list.
 
 use std::borrow::Cow;
 
 /// Replaces each escape by its character.
 ///
 /// # Errors
-/// The byte offset of the backslash in `raw`, and what is wrong there.
+///
+/// Returns the byte offset of the backslash in `raw`, and what is wrong there.
 pub fn decode_escapes(raw: &str) -> Result<Cow<'_, str>, (usize, String)> {
     if !raw.contains('\\') {
         return Ok(Cow::Borrowed(raw));
@@ -29,7 +30,7 @@ pub fn decode_escapes(raw: &str) -> Result<Cow<'_, str>, (usize, String)> {
     Ok(Cow::Owned(text))
 }
 
-/// The character of the escape that `raw` begins with, and the escape's length in bytes.
+/// Returns the character of the escape with which `raw` begins, and the escape's length in bytes.
 fn escape(raw: &str) -> Result<(char, usize), String> {
     let character = match raw[1..].chars().next() {
         Some('a') => '\x07',
@@ -51,8 +52,8 @@ fn escape(raw: &str) -> Result<(char, usize), String> {
     Ok((character, 2))
 }
 
-/// `\uXXXX`, four hexadecimal digits; a character beyond them is written as two halves, which
-/// POV-Ray keeps apart and counts as two.
+/// Decodes `\uXXXX`, four hexadecimal digits. A character beyond them is written as a surrogate pair, which
+/// POV-Ray keeps apart and counts as two characters.
 fn unicode(raw: &str) -> Result<(char, usize), String> {
     let first = code_unit(raw).ok_or("`\\u` takes four hexadecimal digits, as in `\\u00e9`")?;
     if first == 0 {

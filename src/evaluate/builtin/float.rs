@@ -1,8 +1,8 @@
-//! Numbers of numbers: roundings, powers, angles, choices.
+//! Numeric functions: rounding, powers, angles, selection.
 //!
-//! **Invariant:** outside a function's domain there is an error, never a `nan`. The border belongs
-//! to the domain with what rounding leaves over: `acos(vdot(A, B))` of two unit vectors must not
-//! fail by a last digit, so [`BORDER`] beyond ±1 counts as ±1.
+//! **Invariant:** outside a function's domain there is an error, never a `nan`. The domain includes a margin
+//! for rounding: `acos(vdot(A, B))` of two unit vectors must not fail because of the last digit, so values up
+//! to [`BORDER`] beyond ±1 count as ±1.
 
 use std::ops::RangeInclusive;
 
@@ -13,13 +13,13 @@ use crate::math::elementary::{
 };
 use crate::vocabulary::Word;
 
-/// 16 units in the last place of 1: more than the dot product of two normalized vectors errs by.
+/// 16 units in the last place of 1: more than the error of a dot product of two normalized vectors.
 const BORDER: f64 = 16.0 * f64::EPSILON;
 
 /// One or more.
 const ANY: RangeInclusive<usize> = 1..=usize::MAX;
 
-/// The function that `word` names, if it is one of this family.
+/// Returns the function that `word` names, if it is in this family.
 pub(super) fn function(word: Word) -> Option<Function> {
     match word {
         Word::Abs => Function::plain(f64::abs),
@@ -74,19 +74,19 @@ pub(super) fn function(word: Word) -> Option<Function> {
     }
 }
 
-/// The first number, or a later one that is better: what is no number never is, as in POV-Ray 3.7 (measured).
+/// Returns the first number, or a later one that is better; NaN never is, as in POV-Ray 3.7 (measured).
 fn chosen(a: &Arguments, is_better: fn(f64, f64) -> bool) -> Result<f64, CallError> {
     let best = |best, next| if is_better(next, best) { next } else { best };
     Ok(a.all_numbers()?.reduce(best).unwrap_or(f64::NAN))
 }
 
-/// Toward zero. POV-Ray passes through 32 bits and gives -2147483648 for all that is larger; here
-/// the whole part of a large number is the number.
+/// Truncates toward zero. POV-Ray uses 32 bits and gives -2147483648 for larger numbers; here the integer
+/// part has no such limit.
 fn whole_part(n: f64) -> f64 {
     n.trunc() + 0.0 // the sum turns -0 into 0
 }
 
-/// POV-Ray pulls anything beyond ±1 to the border and warns.
+/// Checks the argument of an inverse sine or cosine. POV-Ray clamps anything beyond ±1, with a warning.
 fn sine_or_cosine(a: &Arguments) -> Result<f64, CallError> {
     let n = a.number(0)?;
     if n.abs() <= 1.0 + BORDER {
@@ -113,10 +113,10 @@ fn divisor(a: &Arguments) -> Result<f64, CallError> {
     }
 }
 
-/// Bits of whole numbers; negative ones as if with endless ones on the left.
+/// Combines the bits of integers; negative ones are sign-extended.
 ///
-/// POV-Ray computes on 32 bits; here up to 53, which a number holds exactly, and the same result
-/// wherever 32 are enough.
+/// POV-Ray uses 32 bits; this uses up to 53, which a number holds exactly, with the same result wherever 32
+/// are enough.
 fn bitwise(a: &Arguments, combine: fn(i64, i64) -> i64) -> Result<f64, CallError> {
     const LARGEST: i64 = (1 << 53) - 1;
     let whole = |i| a.whole(i, -LARGEST..=LARGEST, "whole numbers");
@@ -127,7 +127,7 @@ fn bitwise(a: &Arguments, combine: fn(i64, i64) -> i64) -> Result<f64, CallError
     Ok(result as f64)
 }
 
-/// As in POV-Ray, 0 to the power of 0 has no value.
+/// Raises to a power. As in POV-Ray, 0 to the power of 0 has no value.
 fn power(a: &Arguments) -> Result<f64, CallError> {
     let (base, exponent) = (a.number(0)?, a.number(1)?);
     if base == 0.0 && exponent <= 0.0 {
@@ -150,7 +150,7 @@ fn power(a: &Arguments) -> Result<f64, CallError> {
     Ok(pow(base, exponent))
 }
 
-/// Compares with zero exactly: no tolerance, in POV-Ray neither.
+/// Selects an argument by the sign of the first. The comparison with zero is exact, as in POV-Ray.
 fn select(a: &Arguments) -> Result<f64, CallError> {
     let (n, negative, zero) = (a.number(0)?, a.number(1)?, a.number(2)?);
     let positive = if a.values.len() > 3 { a.number(3)? } else { zero };

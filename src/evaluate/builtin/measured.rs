@@ -1,7 +1,7 @@
-//! What POV-Ray 3.7 prints for calls of its functions, and a reader for those tables.
+//! Tables of what POV-Ray 3.7 prints for calls of its functions, and a parser for them.
 //!
-//! A line of a table is `word(arguments) = value`: numbers, `"strings"` and `<vectors>`, written
-//! plainly. Random numbers have a table of their own form.
+//! A line of a table is `word(arguments) = value`, with numbers, `"strings"` and `<vectors>` as literals.
+//! Random numbers have a table of a different form.
 
 use super::{RandomStreams, call};
 use crate::evaluate::value::{Components, Value};
@@ -15,7 +15,7 @@ pub const RANDOM: &str = include_str!("measured/random.txt");
 /// The tables whose lines are calls.
 pub const TABLES: [&str; 3] = [FLOAT, VECTOR, STRING];
 
-/// Each call of a table gives its value: strings to the letter, numbers to 15 digits.
+/// Checks that each call of a table gives its value: strings exactly, numbers to 15 digits.
 pub fn check(table: &str) {
     for line in table.lines().filter(|line| !line.starts_with('#')) {
         let (name, rest) = line.split_once('(').expect("a word and its arguments");
@@ -28,7 +28,7 @@ pub fn check(table: &str) {
     }
 }
 
-/// Relative to the largest component: the program's own error is of that size.
+/// Compares relative to the largest component, which determines the program's own error.
 fn agree(a: &Value, b: &Value) -> bool {
     let (Some(a), Some(b)) = (a.numbers(), b.numbers()) else {
         return a == b;
@@ -38,7 +38,7 @@ fn agree(a: &Value, b: &Value) -> bool {
     a.len() == b.len() && a.as_slice().iter().zip(b.as_slice()).all(near)
 }
 
-/// The values at the start, separated by commas, and what follows them.
+/// Parses the values at the start, separated by commas; returns them and the rest of the text.
 fn values(mut text: &str) -> (Vec<Value>, &str) {
     let mut values = Vec::new();
     loop {

@@ -1,13 +1,13 @@
-//! The functions that are always there: [`call`] gives the value of one call.
+//! Built-in functions: [`call`] evaluates one call.
 //!
-//! **In:** a word and its arguments, all of them evaluated; the streams of `rand`. **Out:** a value,
-//! or why there is none. **Invariant:** every number of a result is finite; what POV-Ray answers
-//! with `nan` or `inf` is an error here. Only elementary functions of `math::elementary` are used,
-//! so that a call gives the same bits on every machine.
+//! **In:** a word and its evaluated arguments; the streams of `rand`. **Out:** a value, or the reason why
+//! there is none. **Invariant:** every number of a result is finite; where POV-Ray returns `nan` or `inf`,
+//! this is an error. Only the elementary functions of `math::elementary` are used, so that a call gives the
+//! same bits on every machine.
 //!
-//! **Source:** POV-Ray 3.7 manual, sections 3.3.1.5.4 "Functions" (numbers), 3.3.1.6.5 "Functions"
-//! (vectors) and 3.3.1.9.4 "String Functions"; the tables under `measured/` hold what the program
-//! prints, and the comments say where the two differ.
+//! **Source:** POV-Ray 3.7 manual, sections 3.3.1.5.4 "Functions" (numbers), 3.3.1.6.5 "Functions" (vectors)
+//! and 3.3.1.9.4 "String Functions". The tables under `measured/` contain what the program prints; comments
+//! state where the two differ.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -34,26 +34,26 @@ pub use vector::wants_vector;
 /// Why a call has no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CallErrorKind {
-    /// The word is no function of this table.
+    /// The word is not a function of this table.
     NotCallable,
     /// Too few or too many arguments.
     WrongArity,
-    /// An argument is of another kind than the function takes.
+    /// An argument is of a kind that the function does not accept.
     WrongType,
-    /// An argument lies outside the function's domain.
+    /// An argument is outside the function's domain.
     OutOfRange,
     /// The function divides by an argument that is zero.
     DivisionByZero,
-    /// A direction is wanted, and the argument is the zero vector.
+    /// An argument that must be a direction is the zero vector.
     ZeroVector,
     /// The result is too large for a number.
     NotFinite,
-    /// The result is a longer string than the limit.
+    /// The resulting string is longer than the limit.
     TooLong,
 }
 
 impl CallErrorKind {
-    /// What the author sees it as.
+    /// Returns the diagnostic code.
     pub fn code(self) -> Code {
         match self {
             Self::NotCallable => Code::NotCallable,
@@ -68,30 +68,31 @@ impl CallErrorKind {
     }
 }
 
-/// Why a call has no value, and which argument is to blame where one is.
+/// Why a call has no value, and the argument that causes it, if any.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CallError {
     pub kind: CallErrorKind,
-    /// Counted from 0.
+    /// Zero-based index.
     pub argument: Option<usize>,
     /// What is wrong and what was expected.
     pub message: String,
     pub help: Option<String>,
 }
 
-/// How many arguments a function takes, `usize::MAX` for any number; `None` if the word is no
-/// function of this table.
+/// Returns the number of arguments that a function takes, with `usize::MAX` for any number; `None` if the
+/// word is not a function of this table.
 pub fn arity(word: Word) -> Option<RangeInclusive<usize>> {
     function(word).map(|function| function.arity)
 }
 
-/// The value of `word(arguments…)`.
+/// Returns the value of `word(arguments…)`.
 ///
-/// Anything done with a poison or broken value is that value again. No string becomes longer than
-/// `longest` bytes, since doubling one in a loop must not fill the memory.
+/// A poison or broken argument is returned unchanged. A resulting string is at most `longest` bytes long,
+/// since doubling one in a loop must not exhaust the memory.
 ///
 /// # Errors
-/// As [`CallErrorKind`] lists them.
+///
+/// See [`CallErrorKind`].
 pub fn call(
     word: Word,
     arguments: &[Value],
@@ -122,7 +123,8 @@ pub fn call(
     if value.is_finite() { Ok(value) } else { Err(arguments.not_finite()) }
 }
 
-/// The number that a function of numbers gives; `None` where [`call`] would not, or is of another family.
+/// Returns the value of a numeric function; `None` if [`call`] would fail, or the function is of another
+/// family.
 pub fn number<const N: usize>(word: Word, numbers: [f64; N]) -> Option<f64> {
     let Function { arity, body } = float::function(word)?;
     let number = match body {
@@ -151,9 +153,9 @@ struct Function {
     body: Body,
 }
 
-/// How a function is computed, by what it gives.
+/// The implementation of a function, by the kind of its result.
 enum Body {
-    /// A number of one number, defined everywhere.
+    /// A number from one number, defined everywhere.
     Plain(fn(f64) -> f64),
     Number(fn(&Arguments) -> Result<f64, CallError>),
     Vector(fn(&Arguments) -> Result<Vector, CallError>),
@@ -188,11 +190,11 @@ impl Function {
     }
 }
 
-/// The arguments of one call, read as the kinds a function wants; their number is right.
+/// The arguments of one call, with access by kind; their number has been checked.
 struct Arguments<'a> {
     word: Word,
     values: &'a [Value],
-    /// The most bytes of a string.
+    /// Maximum length of a string, in bytes.
     longest: usize,
 }
 
@@ -221,7 +223,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// A number without its fraction, within `range`; `meaning` says what it is ("a length").
+    /// Returns a number truncated to an integer within `range`; `meaning` describes it ("a length").
     fn whole(&self, i: usize, range: RangeInclusive<i64>, meaning: &str) -> Result<i64, CallError> {
         let n = self.number(i)?;
         let whole = n as i64; // truncates, and saturates far outside any range asked for
@@ -279,7 +281,7 @@ impl Arguments<'_> {
         }
     }
 
-    /// The number at `i` is not what the function takes.
+    /// Returns the error for a number at `i` outside the function's domain.
     fn out_of_range(&self, i: usize, wanted: &str) -> CallError {
         let given = self.values[i].as_number().unwrap_or(f64::NAN);
         let message = format!("takes {wanted}, not {}", Written(given));
@@ -291,7 +293,7 @@ impl Arguments<'_> {
         self.error(CallErrorKind::NotFinite, None, message)
     }
 
-    /// `message` follows the function's name.
+    /// Returns an error whose `message` follows the function's name.
     fn error(&self, kind: CallErrorKind, argument: Option<usize>, message: String) -> CallError {
         let message = format!("`{}` {message}", self.word.name());
         CallError { kind, argument, message, help: None }
@@ -304,7 +306,7 @@ impl CallError {
     }
 }
 
-/// A number as an author would write it: no endless rows of zeros.
+/// A number, displayed as an author would write it, without long runs of zeros.
 struct Written(f64);
 
 impl fmt::Display for Written {
@@ -376,7 +378,7 @@ mod tests {
         assert_eq!(error(Word::Sphere, &[]).kind, CallErrorKind::NotCallable);
     }
 
-    /// What needs names, files, objects or formulas belongs to the evaluator.
+    /// Functions that need names, files, objects or formulas are implemented in the evaluator.
     const OF_THE_EVALUATOR: [Word; 14] = [
         Word::Defined,
         Word::DimensionSize,

@@ -1,13 +1,13 @@
-//! `seed` opens a stream of random numbers, `rand` draws from it: the numbers that POV-Ray draws.
+//! Random numbers: `seed` opens a stream and `rand` draws from it, with the same numbers as POV-Ray.
 //!
-//! **In:** a scene's calls, in order. **Out:** numbers from 0 to 1, both included.
-//! **Invariant:** a stream depends on its seed and on nothing else.
+//! **In:** a scene's calls, in order. **Out:** numbers from 0 to 1, both inclusive. **Invariant:** a stream
+//! depends only on its seed.
 //!
-//! The generator is deduced from what the program prints: the first number of `seed(n + 1)` less
-//! that of `seed(n)` is always 1812433253 / (2³² − 1), that of `seed(0)` is 12345 / (2³² − 1), and
-//! `seed(12345)` continues where `seed(0)` is after one draw. So a state s becomes
-//! 1812433253 s + 12345 modulo 2³², and the number is s / (2³² − 1).
-//! Seeds and streams lose their fraction; a seed outside 32 bits counts as −2³¹.
+//! The generator was inferred from the program's output: the first number of `seed(n + 1)` minus that of
+//! `seed(n)` is always 1812433253 / (2³² − 1), that of `seed(0)` is 12345 / (2³² − 1), and `seed(12345)`
+//! continues where `seed(0)` is after one draw. So a state s becomes 1812433253 s + 12345 modulo 2³², and the
+//! number is s / (2³² − 1). Seeds and streams are truncated to integers; a seed outside 32 bits counts as
+//! −2³¹.
 
 use super::{Arguments, Body, CallError, Function};
 use crate::vocabulary::Word;
@@ -15,7 +15,7 @@ use crate::vocabulary::Word;
 const MULTIPLIER: u32 = 1_812_433_253;
 const INCREMENT: u32 = 12_345;
 
-/// The streams a scene has opened; a stream's value is its index.
+/// The streams that a scene has opened; a stream's value is its index.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RandomStreams {
     states: Vec<u32>,
@@ -29,7 +29,7 @@ impl RandomStreams {
         (self.states.len() - 1) as f64
     }
 
-    /// `None` if no such stream is open.
+    /// Returns the next number; `None` if no such stream is open.
     fn draw(&mut self, stream: f64) -> Option<f64> {
         let stream = stream.trunc();
         if stream < 0.0 {
@@ -41,7 +41,7 @@ impl RandomStreams {
     }
 }
 
-/// The function that `word` names, if it is one of this family.
+/// Returns the function that `word` names, if it is in this family.
 pub(super) fn function(word: Word) -> Option<Function> {
     match word {
         Word::Seed => Some(Function { arity: 1..=1, body: Body::Random(seed) }),

@@ -1,8 +1,8 @@
-//! What POV-Ray 3.7 answers to a call that has no value here, or another one.
+//! POV-Ray 3.7's results for calls that have no value here, or a different one.
 //!
-//! **Source:** measured, one call after the other. POV-Ray refuses roots of negative numbers, logarithms of what
-//! is not above 0, `pow(0, 0)`, `atan2(0, 0)`, and streams that are not open; all else gives the numbers of
-//! IEEE 754, or what stands here.
+//! **Source:** measured, call by call. POV-Ray refuses roots of negative numbers, logarithms of numbers that
+//! are not positive, `pow(0, 0)`, `atan2(0, 0)`, and streams that are not open. All other results are those
+//! of IEEE 754, or the ones listed here.
 
 use super::string::LONGEST;
 use super::{Arguments, Body, CallError, CallErrorKind, RandomStreams, Value, call, function};
@@ -10,7 +10,7 @@ use crate::math::Vector;
 use crate::math::elementary::{acos, acosh, asin, atanh, fmod, pow};
 use crate::vocabulary::Word;
 
-/// POV-Ray's answer; `None` where it refuses the call, too.
+/// Returns POV-Ray's result; `None` if it refuses the call too.
 pub fn rendered(word: Word, values: &[Value]) -> Option<Value> {
     let number = |i: usize| values.get(i).and_then(Value::as_number);
     let result = match word {
@@ -42,7 +42,7 @@ pub fn rendered(word: Word, values: &[Value]) -> Option<Value> {
         }
         Word::VaxisRotate => return Some(Value::vector3(Vector::NAN)),
         Word::Substr => return (number(1)?.trunc() == 0.0).then(|| Value::string("")),
-        // Half a character.
+        // Half a surrogate pair.
         Word::Chr => {
             let is_half = (55_296.0..57_344.0).contains(&number(0)?);
             return is_half.then(|| Value::string("\u{fffd}"));
@@ -58,7 +58,7 @@ pub fn rendered(word: Word, values: &[Value]) -> Option<Value> {
     Some(Value::Number(result))
 }
 
-/// The value of a call, finite or not.
+/// Returns the value of a call, finite or not.
 fn unchecked(word: Word, values: &[Value]) -> Option<Value> {
     let arguments = Arguments { word, values, longest: usize::MAX };
     match function(word)?.body {
@@ -69,14 +69,14 @@ fn unchecked(word: Word, values: &[Value]) -> Option<Value> {
     }
 }
 
-/// The whole part; what does not fit into 32 bits, or is no number, is the least number of 32 bits.
+/// Returns the integer part; if it does not fit into 32 bits or is NaN, the least 32-bit integer.
 fn in_32_bits(number: f64) -> f64 {
     let whole = number.trunc() + 0.0; // the sum turns -0 into 0
     let fits = (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&whole);
     if fits { whole } else { f64::from(i32::MIN) }
 }
 
-/// Why POV-Ray answers -2147483648.
+/// Explains why POV-Ray returns -2147483648.
 pub fn beyond_32_bits(word: Word) -> CallError {
     CallError {
         kind: CallErrorKind::OutOfRange,

@@ -1,18 +1,18 @@
-//! Strings of numbers, numbers of strings, and pieces of strings.
+//! String functions: conversion from and to numbers, and substrings.
 //!
-//! **Invariant:** a string is counted in characters, from 1, and never cut inside one. Capitals and
-//! small letters are those of ASCII; other letters stay as they are, as in POV-Ray.
+//! **Invariant:** positions count characters from 1, and a character is never split. Case conversion applies
+//! to ASCII letters only, as in POV-Ray.
 
 use std::fmt::Write;
 
 use super::{Arguments, CallError, CallErrorKind, Function, Written};
 use crate::vocabulary::Word;
 
-/// The longest field and the most decimals of `str` and `vstr`: no number has more than 1074
-/// decimals. POV-Ray gives up silently somewhere between 200 and 300.
+/// Maximum field width and number of decimals of `str` and `vstr`: no number has more than 1074 decimals.
+/// POV-Ray gives up silently somewhere between 200 and 300.
 pub(super) const LONGEST: i64 = 1074;
 
-/// The function that `word` names, if it is one of this family.
+/// Returns the function that `word` names, if it is in this family.
 pub(super) fn function(word: Word) -> Option<Function> {
     match word {
         Word::Asc => Function::number(1..=1, |a| Ok(code(a.string(0)?.chars().next()))),
@@ -53,12 +53,12 @@ fn joined(a: &Arguments) -> Result<String, CallError> {
     Ok(text)
 }
 
-/// The character's number in Unicode; 0 where there is none.
+/// Returns the character's code point; 0 if there is none.
 fn code(character: Option<char>) -> f64 {
     character.map_or(0.0, |c| f64::from(u32::from(c)))
 }
 
-/// `chr(0)` is the empty string, as in POV-Ray.
+/// Returns the character of a code point; `chr(0)` is the empty string, as in POV-Ray.
 fn character(a: &Arguments) -> Result<String, CallError> {
     let code = a.whole(0, 0..=65535, "a character's number")?;
     match u32::try_from(code).ok().and_then(char::from_u32) {
@@ -68,9 +68,9 @@ fn character(a: &Arguments) -> Result<String, CallError> {
     }
 }
 
-/// Negative, 0 or positive as `a` stands before, at or after `b`: the difference of the first two
-/// characters that differ, where an end counts as 0. The manual promises the sign only; the size is
-/// the program's.
+/// Returns a negative number, 0 or a positive number as `a` sorts before, equal to or after `b`: the
+/// difference of the first two characters that differ, where an end counts as 0. The manual guarantees only
+/// the sign; the magnitude is the program's.
 fn difference(a: &str, b: &str) -> f64 {
     let (mut a, mut b) = (a.chars(), b.chars());
     loop {
@@ -82,7 +82,7 @@ fn difference(a: &str, b: &str) -> f64 {
     }
 }
 
-/// POV-Ray takes the start 0 too, and then answers the empty string whatever the length.
+/// Returns a substring. POV-Ray also accepts the start 0, and then returns the empty string for any length.
 fn piece(a: &Arguments) -> Result<String, CallError> {
     let text = a.string(0)?;
     let (start, length) = (a.number(1)?.trunc(), a.number(2)?.trunc());
@@ -105,18 +105,18 @@ fn piece(a: &Arguments) -> Result<String, CallError> {
     Ok(text.chars().skip(before as usize).take(length as usize).collect())
 }
 
-/// How `str` and `vstr` write a number.
+/// Number format of `str` and `vstr`.
 struct Format {
-    /// At least this many characters.
+    /// Minimum number of characters.
     width: usize,
-    /// Filled up with zeros after the sign, or with blanks before it.
+    /// Pads with zeros after the sign instead of blanks before it.
     zeros: bool,
     decimals: usize,
 }
 
 impl Format {
-    /// From the length and the number of decimals, the arguments at `i` and `i + 1`: a negative
-    /// length fills with zeros, a negative number of decimals means six.
+    /// Reads the length and the number of decimals from the arguments at `i` and `i + 1`: a negative length
+    /// pads with zeros, a negative number of decimals means six.
     fn of(a: &Arguments, i: usize) -> Result<Self, CallError> {
         let length = a.whole(i, -LONGEST..=LONGEST, "a length")?;
         let decimals = a.whole(i + 1, i64::MIN..=LONGEST, "a number of decimals")?;
@@ -129,12 +129,12 @@ impl Format {
 
     fn append(&self, number: f64, text: &mut String) {
         let Self { width, decimals, .. } = *self;
-        // As POV-Ray writes it, but for a sign.
+        // As POV-Ray writes it, except for the sign.
         if number.is_nan() {
             let _ = write!(text, "{:>width$}", "nan");
             return;
         }
-        // Whole numbers are written much faster as such.
+        // Integers are formatted much faster as such.
         let whole = number as i64;
         let is_whole = whole as f64 == number && whole != 0 && whole.unsigned_abs() < 1 << 53;
         // Writing into a string cannot fail.
@@ -151,12 +151,12 @@ impl Format {
     }
 }
 
-/// `vstr(n, v, separator, length, decimals)`: the first n components of v, n clipped to 2 … 5;
-/// a number fills all, a shorter vector fills up with zeros.
+/// Evaluates `vstr(n, v, separator, length, decimals)`: the first n components of v, with n clamped to 2 … 5;
+/// a number fills all components, and a shorter vector is padded with zeros.
 ///
-/// The manual calls a longer vector an error, the program drops the rest; so does this, for
-/// `vstr(3, Color, …)` is useful. The manual promotes a number as everywhere else, the program
-/// writes `1.0, 0.0` for `vstr(2, 1, …)`; here the manual holds.
+/// For a longer vector, which the manual calls an error, the program drops the rest; so does this, since
+/// `vstr(3, Color, …)` is useful. The manual promotes a number as everywhere else, but the program prints
+/// `1.0, 0.0` for `vstr(2, 1, …)`; this follows the manual.
 fn vector_text(a: &Arguments) -> Result<String, CallError> {
     let count = a.number(0)?.clamp(2.0, 5.0) as usize;
     let components = a.components(1)?;
@@ -174,10 +174,10 @@ fn vector_text(a: &Arguments) -> Result<String, CallError> {
     Ok(text)
 }
 
-/// The number that a string begins with, after blanks; 0 if it begins with none.
+/// Returns the number with which a string begins, after blanks; 0 if there is none.
 ///
-/// As C's `strtod`, which POV-Ray uses, but for `inf`, `nan` and fractions in hexadecimal: those
-/// are no numbers of the language.
+/// As C's `strtod`, which POV-Ray uses, but without `inf`, `nan` and hexadecimal fractions, which are not
+/// numbers of the language.
 fn leading_number(text: &str) -> f64 {
     let text = text.trim_start_matches(|c: char| c.is_ascii_whitespace() || c == '\x0b');
     let (negative, unsigned) = match text.strip_prefix('-') {
@@ -194,7 +194,7 @@ fn leading_number(text: &str) -> f64 {
     if negative { -size } else { size }
 }
 
-/// How many bytes at the start are a decimal number.
+/// Returns the length in bytes of the decimal number at the start.
 fn decimal_length(text: &str) -> usize {
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let whole = digits(0);

@@ -1,7 +1,7 @@
-//! Functions of vectors of three; a number fills all three components, two numbers get a zero.
+//! Functions of three-component vectors; a number fills all three components, two numbers get a zero.
 //!
-//! **Invariant:** quarter turns about the axes are exact; lengths and directions neither overflow
-//! nor vanish on the way.
+//! **Invariant:** quarter turns about the axes are exact; intermediate lengths and directions neither
+//! overflow nor underflow.
 
 use super::{Arguments, CallError, CallErrorKind, Function};
 use crate::math::elementary::sin_cos_degrees;
@@ -9,7 +9,7 @@ use crate::math::{UnitVector, Vector};
 use crate::noise::Turbulence;
 use crate::vocabulary::Word;
 
-/// The function that `word` names, if it is one of this family.
+/// Returns the function that `word` names, if it is in this family.
 pub(super) fn function(word: Word) -> Option<Function> {
     match word {
         Word::Vdot => Function::number(2..=2, |a| Ok(a.vector3(0)?.dot(a.vector3(1)?))),
@@ -28,7 +28,8 @@ pub(super) fn function(word: Word) -> Option<Function> {
     }
 }
 
-/// POV-Ray answers the zero vector with a warning, or `nan` for an axis.
+/// Returns the direction of an argument. For the zero vector, POV-Ray returns it with a warning, or `nan` for
+/// an axis.
 fn direction(a: &Arguments, i: usize) -> Result<UnitVector, CallError> {
     let v = a.vector3(i)?;
     UnitVector::from_direction(v).ok_or_else(|| {
@@ -37,7 +38,7 @@ fn direction(a: &Arguments, i: usize) -> Result<UnitVector, CallError> {
     })
 }
 
-/// Euclidean length, also where the squares would overflow or vanish.
+/// Returns the Euclidean length, even where the squares would overflow or underflow.
 fn length(v: Vector) -> f64 {
     let squared = v.length_squared();
     if (1e-280..1e300).contains(&squared) {
@@ -49,7 +50,7 @@ fn length(v: Vector) -> f64 {
     UnitVector::from_direction(v).map_or(0.0, |direction| v.dot(direction.get()))
 }
 
-/// About x, then y, then z, in degrees, by the right-hand rule.
+/// Rotates about x, then y, then z, in degrees, by the right-hand rule.
 fn rotated(v: Vector, degrees: Vector) -> Vector {
     let (s, c) = sin_cos_degrees(degrees.x);
     let v = Vector::new(v.x, c * v.y - s * v.z, s * v.y + c * v.z);
@@ -59,15 +60,17 @@ fn rotated(v: Vector, degrees: Vector) -> Vector {
     Vector::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z)
 }
 
-/// **Source:** Rodrigues, "Des lois géométriques qui régissent les déplacements d'un système
-/// solide", 1840: v cos θ + (k × v) sin θ + k (k · v)(1 − cos θ).
+/// Rotates about an axis.
+///
+/// **Source:** Rodrigues, "Des lois géométriques qui régissent les déplacements d'un système solide", 1840: v
+/// cos θ + (k × v) sin θ + k (k · v)(1 − cos θ).
 fn axis_rotated(v: Vector, axis: UnitVector, degrees: f64) -> Vector {
     let (s, c) = sin_cos_degrees(degrees);
     let k = axis.get();
     v * c + k.cross(v) * s + k * (k.dot(v) * (1.0 - c))
 }
 
-/// Whether the argument of this place, from 0, is a vector.
+/// Returns whether the argument at this zero-based position is a vector.
 pub fn wants_vector(word: Word, place: usize) -> bool {
     match word {
         Word::Vlength | Word::Vnormalize => place == 0,

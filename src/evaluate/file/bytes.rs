@@ -1,24 +1,24 @@
-//! What `#write` makes of a value.
+//! Serialization of values for `#write`.
 //!
-//! **Out:** numbers with six digits, vectors in angles with a blank after them, strings as they are; or
-//! whole numbers of 8, 16 or 32 bits.
+//! **Out:** numbers with six digits, vectors in angle brackets with a blank after them, strings unchanged; or
+//! integers of 8, 16 or 32 bits.
 //!
 //! **Source:** measured on POV-Ray 3.7; its manual, section 3.3.2.3.4 "The write Directive".
 
 use super::super::value::Value;
 use crate::vocabulary::Word;
 
-/// How whole numbers are laid down: rounded, and cut to what fits.
+/// Binary format of integers; values are rounded, and clamped to what fits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct WordType {
     bits: u32,
     signed: bool,
-    /// High byte first.
+    /// Big-endian (high byte first).
     big: bool,
 }
 
 impl WordType {
-    /// The form that a word of the language names.
+    /// Returns the format that a word of the language names.
     pub(super) fn of(word: Word) -> Option<Self> {
         let form = |bits, signed, big| Some(Self { bits, signed, big });
         match word {
@@ -39,7 +39,7 @@ impl WordType {
             true => (-(1_i64 << (self.bits - 1)), (1_i64 << (self.bits - 1)) - 1),
             false => (0, (1_i64 << self.bits) - 1),
         };
-        // Halves go up, also below zero. (The conversion saturates.)
+        // Halves are rounded up, also below zero. (The conversion saturates.)
         let whole = ((number + 0.5).floor() as i64).clamp(least, most);
         let eight = whole.to_be_bytes();
         let needed = &eight[eight.len() - self.bits as usize / 8..];
@@ -50,7 +50,7 @@ impl WordType {
     }
 }
 
-/// Appends a value; `false` if it is of a kind that is not written.
+/// Appends a value; returns `false` if its kind cannot be written.
 pub(super) fn append(value: &Value, form: Option<WordType>, bytes: &mut Vec<u8>) -> bool {
     match (value, form) {
         (Value::String(text), None) => bytes.extend(text.as_bytes()),
@@ -68,7 +68,7 @@ pub(super) fn append(value: &Value, form: Option<WordType>, bytes: &mut Vec<u8>)
     true
 }
 
-/// A number with six digits, as C's `%g` writes it: `0.333333`, `1e-10`, `1.23457e+08`.
+/// Formats a number with six digits, as C's `%g`: `0.333333`, `1e-10`, `1.23457e+08`.
 fn short(number: f64) -> String {
     let exact = format!("{number:.5e}");
     let (digits, exponent) = exact.split_once('e').unwrap_or((&exact, "0"));

@@ -1,11 +1,11 @@
-//! The text that `#read` reads: numbers, vectors and strings, with commas between them.
+//! Parser for the text that `#read` reads: numbers, vectors and strings, separated by commas.
 //!
-//! **In:** a file's text and a place in it. **Out:** the value there, and the place of the next, or why
-//! there is none. Comments and blanks may stand anywhere between; commas may be missing.
+//! **In:** a file's text and an offset in it. **Out:** the value there and the offset of the next one, or the
+//! reason why there is none. Comments and blanks are allowed anywhere in between; commas are optional.
 //!
-//! **Source:** POV-Ray 3.7 manual, section 3.3.2.3.3 "The read Directive"; measured: after a value the
-//! file is at its end when nothing but blanks follow, but not when a comma does. Without commas the
-//! program loses every second number; here none is lost.
+//! **Source:** POV-Ray 3.7 manual, section 3.3.2.3.3 "The read Directive"; measured: after a value, the file
+//! is at its end if only blanks follow, but not if a comma does. Without commas, the program loses every
+//! second number; here none is lost.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use crate::diagnostic::Code;
 use super::super::builtin::escape::decode_escapes;
 use super::super::value::{Components, Value};
 
-/// What is wrong, and which bytes of the text it is about.
+/// What is wrong, and the affected bytes of the text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
     pub code: Code,
@@ -23,7 +23,7 @@ pub struct Fault {
     pub label: &'static str,
 }
 
-/// A value, where the next one is looked for, and whether the file goes on there.
+/// A value, the offset of the next one, and whether the file continues there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Datum {
     pub value: Value,
@@ -31,10 +31,12 @@ pub struct Datum {
     pub ends: bool,
 }
 
-/// The value at `at`; `None` at the end of the text. `commas` are the signs that may stand behind a value.
+/// Returns the value at `at`; `None` at the end of the text. `commas` are the separators allowed after a
+/// value.
 ///
 /// # Errors
-/// Where no value stands.
+///
+/// Fails if there is no value at `at`.
 pub fn datum(text: &str, at: usize, commas: &[char]) -> Result<Option<Datum>, Fault> {
     let at = skip_blanks(text, at)?;
     let (value, end) = match text[at..].chars().next() {
@@ -68,7 +70,7 @@ fn no_value(text: &str, at: usize, wanted: &str) -> Fault {
     Fault { code: Code::ExpectedExpression, at: at..end, message, label }
 }
 
-/// Where the next thing stands that is neither blank nor comment.
+/// Returns the offset of the next character outside blanks and comments.
 fn skip_blanks(text: &str, mut at: usize) -> Result<usize, Fault> {
     loop {
         let rest = &text[at..];
@@ -90,7 +92,7 @@ fn skip_blanks(text: &str, mut at: usize) -> Result<usize, Fault> {
     }
 }
 
-/// A number with its sign and where it ends; `None` where none stands.
+/// Parses a number with its sign; returns it and where it ends, or `None` if there is none.
 fn number(text: &str, start: usize) -> Result<Option<(f64, usize)>, Fault> {
     let bytes = text.as_bytes();
     let digits =
@@ -189,7 +191,7 @@ mod tests {
 
     use super::*;
 
-    /// All values of a text, and whether another `#read` would be asked for.
+    /// Returns all values of a text, and whether another `#read` would be attempted.
     fn values(text: &str) -> (Vec<String>, bool) {
         let (mut at, mut values) = (0, Vec::new());
         while let Some(Datum { value, next, ends }) = datum(text, at, &[',']).expect("values") {

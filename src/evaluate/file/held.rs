@@ -1,4 +1,4 @@
-//! Files that a `.pov` writes and may not: held in memory, where the scene reads them again.
+//! Files that a `.pov` writes without permission: held in memory, from where the scene can read them.
 
 use std::path::{Component, Path};
 
@@ -7,7 +7,7 @@ use crate::source::{FileError, Found};
 use super::super::Evaluator;
 
 impl Evaluator<'_> {
-    /// A file as the scene has it: what it wrote and may not write, or what is there.
+    /// Reads a file as the scene sees it: what it wrote without permission, or the file that exists.
     pub(in crate::evaluate) fn read_file(
         &self,
         name: &str,
@@ -19,7 +19,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Begins a file that stays in memory.
+    /// Starts a file that stays in memory.
     pub(super) fn hold_file(&mut self, name: &str, from: &str, append: bool) {
         if append && self.held_files.contains_key(&plain(name)) {
             return;
@@ -30,7 +30,7 @@ impl Evaluator<'_> {
         self.held_files.insert(plain(name), bytes);
     }
 
-    /// Adds to a file that is written, wherever it is kept.
+    /// Appends to a file that is being written, wherever it is kept.
     pub(super) fn add_to_file(&mut self, name: &str, bytes: &[u8]) {
         match self.held_files.get_mut(&plain(name)) {
             Some(held) => held.extend(bytes),
@@ -39,7 +39,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// One spelling for all paths to one file: without `.`, `..` behind a folder, and `\`.
+/// Normalizes the paths to one file: without `.`, `..` after a folder, and `\`.
 fn plain(name: &str) -> String {
     let slashed = name.replace('\\', "/");
     let mut parts: Vec<Component<'_>> = Vec::new();

@@ -1,4 +1,4 @@
-//! `#fopen`: what a name has to be, and whether its file can be had.
+//! `#fopen`: checks the name, and opens its file.
 
 use std::rc::Rc;
 
@@ -14,7 +14,7 @@ use super::super::{Evaluator, Here, Outcome, Reported};
 use super::{FileHandle, Opened, State};
 
 impl Evaluator<'_> {
-    /// `#fopen Name "file" read|write|append`.
+    /// Runs `#fopen Name "file" read|write|append`.
     pub(in crate::evaluate) fn open_file(
         &mut self,
         here: &Here,
@@ -38,7 +38,7 @@ impl Evaluator<'_> {
         });
         let value = match &state {
             Ok(_) => Value::File(FileHandle(self.opened.len() as u32)),
-            // What is done with a file that could not be had says nothing more.
+            // Uses of a file that could not be opened report nothing more.
             Err(Reported) => Value::Broken,
         };
         if free.is_ok() {
@@ -76,7 +76,7 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
-    /// The name of a file. As in POV-Ray, backslashes of a literal stay as they are.
+    /// Evaluates the name of a file. As in POV-Ray, backslashes of a literal are kept.
     pub(in crate::evaluate) fn path(&mut self, here: &Here, file: ExpressionId) -> Outcome<String> {
         match here.unit.expression(file).kind {
             ExpressionKind::String => {
@@ -138,7 +138,7 @@ impl Evaluator<'_> {
                 path.to_owned()
             }
             Err(error) => {
-                // What allows one allows all.
+                // The option that allows one allows all.
                 let told = error == WriteError::NotAllowed && !self.unwritten.is_empty();
                 self.unwritten.insert(path.to_owned());
                 if told {
@@ -161,7 +161,7 @@ impl Evaluator<'_> {
             return Err(self.report(here, diagnostic));
         }
         self.authored.insert(name.clone());
-        // What was read under this name is not what it holds from now on.
+        // The cached contents under this name are outdated from now on.
         self.parsed.remove(&name);
         self.found.retain(|(other, _), _| other != path);
         self.remembered.missing.clear();

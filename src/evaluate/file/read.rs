@@ -1,4 +1,4 @@
-//! `#read`: values from an open file into names and elements of arrays.
+//! `#read`: reads values from an open file into names and array elements.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -12,7 +12,7 @@ use super::data::{Datum, Fault, datum};
 use super::{Closed, State};
 
 impl Evaluator<'_> {
-    /// `#read (Name, a, b[1], …)`. Past the end of the file nothing is set.
+    /// Runs `#read (Name, a, b[1], …)`. Past the end of the file nothing is assigned.
     pub(in crate::evaluate) fn read_values(
         &mut self,
         here: &Here,
@@ -44,7 +44,7 @@ impl Evaluator<'_> {
                     return Err(self.other_way(here, handle, name.1, "write", "read"));
                 }
             };
-            // POV-Ray 3.7 passes over any sign behind a value (measured).
+            // POV-Ray 3.7 ignores any sign after a value (measured).
             let commas = match self.options.dialect {
                 Dialect::Scene => &[','][..],
                 Dialect::Pov => &[',', ';'],
@@ -76,7 +76,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// The file ends in the middle of what is read together.
+    /// Warns if the file ends in the middle of values that are read together.
     fn lint_short_file(&mut self, here: &Here, name: Span, target: Span) {
         let [name, text] = [name, target].map(|span| self.sources.text(span).to_owned());
         let message = format!("`{name}` ends before there is a value for `{text}`");
@@ -117,7 +117,7 @@ impl Evaluator<'_> {
                 return Err(self.report(here, diagnostic));
             }
         }
-        // What a file holds beside what a scene needs has to be read, too.
+        // Values that a scene does not need must be read, too.
         self.scopes.note_declaration(symbol, here.site(target.span), Owner::Other);
         self.scopes.assign(symbol, value);
         Ok(())

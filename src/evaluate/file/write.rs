@@ -1,4 +1,4 @@
-//! `#write`: values into an open file.
+//! `#write`: writes values to an open file.
 
 use crate::source::Span;
 use crate::syntax::ast::{
@@ -11,7 +11,7 @@ use super::super::{Evaluator, Here, Outcome};
 use super::State;
 use super::bytes::{WordType, append};
 
-/// `"a" -1`: two values without a comma between them.
+/// Splits two values without a comma between them: `"a" -1`.
 fn string_and_number(here: &Here, id: ExpressionId) -> Option<(ExpressionId, ExpressionId)> {
     let kind = |id: ExpressionId| here.unit.expression(id).kind;
     match kind(id) {
@@ -23,7 +23,7 @@ fn string_and_number(here: &Here, id: ExpressionId) -> Option<(ExpressionId, Exp
 }
 
 impl Evaluator<'_> {
-    /// `#write (Name, value, …)`: all of its values, or nothing of them.
+    /// Runs `#write (Name, value, …)`, which writes all of its values or none.
     pub(in crate::evaluate) fn write_values(
         &mut self,
         here: &Here,
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Values side by side, after the word for their form if there is one.
+    /// Writes adjacent values, after the word for their format, if any.
     fn write_items(&mut self, bytes: &mut Vec<u8>) -> Outcome<()> {
         let (mut form, mut outcome) = (None, Ok(()));
         while let Some(token) = self.next() {

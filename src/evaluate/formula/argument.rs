@@ -1,4 +1,4 @@
-//! The arguments of a call in a function: an expression each, or what directives leave of it.
+//! Arguments of calls in a formula: one expression each, or what directives leave.
 
 use super::Formula;
 use crate::diagnostic::{Code, Diagnostic};
@@ -35,7 +35,7 @@ impl Evaluator<'_> {
         outcome.map(|()| nodes)
     }
 
-    /// `#if (A) x #else y #end`: the one expression that the current items leave.
+    /// Returns the only expression that the current items leave: `#if (A) x #else y #end`.
     pub(in crate::evaluate) fn only_node(
         &mut self,
         formula: &mut Formula,

@@ -1,4 +1,4 @@
-//! Whether an expression of a formula has one of its parameters or counters in it, which have no value yet.
+//! Detection of parameters and counters, which have no value yet, in an expression of a formula.
 
 use super::super::Here;
 use super::super::function::ParameterName;
@@ -6,7 +6,7 @@ use super::Formula;
 use crate::source::Span;
 use crate::syntax::ast::{Argument, ExpressionId, ExpressionKind};
 
-/// Where an expression names a parameter or a counter.
+/// Returns where an expression mentions a parameter or a counter.
 pub(super) fn mention(here: &Here, formula: &Formula, id: ExpressionId) -> Option<Span> {
     let mut waiting = vec![id];
     while let Some(id) = waiting.pop() {

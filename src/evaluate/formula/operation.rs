@@ -1,12 +1,12 @@
-//! Operators and built-in functions as the operations of a tape.
+//! Compilation of operators and built-in functions to operations of a tape.
 
 use crate::function::{Binary, Builder, Node, TooLong, Unary};
 use crate::math::elementary::RADIANS_PER_DEGREE;
 use crate::syntax::ast::BinaryOperator;
 use crate::vocabulary::Word;
 
-/// `left operator right`. What is no number counts as greater than any, as in POV-Ray 3.7 (measured): there
-/// `a > b` is "not a <= b".
+/// Returns the operation `left operator right`. NaN compares greater than any number, as in POV-Ray 3.7
+/// (measured), where `a > b` is "not a <= b".
 pub(in crate::evaluate) fn operation_of(
     builder: &mut Builder,
     operator: BinaryOperator,
@@ -73,14 +73,14 @@ fn binary_of(word: Word) -> Option<Binary> {
     })
 }
 
-/// Whether a function of the language may stand in a formula.
+/// Returns whether a function of the language is allowed in a formula.
 pub(super) fn is_operation(word: Word) -> bool {
     unary_of(word).is_some()
         || binary_of(word).is_some()
         || matches!(word, Word::Div | Word::Degrees | Word::Radians | Word::Select)
 }
 
-/// The operation that a word names; the number of operands is right.
+/// Returns the operation that a word names; the number of operands has been checked.
 pub(super) fn operation(
     builder: &mut Builder,
     word: Word,

@@ -1,4 +1,5 @@
-//! What has no meaning in a function: a vector's letter that is no parameter, a stream of random numbers.
+//! Diagnostics for what has no meaning in a function: a vector's component that is not a parameter, a stream
+//! of random numbers.
 
 use super::Formula;
 use crate::diagnostic::{Code, Diagnostic};
@@ -15,7 +16,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic)
     }
 
-    /// A division by the number 0, which POV-Ray 3.7 refuses, too.
+    /// Reports a division by the literal 0, which POV-Ray 3.7 refuses as well.
     pub(super) fn divides(
         &mut self,
         here: &Here,
@@ -46,7 +47,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic)
     }
 
-    /// `vlength(<x, y, z>)`: a function works on numbers.
+    /// Reports a vector function of parameters, `vlength(<x, y, z>)`: a function operates on numbers.
     pub(super) fn length_of_parameters(
         &mut self,
         here: &Here,
@@ -84,7 +85,8 @@ impl Evaluator<'_> {
         Some(self.report(here, diagnostic))
     }
 
-    /// `rand(S)` in a body, which has one value for each set of arguments; POV-Ray refuses it, too.
+    /// Reports `rand(S)` in a body, which must have one value for each set of arguments; POV-Ray refuses it
+    /// as well.
     pub(super) fn no_stream(&mut self, here: &Here, word: Word, span: Span) -> Reported {
         let message = format!("`{}` cannot be called in a function", word.name());
         let diagnostic = Diagnostic::new(Code::NotCallable, message)

@@ -1,6 +1,6 @@
-//! What functions of the author's are, and how a tape asks those that are no arithmetic.
+//! User-defined functions, and calls from a tape to those that are not arithmetic.
 //!
-//! **Invariant:** a tape names one component of another function's value, by [`outside_id`].
+//! **Invariant:** a tape identifies one component of another function's value by its [`outside_id`].
 
 use std::sync::Arc;
 
@@ -21,41 +21,41 @@ use super::super::vector::{component_index, gray};
 /// A function as it was defined.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AuthorFunction {
-    /// Numbers to a number.
+    /// From numbers to a number.
     Formula(Function),
-    /// A time to a vector.
+    /// From a time to a vector.
     Spline(Arc<SplineValue>),
-    /// A point, and more, to a number.
+    /// From a point and further arguments to a number.
     Noise(NoiseFunction),
-    /// A point to the pattern's value there: the red of this pigment.
+    /// From a point to the pattern's value there: the red of this pigment.
     Pattern(Box<Pigment>),
-    /// A point to a colour.
+    /// From a point to a colour.
     Pigment(Box<Pigment>),
-    /// A point to a point, a component each.
+    /// From a point to a point, with one function for each component.
     Transform(Box<[Function; 3]>),
 }
 
-/// Names one of the author's functions.
+/// Index of a user-defined function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FunctionId(pub u32);
 
-/// The place of `.gray` among a colour's components, and that of `.hf`.
+/// Index of `.gray` among a colour's components, and of `.hf`.
 const GRAY: usize = 5;
 
-/// So many components a value may be asked for.
+/// Number of components reserved for each function's value.
 const COMPONENTS: u32 = 8;
 
-/// A component of a function's value, as a tape names it.
+/// Returns the identifier of a component of a function's value in a tape.
 pub(in crate::evaluate) fn outside_id(function: FunctionId, component: usize) -> OutsideId {
     OutsideId(function.0 * COMPONENTS + component as u32)
 }
 
-/// What [`outside_id`] names.
+/// Decodes an [`outside_id`].
 pub(super) fn named_by(id: OutsideId) -> (FunctionId, usize) {
     (FunctionId(id.0 / COMPONENTS), (id.0 % COMPONENTS) as usize)
 }
 
-/// The functions that tapes ask.
+/// The functions that tapes call.
 pub(in crate::evaluate) struct Functions<'f> {
     pub all: &'f [AuthorFunction],
     pub noise: NoiseGenerator,
@@ -97,7 +97,7 @@ impl Outside for Functions<'_> {
             Some(AuthorFunction::Noise(noise)) => noise.bounds(self.noise, arguments),
             Some(AuthorFunction::Pattern(_)) => Interval::UNDECIDED,
             Some(AuthorFunction::Pigment(pigment)) => {
-                // A colour lies between those of the map.
+                // A colour is interpolated between those of the map.
                 let parts = pigment.colors().map(|color| part(color.single(), component));
                 let range = parts.map(Interval::point).reduce(Interval::hull);
                 range.unwrap_or(Interval::EVERYTHING)
@@ -111,7 +111,7 @@ impl Outside for Functions<'_> {
     }
 }
 
-/// The colour at a point that is what it is, to the last bit.
+/// Returns the exact colour at a point.
 pub(super) fn color(pigment: &Pigment, point: &[f64]) -> Color {
     let coordinate = |axis: usize| point.get(axis).copied().unwrap_or(0.0);
     let point = Vector::new(coordinate(0), coordinate(1), coordinate(2));
@@ -129,7 +129,7 @@ pub(super) fn part(color: Color, component: usize) -> f64 {
 }
 
 impl AuthorFunction {
-    /// How many arguments it takes.
+    /// Returns the number of parameters.
     pub(in crate::evaluate) fn parameters(&self) -> usize {
         match self {
             Self::Formula(function) => function.parameters(),
@@ -139,7 +139,7 @@ impl AuthorFunction {
         }
     }
 
-    /// What its value is called, if that is no number.
+    /// Returns the description of its value, if that is not a number.
     pub(in crate::evaluate) fn compound(&self) -> Option<&'static str> {
         match self {
             Self::Formula(_) | Self::Noise(_) | Self::Pattern(_) => None,
@@ -148,7 +148,7 @@ impl AuthorFunction {
         }
     }
 
-    /// Which part of its value the word after a dot means.
+    /// Returns the index of the component that the word after a dot denotes.
     pub(in crate::evaluate) fn component(&self, component: Component) -> Option<usize> {
         let Component::Word(word, _) = component else { return None };
         let count = match self {

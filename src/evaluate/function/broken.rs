@@ -1,4 +1,4 @@
-//! Functions whose body was not understood: how many parameters they have is known all the same.
+//! Functions whose body could not be read; their number of parameters is known nevertheless.
 
 use crate::source::Span;
 use crate::syntax::ast::Arguments;
@@ -7,7 +7,7 @@ use super::super::scope::Symbol;
 use super::super::{Evaluator, Here, Reported};
 
 impl Evaluator<'_> {
-    /// After a `#declare` of `symbol`: what is known of it if it was to be a function.
+    /// Records, after a `#declare` of `symbol`, what is known of an intended function.
     pub(in crate::evaluate) fn note_broken(&mut self, symbol: Symbol, failed: bool) {
         match self.broken_function.take().filter(|_| failed) {
             Some(parameters) => self.broken_functions.insert(symbol, parameters),
@@ -16,7 +16,7 @@ impl Evaluator<'_> {
         };
     }
 
-    /// A call of what was told to be wrong: its arguments may still be too many.
+    /// Checks the number of arguments in a call of a function that was reported.
     pub(in crate::evaluate) fn broken_call(
         &mut self,
         here: &Here,

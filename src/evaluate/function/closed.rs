@@ -1,4 +1,4 @@
-//! Functions of the author's as shapes take them: with all that they ask.
+//! User-defined functions in the form that shapes use: with all functions that they call.
 
 use crate::function::{Asked, Builder, Closed, Function, OutsideId};
 use crate::world::Pigment;
@@ -7,7 +7,7 @@ use super::super::Evaluator;
 use super::asked::{AuthorFunction, FunctionId, named_by, outside_id, part};
 
 impl Evaluator<'_> {
-    /// A function that gives a number, by itself; `None` for one that gives more.
+    /// Returns a self-contained function with a numeric value; `None` for other values.
     pub(in crate::evaluate) fn closed(&self, id: FunctionId) -> Option<Closed> {
         let function = match self.functions.get(id.0 as usize)? {
             AuthorFunction::Formula(function) => function.clone(),
@@ -34,13 +34,13 @@ impl Evaluator<'_> {
             }
             AuthorFunction::Pattern(pigment) => mapped(pigment, 0),
             AuthorFunction::Pigment(pigment) => mapped(pigment, component),
-            // A tape holds their operations.
+            // The tape contains their operations.
             AuthorFunction::Formula(_) | AuthorFunction::Transform(_) => return None,
         })
     }
 }
 
-/// Nothing but what it asks.
+/// Returns a function that only calls another one.
 fn asking(id: FunctionId, parameters: usize) -> Option<Function> {
     let mut builder = Builder::new(parameters).ok()?;
     let arguments: Vec<_> = (0..parameters).filter_map(|at| builder.parameter(at)).collect();
@@ -48,11 +48,11 @@ fn asking(id: FunctionId, parameters: usize) -> Option<Function> {
     Some(builder.finish(result))
 }
 
-/// One component of a pigment's colour.
+/// Returns one component of a pigment's colour.
 fn mapped(pigment: &Pigment, component: usize) -> Asked {
     match pigment {
         Pigment::Color(color) => Asked::Constant(part(color.single(), component)),
-        // It belongs to a mesh alone.
+        // It applies to meshes only.
         Pigment::Faces(_) => Asked::Constant(0.0),
         Pigment::Patterned { pattern, pattern_from_texture, map } => Asked::Pattern {
             pattern: *pattern,

@@ -1,7 +1,7 @@
-//! `internal(n)`: the functions that are built in, which `functions.inc` gives their names.
+//! `internal(n)`: built-in functions, which `functions.inc` names.
 //!
-//! Those that are formulas are written in the language itself, in `internal.inc`, and compiled when
-//! the first is asked for; those of noise stand outside of tapes.
+//! Formulas are written in the language itself, in `internal.inc`, and compiled when the first is used; noise
+//! functions are implemented outside tapes.
 //!
 //! **Source:** the numbers are those of POV-Ray 3.7 (manual, section 3.4.9.1.7 "Functions.inc").
 
@@ -17,10 +17,10 @@ use super::super::value::Value;
 use super::super::{Evaluator, Here, Outcome, Reported};
 use super::{AuthorFunction, FunctionId};
 
-/// The formulas, each of these names.
+/// Source of the formulas, each declared under one of these names.
 const FORMULAS: &str = include_str!("internal.inc");
 
-/// What `internal(n)` is called, by n; 77 is a pattern's, and cannot be asked for.
+/// Names of `internal(n)`, by n; 77 belongs to a pattern, and cannot be called.
 const NAMES: [&str; 79] = [
     "f_algbr_cyl1",
     "f_algbr_cyl2",
@@ -115,7 +115,7 @@ fn noise(number: usize) -> Option<NoiseFunction> {
 }
 
 impl Evaluator<'_> {
-    /// The function that a body, all of it `internal(n)`, names.
+    /// Returns the function for a body that consists only of `internal(n)`.
     pub(super) fn internal(
         &mut self,
         here: &Here,
@@ -128,7 +128,7 @@ impl Evaluator<'_> {
         let number = self.number(here, id)?;
         let last = NAMES.len() - 1;
         let known = (0.0..NAMES.len() as f64).contains(&number).then_some(number as usize);
-        // The one that is not there is 0 everywhere in POV-Ray 3.7 (measured).
+        // In POV-Ray 3.7 the missing one is 0 everywhere (measured).
         let is_pov = self.options.dialect == Dialect::Pov;
         if is_pov && known.is_some_and(|known| NAMES[known].is_empty()) {
             return self.zero_everywhere(here, span);
@@ -148,7 +148,7 @@ impl Evaluator<'_> {
             self.internals = self.compile_internals();
         }
         let found = self.internals.get(known).copied().flatten();
-        // They are all there (a test asks each).
+        // All of them exist (a test checks each).
         found.ok_or(Reported)
     }
 
@@ -162,7 +162,7 @@ impl Evaluator<'_> {
         Ok(FunctionId(self.functions.len() as u32 - 1))
     }
 
-    /// Every formula by its number; their names are forgotten again.
+    /// Compiles every formula, indexed by its number; their names are removed again.
     fn compile_internals(&mut self) -> Vec<Option<FunctionId>> {
         let id = self.sources.add(Source::new(place_of("internal.inc"), FORMULAS.to_owned()));
         // What POV-Ray refuses of a scene stands here as the language has it.

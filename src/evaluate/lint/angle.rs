@@ -1,4 +1,4 @@
-//! Angles in radians where degrees are meant, and the reverse.
+//! Angles in radians where degrees are meant, and vice versa.
 
 use super::is_literal;
 use crate::diagnostic::{Code, Diagnostic};
@@ -14,17 +14,17 @@ use crate::syntax::ast::{
 };
 use crate::vocabulary::Word;
 
-/// Degrees above this are no radians: a full turn is 2π.
+/// Larger angles are not radians: a full turn is 2π.
 const FULL_TURN: f64 = 6.5;
-/// How far off a typed angle may be, when it is cut to three digits after the point.
+/// Tolerance for a literal angle that is truncated to three decimals.
 const TYPED: f64 = 0.0011;
-/// Turns of a counter, in degrees, that look like one: 0, 30 … 330 or 360.
+/// Smallest step of a counter that counts a turn in degrees: 0, 30 … 330 or 360.
 const FEWEST_DEGREES: f64 = 5.0;
 
-/// What people call angles.
+/// Common names of angles.
 const ANGLES: [&str; 6] = ["angle", "theta", "phi", "alpha", "deg", "tilt"];
 
-/// Whether a number was typed as a fraction of π: 0.785, 1.5708; with two digits only where it is known.
+/// Returns whether a literal looks like a fraction of π: 0.785, 1.5708; with two decimals only known ones.
 fn is_typed_in_radians(angle: f64) -> bool {
     let hundredths = (angle.abs() * 100.0).round();
     if hundredths / 100.0 == angle.abs() {
@@ -38,7 +38,7 @@ fn is_typed_in_radians(angle: f64) -> bool {
     near(std::f64::consts::PI / 12.0) || near(std::f64::consts::PI / 8.0)
 }
 
-/// The degrees that a typed angle in radians is meant for: 3.14 for 180.
+/// Returns the degrees for which a literal angle in radians stands: 180 for 3.14.
 fn typed_for(radians: f64) -> String {
     let meant = radians.to_degrees();
     match (meant - meant.round()).abs() < 0.2 {
@@ -48,7 +48,7 @@ fn typed_for(radians: f64) -> String {
 }
 
 impl Evaluator<'_> {
-    /// The vector of a `rotate`: degrees about each axis.
+    /// Checks the vector of a `rotate`: degrees about each axis.
     pub(in crate::evaluate) fn lint_rotation(&mut self, given: &Given<Vector>) {
         if self.lint_degrees(given, &given.value.to_array()) {
             return;
@@ -58,7 +58,7 @@ impl Evaluator<'_> {
         if given.value == Vector::ZERO || !is_number {
             return;
         }
-        // `rotate 45 degrees` is told as that.
+        // `rotate 45 degrees` is reported as such.
         let behind = self.sources.get(given.span.file).text.get(given.span.end as usize..);
         if behind.is_some_and(|text| text.trim_start().starts_with("deg")) {
             return;
@@ -70,7 +70,7 @@ impl Evaluator<'_> {
         self.report(&given.here, diagnostic);
     }
 
-    /// Whether an expression is a calculation with numbers alone, and none of chance: `I*360/Teeth`.
+    /// Returns whether an expression consists of numbers only, without random ones: `I*360/Teeth`.
     fn is_of_numbers(&self, text: &str) -> bool {
         let of_name = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
         let is_number = |word: &str| {
@@ -86,7 +86,7 @@ impl Evaluator<'_> {
             && text.split(|c: char| !of_name(c)).all(is_number)
     }
 
-    /// Degrees are wanted; these look like radians. Says whether it said so.
+    /// Warns if angles that should be degrees look like radians; returns whether it did.
     fn lint_degrees<T>(&mut self, given: &Given<T>, degrees: &[f64]) -> bool {
         let largest = degrees.iter().fold(0.0f64, |most, value| most.max(value.abs()));
         if largest == 0.0 || largest > FULL_TURN {
@@ -118,12 +118,12 @@ impl Evaluator<'_> {
         true
     }
 
-    /// A lone angle, if it is in radians for certain. Says whether it said so.
+    /// Warns of a single angle that is certainly in radians; returns whether it did.
     pub(in crate::evaluate) fn lint_angle_in_radians(&mut self, given: &Given<f64>) -> bool {
         !is_literal(self.sources.text(given.span)) && self.lint_degrees(given, &[given.value])
     }
 
-    /// A typed rotation in whole degrees, or tenths: `<0, 3.14159/4, 0>`, `1.5708*y`.
+    /// Returns a literal rotation in whole degrees or tenths: `<0, 3.14159/4, 0>`, `1.5708*y`.
     fn typed_in_degrees(&self, here: &Here, id: ExpressionId, angles: &[f64]) -> Option<String> {
         let unit = &here.unit;
         let whole = unit.expression(id).span;
@@ -160,7 +160,7 @@ impl Evaluator<'_> {
         Some(text)
     }
 
-    /// An expression with its radians turned into degrees, where they are a factor or a component of it.
+    /// Returns an expression with radians converted to degrees, if they are a factor or a component of it.
     fn in_degrees(&mut self, here: &Here, id: ExpressionId, is_number: bool) -> Option<String> {
         let unit = here.unit.clone();
         let whole = unit.expression(id).span;
@@ -185,7 +185,7 @@ impl Evaluator<'_> {
             }
             _ if is_number => vec![(whole, id)],
             _ => {
-                // `y*pi/4`: all that follows the axis.
+                // `y*pi/4`: everything after the axis.
                 let (mut at, mut rest) = (id, None);
                 while let ExpressionKind::Binary(
                     operator @ (BinaryOperator::Multiply | BinaryOperator::Divide),
@@ -215,7 +215,7 @@ impl Evaluator<'_> {
         (!pieces.is_empty()).then_some(text)
     }
 
-    /// `sin`, `cos` and `tan` take radians; this looks like degrees.
+    /// Warns if an argument of `sin`, `cos` or `tan` looks like degrees.
     pub(in crate::evaluate) fn lint_trigonometry(
         &mut self,
         here: &Here,
@@ -223,7 +223,7 @@ impl Evaluator<'_> {
         id: ExpressionId,
         angle: f64,
     ) {
-        // Nothing else is worth a look, and these are often called.
+        // Nothing else needs a check, and these are called often.
         let is_small = angle.abs() < FEWEST_DEGREES;
         if is_small || !matches!(word, Word::Sin | Word::Cos | Word::Tan) {
             return;
@@ -243,7 +243,8 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// A literal multiple of 15, or the counter of a loop that goes round by whole degrees.
+    /// Returns whether an expression is a literal multiple of 15, or the counter of a loop that goes round in
+    /// whole degrees.
     fn is_typed_in_degrees(&self, here: &Here, id: ExpressionId) -> bool {
         let unit = &here.unit;
         let (mut id, mut shifted) = (id, false);
@@ -281,7 +282,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `sin(Theta/2)` with 104.5 for `Theta`: an angle by its name, and of less than a turn in degrees.
+    /// Returns whether a name suggests an angle and its value is less than a turn in degrees: `sin(Theta/2)`
+    /// with 104.5 for `Theta`.
     fn is_called_an_angle(&self, here: &Here, id: ExpressionId, angle: f64) -> bool {
         let unit = &here.unit;
         let (name, whole) = match unit.expression(id).kind {
@@ -301,7 +303,7 @@ impl Evaluator<'_> {
         if !is_angle || !(2.0 * FULL_TURN..=360.0).contains(&whole.abs()) {
             return false;
         }
-        // What is computed, or counted, may go round often.
+        // A computed or counted angle may exceed a turn.
         self.scopes.declared(symbol).is_some_and(|declared| {
             let Site { span, .. } = declared.site;
             let text = self.sources.get(span.file).text.get(span.end as usize..).unwrap_or("");
@@ -310,7 +312,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `<cos(radians(A)), sin(A)>`: whether the same line turns a name from degrees.
+    /// Returns whether the same line converts a name from degrees: `<cos(radians(A)), sin(A)>`.
     fn is_degrees_beside(&self, name: Span) -> bool {
         let text = &self.sources.get(name.file).text;
         let (before, behind) = text.split_at(name.start as usize);
@@ -320,7 +322,7 @@ impl Evaluator<'_> {
         line.contains(&turned) || rest.contains(&turned)
     }
 
-    /// Whether a name counts once round, or half, by whole degrees: `#for (I, 0, 360, 30)`.
+    /// Returns whether a name counts a full or half turn in whole degrees: `#for (I, 0, 360, 30)`.
     fn counts_degrees(&self, here: &Here, name: NameId) -> bool {
         let symbol = here.symbol(name);
         let counter = self.frames.iter().rev().take(64).find_map(|frame| match frame.kind {
@@ -330,7 +332,7 @@ impl Evaluator<'_> {
             _ => None,
         });
         let Some((there, directive)) = counter else { return false };
-        // In a macro that the loop calls, the name may be its own.
+        // In a macro that the loop calls, the name may be local.
         if there.expansion != here.expansion {
             return false;
         }
@@ -350,7 +352,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The name or number that an expression turns into radians.
+/// Returns the name or number that an expression converts to radians.
 fn within_radians(here: &Here, id: ExpressionId) -> Option<Span> {
     let ExpressionKind::Call(Callee::Word(Word::Radians, _), list) = here.unit.expression(id).kind
     else {
@@ -361,7 +363,7 @@ fn within_radians(here: &Here, id: ExpressionId) -> Option<Span> {
     matches!(inner.kind, ExpressionKind::Number(_) | ExpressionKind::Name(_)).then_some(inner.span)
 }
 
-/// A number as it is typed, with its sign.
+/// Returns a literal number with its sign.
 fn number(here: &Here, id: ExpressionId) -> Option<f64> {
     match here.unit.expression(id).kind {
         ExpressionKind::Number(number) => Some(number),

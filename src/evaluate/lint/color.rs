@@ -1,4 +1,4 @@
-//! Colours that were hardly meant so: 0 to 255, negative, of two components or of too many, a clear
+//! Unlikely colours: components from 0 to 255, negative ones, two or too many of them, or a transparent
 //! background.
 
 use super::is_literal;
@@ -11,12 +11,12 @@ use crate::evaluate::{Evaluator, Here};
 use crate::source::Span;
 use crate::vocabulary::Word;
 
-/// Below it, whole numbers may be meant as they are: of anything, and of what gives light.
+/// Limit below which integers may be intended, in any colour; higher for light sources.
 const ANY: f64 = 16.0;
 const LAMP: f64 = 128.0;
 
 impl Evaluator<'_> {
-    /// What is given for a colour, as numbers.
+    /// Checks the numbers given for a colour.
     pub(in crate::evaluate) fn lint_color(&mut self, given: &Given<Value>, rgb: Rgb) {
         match &given.value {
             Value::Color(_) => {}
@@ -35,8 +35,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `rgb <1, 0, 0, 0.5>`: more components than the word takes. A colour has five, and passes whole but
-    /// behind `rgbt`.
+    /// Warns of more components than the keyword takes: `rgb <1, 0, 0, 0.5>`. A colour has five, and passes
+    /// unchanged except after `rgbt`.
     pub(in crate::evaluate) fn lint_extra_components(
         &mut self,
         token: &Token,
@@ -73,7 +73,7 @@ impl Evaluator<'_> {
                 let told = diagnostic.help(format!(
                     "`{base}ft` takes red, green, blue, filter and transmit"
                 ));
-                // A name may stand for fewer in another call.
+                // A name may have fewer components in another call.
                 match self.sources.text(given.span).starts_with('<') {
                     true => told.fix(token.span, format!("{base}ft")),
                     false => told,
@@ -83,9 +83,9 @@ impl Evaluator<'_> {
         self.report(&given.here, diagnostic);
     }
 
-    /// `rgbt Glass`, of a colour: its fourth component is its filter.
+    /// Warns of `rgbt Glass` with a colour, whose fourth component is its filter.
     fn lint_swapped_color(&mut self, name: &str, color: &Color, given: &Given<Value>) {
-        // As they were written: what a name gives back has single precision.
+        // As written: a value read back from a name has single precision.
         let [filter, transmit] = [color.filter as f32, color.transmit as f32];
         if filter == 0.0 && transmit == 0.0 {
             return;
@@ -98,7 +98,7 @@ impl Evaluator<'_> {
         self.report(&given.here, diagnostic);
     }
 
-    /// A colour is 0 to 1; this one looks like 0 to 255, or is negative.
+    /// Warns of a colour, which should be 0 to 1, that looks like 0 to 255 or is negative.
     pub(in crate::evaluate) fn lint_color_range(&mut self, here: &Here, span: Span, rgb: Rgb) {
         let components = [rgb.red, rgb.green, rgb.blue];
         let whole = components.iter().all(|c| c.fract() == 0.0 && (0.0..=255.0).contains(c));
@@ -144,8 +144,8 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// Of a light it may be meant: such a one takes light away. So may what is computed, or begins a map:
-    /// it is cut at black.
+    /// Warns of a negative colour. In a light it may be intended, to remove light; so may a computed one, or
+    /// one at the start of a map, which is clipped at black.
     fn lint_negative_color(&mut self, here: &Here, span: Span) {
         let text = self.sources.text(span);
         let typed = !text.contains(|c: char| c.is_alphabetic());
@@ -158,7 +158,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `<0,5,0,7,1>`: the one colour of three components, none above 1, whose points became commas.
+    /// Returns the only colour of three components up to 1 that results if some commas are decimal points:
+    /// `<0,5,0,7,1>`.
     fn commas_in_color(&self, span: Span) -> Option<String> {
         let text = self.sources.text(span).strip_prefix('<')?.strip_suffix('>')?;
         let parts: Vec<&str> = text.split(',').map(str::trim).collect();
@@ -187,15 +188,15 @@ impl Evaluator<'_> {
         colors.next().is_none().then_some(color)
     }
 
-    /// There is nothing behind a background: what it lets through is black.
+    /// Warns of a transparent background: there is nothing behind it, so it shows black.
     pub(in crate::evaluate) fn lint_background(&mut self, given: &Given<Color>) {
         let Color { rgb, transmit, .. } = given.value;
-        // Of numbers too many, which were told.
+        // For surplus numbers, which were reported.
         let is_told = self.diagnostics.iter().any(|one| {
             let place = one.primary().filter(|_| one.code == Code::ExtraComponent);
             place.is_some_and(|place| self.taken.is_some_and(|taken| taken.span == place.span))
         });
-        // In a scene for an older version a background is never clear.
+        // In a scene for an older version a background is never transparent.
         if rgb.is_black() || transmit <= 0.0 || is_told || self.is_old() {
             return;
         }
@@ -204,7 +205,7 @@ impl Evaluator<'_> {
         let text = self.sources.text(whole);
         let number = ["color", "colour"].iter().find_map(|word| text.strip_prefix(word));
         let number = number.unwrap_or(text).trim();
-        // A part that is written as such is meant.
+        // A component that is written explicitly is intended.
         if transmit < 1.0 && !is_literal(number) {
             return;
         }
@@ -227,7 +228,8 @@ impl Evaluator<'_> {
     }
 }
 
-/// `<255, 128, 0, 0.5>`: what lets light through is a part already.
+/// Returns a vector with its colour divided by 255 if its transparency is a fraction already:
+/// `<255, 128, 0, 0.5>`.
 fn clear_by_itself(vector: &str) -> Option<String> {
     let parts: Vec<&str> = vector.strip_prefix('<')?.strip_suffix('>')?.split(',').collect();
     let (colors, clear) = parts.split_at_checked(3)?;

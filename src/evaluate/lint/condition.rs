@@ -1,5 +1,5 @@
-//! Conditions that are read otherwise than they are meant: `#if (0 < A < 3)`, `#if (A = 1 | 2)`,
-//! `#case (N < 3)`.
+//! Conditions that parse differently from how they look: `#if (0 < A < 3)`, `#if (A = 1 | 2)`, `#case (N <
+//! 3)`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::{Evaluator, Here, Outcome};
@@ -22,7 +22,7 @@ impl Evaluator<'_> {
         self.lint_chain(here, first, first == condition);
     }
 
-    /// As [`Self::condition`], of one that is asked where it stands.
+    /// As [`Self::condition`], with the lints for a condition in its own directive.
     pub(in crate::evaluate) fn asked_condition(
         &mut self,
         here: &Here,
@@ -32,7 +32,7 @@ impl Evaluator<'_> {
         self.condition(here, condition)
     }
 
-    /// `0 < A < 3`: the second sign compares 1 or 0.
+    /// Warns of a chained comparison, whose second operator compares 1 or 0: `0 < A < 3`.
     fn lint_chain(&mut self, here: &Here, id: ExpressionId, is_whole: bool) {
         let ExpressionKind::Binary(second, left, _) = here.unit.expression(id).kind else {
             return;
@@ -61,12 +61,12 @@ impl Evaluator<'_> {
             .at(sign, "a comparison takes two values")
             .also(left, "this is 1 or 0")
             .help(format!("write `{right}`"));
-        // What is called may give another value the second time.
+        // A called function may return another value the second time.
         let told = if middle_text.contains('(') { told } else { told.fix(whole, right) };
         self.report(here, told);
     }
 
-    /// `A = 1 | 2`: a number, which is a condition of its own.
+    /// Warns of a number as a condition of its own, `A = 1 | 2`; returns whether it did.
     fn lint_value_for_condition(&mut self, here: &Here, id: ExpressionId) -> bool {
         let (mut first, mut values) = (id, Vec::new());
         while let ExpressionKind::Binary(BinaryOperator::Or, left, right) =
@@ -99,7 +99,8 @@ impl Evaluator<'_> {
         true
     }
 
-    /// `#case (N < 3)` of `#switch (N)`: the value is compared with 1 or 0.
+    /// Warns of a condition in a case, which compares the value with 1 or 0: `#case (N < 3)` in `#switch
+    /// (N)`.
     pub(in crate::evaluate) fn lint_condition_as_case(&mut self, here: &Here, id: ExpressionId) {
         let mut inner = id;
         while let ExpressionKind::Group(group) = here.unit.expression(inner).kind {
@@ -112,7 +113,7 @@ impl Evaluator<'_> {
             return;
         }
         let span = here.unit.expression(id).span;
-        // `#switch (1) #case (N < 3)` asks each in turn.
+        // `#switch (1) #case (N < 3)` tests each in turn.
         let before = self.sources.get(span.file).text.get(..span.start as usize).unwrap_or("");
         let Some(switch) = before.rfind("#switch") else { return };
         let head = before[switch + 1..].split('#').next().unwrap_or("");

@@ -1,5 +1,5 @@
-//! `isosurface { function { y = sin(x) } … }`: an equation, or what is less, where the difference of the sides is
-//! wanted.
+//! Equations and inequalities in an isosurface, which needs the difference of the two sides: `isosurface {
+//! function { y = sin(x) } … }`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::enclosure::Contents;
@@ -8,10 +8,10 @@ use crate::evaluate::{Evaluator, Here};
 use crate::source::Span;
 use crate::syntax::ast::{BinaryOperator, ExpressionKind, ItemKind};
 
-/// Functions that have steps: where they are equal to something may be a solid.
+/// Discontinuous or piecewise functions: an equation with one may describe a solid.
 const STEPS: [&str; 9] = ["floor", "ceil", "int", "mod", "div", "select", "abs", "min", "max"];
 
-/// What is to be told of a comparison, unless it is meant.
+/// The diagnostic for a comparison, unless it is intended.
 pub(in crate::evaluate) struct Compared {
     pub here: Here,
     pub diagnostic: Diagnostic,
@@ -19,7 +19,7 @@ pub(in crate::evaluate) struct Compared {
 }
 
 impl Evaluator<'_> {
-    /// Looks at the block of an isosurface's function, which comes next.
+    /// Examines the block of an isosurface's function, which comes next.
     pub(in crate::evaluate) fn compared_surface(&mut self) -> Option<Compared> {
         let Token { kind: TokenKind::Block(contents), here, .. } = self.peek()? else {
             return None;

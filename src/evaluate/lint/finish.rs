@@ -1,4 +1,4 @@
-//! Numbers of a finish that no surface has.
+//! Unrealistic values in a finish.
 
 use super::is_literal;
 use crate::color::Rgb;
@@ -10,18 +10,18 @@ use crate::scene::{ClassicFinish, Finish};
 use crate::source::{Site, Span};
 use crate::vocabulary::Word;
 
-/// From here on no light tells on a surface of a middling colour.
+/// From this value on, light is not visible on a surface of a medium colour.
 const LAMP_AMBIENT: f64 = 2.0;
-/// Roughness ends at 1, says the manual; a little beyond it a surface still has a highlight.
+/// The manual limits roughness to 1; slightly beyond it a surface still has a highlight.
 const ROUGHEST: f64 = 2.0;
-/// From here on a strength of a whole number, up to 100, is a percentage. Ambient light may be a lamp's.
+/// Whole-number strengths in this range are taken for percentages. A lamp's ambient light may be as high.
 const PERCENTAGE: std::ops::RangeInclusive<f64> = 10.0..=100.0;
 const BRIGHT_AMBIENT: f64 = 20.0;
-/// From here on no index of refraction that is typed as a whole number is meant.
+/// Indices of refraction from here on, written as integers, are unlikely.
 const NO_IOR: f64 = 10.0;
 
 impl Evaluator<'_> {
-    /// A surface that takes light away, or gives back more than it gets.
+    /// Warns of a surface that removes light, or reflects more than it receives.
     pub(in crate::evaluate) fn lint_strength(
         &mut self,
         here: &Here,
@@ -49,7 +49,8 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// `transmit 50`, of a colour. One of 100 and more strengthens contrasts, as in POV-Ray's own scenes.
+    /// Warns of a percentage in a colour, `transmit 50`. Values from 100 on increase contrast, as in
+    /// POV-Ray's own scenes.
     pub(in crate::evaluate) fn lint_clear_percentage(
         &mut self,
         here: &Here,
@@ -64,8 +65,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `diffuse 0.6 … diffuse 0.2`. What a macro gives may be changed by who calls it, and so may what
-    /// stands before a branch.
+    /// Warns of a repeated keyword, `diffuse 0.6 … diffuse 0.2`. A caller may override a macro's value, and a
+    /// branch the value before it.
     pub(in crate::evaluate) fn lint_word_twice(
         &mut self,
         token: &Token,
@@ -91,7 +92,7 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    /// `ambient 50`: where the surface also scatters light it is no lamp.
+    /// Warns of `ambient 50` if the surface also scatters light, and so is not a lamp.
     pub(in crate::evaluate) fn lint_ambient(&mut self, given: &Given<Rgb>, finish: &Finish) {
         let Finish::Classic(ClassicFinish { diffuse, .. }) = finish else { return };
         let ambient = given.value.red;
@@ -111,7 +112,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `ior 0.75`: what a light ray enters is rarely thinner than air.
+    /// Reads `ior`, and warns of values such as 0.75: a medium is rarely thinner than air.
     pub(in crate::evaluate) fn index_of_refraction(&mut self, token: &Token) -> Outcome<f64> {
         let given = self.number_after(token, "a number")?;
         if given.value == 0.0 {
@@ -155,7 +156,7 @@ impl Evaluator<'_> {
         Ok(value)
     }
 
-    /// `roughness 30`, `phong_size 0.5`: each has the other's numbers.
+    /// Warns of swapped ranges: `roughness 30`, `phong_size 0.5`.
     pub(in crate::evaluate) fn lint_highlight(&mut self, given: &Given<f64>, word: Word) {
         let value = given.value;
         if !is_literal(self.sources.text(given.span)) {
@@ -179,7 +180,7 @@ impl Evaluator<'_> {
         self.report(&given.here, diagnostic);
     }
 
-    /// `finish { roughness 0.02 }`: how large a highlight is that has no strength.
+    /// Warns of a highlight's size without a strength: `finish { roughness 0.02 }`.
     pub(in crate::evaluate) fn lint_unlit_highlight(
         &mut self,
         finish: &Finish,
@@ -208,7 +209,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `reflection { 0.9, 0.1 }`: more where one looks straight at it than at a glance.
+    /// Warns of stronger reflection at normal incidence than at grazing angles: `reflection { 0.9, 0.1 }`.
     pub(in crate::evaluate) fn lint_reflection_order(
         &mut self,
         least: &Given<Rgb>,

@@ -1,4 +1,4 @@
-//! Words of a spotlight that have no effect, or contradict each other.
+//! Spotlight keywords that have no effect, or contradict each other.
 
 use super::is_literal;
 use crate::diagnostic::{Code, Diagnostic};
@@ -8,13 +8,13 @@ use crate::evaluate::stream::Token;
 use crate::scene::{Beam, LightKind, ObjectId, ObjectKind, Operation};
 use crate::vocabulary::Word;
 
-/// A typed `radius` or `falloff` of a beam in radians: from 6° to a right angle. Narrower ones in degrees are
-/// searchlights.
+/// Literal `radius` or `falloff` of a beam in radians: from 6° to a right angle. Narrower beams in degrees
+/// are searchlights.
 const RADIANS: std::ops::Range<f64> = 0.1..1.6;
-/// Of a beam with one this wide; below it a pencil of light may be meant.
+/// At least one angle of such a beam is this wide; a narrower beam in degrees may be intended.
 const WIDE: f64 = 0.4;
 
-/// What a light says of its beam, as it is read.
+/// The beam settings of a light, collected while it is read.
 #[derive(Default)]
 pub(in crate::evaluate) struct Cone {
     /// `point_at`, `radius`, `falloff` and `tightness`, as written.
@@ -28,7 +28,7 @@ impl Cone {
         self.words.push(token.clone());
     }
 
-    /// A word of the light and its number.
+    /// Records a keyword of the light and its number.
     pub fn say(&mut self, token: &Token, word: Word, given: &Given<f64>) {
         match word {
             Word::Radius => self.radius = Some(given.clone()),
@@ -45,7 +45,7 @@ impl Cone {
 }
 
 impl Evaluator<'_> {
-    /// A light that is read to its end.
+    /// Checks a light after it has been read.
     pub(in crate::evaluate) fn lint_light(&mut self, cone: &Cone, light: &LightKind) {
         match light {
             LightKind::Point { .. } => self.lint_no_beam(cone),
@@ -63,7 +63,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A light in a `difference` or an `intersection`: it has no inside that could be cut.
+    /// Warns of a light in a `difference` or an `intersection`: it has no inside to clip.
     pub(in crate::evaluate) fn lint_light_of_csg(
         &mut self,
         word: Word,
@@ -88,10 +88,10 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The words of a beam on a light that shines all around.
+    /// Warns of beam keywords on an omnidirectional light.
     fn lint_no_beam(&mut self, cone: &Cone) {
         let Some(first) = cone.words.first() else { return };
-        // What makes it a beam may stand in a branch that was not run.
+        // The keyword that makes it a beam may be in a branch that was not run.
         let text = self.within_block().map(|site| self.sources.text(site.span));
         let may_be_one = text.is_none_or(|text| {
             ["#", "spotlight", "cylinder", "parallel"].iter().any(|word| text.contains(word))
@@ -126,7 +126,7 @@ impl Evaluator<'_> {
         self.report(&here, diagnostic);
     }
 
-    /// Typed angles that are a guess: all of them small, with fractions. Says whether it said so.
+    /// Warns of literal angles that may be radians: all are small and have fractions. Returns whether it did.
     fn lint_beam_in_radians(&mut self, cone: &Cone) -> bool {
         let typed = cone.angles().all(|given| {
             let literal = is_literal(self.sources.text(given.span));
@@ -154,7 +154,7 @@ impl Evaluator<'_> {
         true
     }
 
-    /// A beam that ends before it begins to fade.
+    /// Warns of a beam that ends before it begins to fade.
     fn lint_inside_out(&mut self, cone: &Cone, beam: &Beam, unit: &str) {
         let Beam { radius, falloff, .. } = *beam;
         let Some(given) = cone.falloff.as_ref().or(cone.radius.as_ref()) else { return };

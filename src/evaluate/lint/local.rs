@@ -1,4 +1,4 @@
-//! `#local Total = Total + N;` in a macro, of a name outside: what it comes to ends with the macro.
+//! `#local Total = Total + N;` in a macro with an outer name: the result is lost when the macro ends.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::{Evaluator, Here};
@@ -6,7 +6,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Body, Directive, DirectiveKind, ExpressionKind, ItemKind, Parameter};
 
 impl Evaluator<'_> {
-    /// The body of a macro, where it is defined. What stands in a loop is asked by its next turn.
+    /// Checks the body of a macro at its definition. Values assigned in a loop may be used by its next turn.
     pub(in crate::evaluate) fn lint_local_sum(
         &mut self,
         here: &Here,
@@ -44,7 +44,7 @@ impl Evaluator<'_> {
             let first = items.first().map_or(*head, |first| first.span);
             let before = Span { start: first.start, end: head.start, ..first };
             let behind = Span { start: value.span.end, end: last.end.max(value.span.end), ..last };
-            // What is called behind it sees the name, too.
+            // Macros called after it see the name, too.
             let text = self.sources.text(behind);
             let calls = text.contains('(') || text.contains("#include");
             if words(before) > 0 || words(behind) > 0 || calls {

@@ -1,5 +1,4 @@
-//! Shapes whose numbers are in order and that are hardly what was meant: a `difference` of one object, a `torus`
-//! thicker than it is wide.
+//! Valid but unlikely shapes: a `difference` of one object, a `torus` thicker than it is wide.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::Evaluator;
@@ -8,7 +7,7 @@ use crate::evaluate::stream::Token;
 use crate::scene::Operation;
 
 impl Evaluator<'_> {
-    /// `difference { A }`: POV-Ray warns of it, too.
+    /// Warns of `difference { A }`, as POV-Ray does.
     pub(in crate::evaluate) fn lint_lone_child(&mut self, token: &Token, operation: Operation) {
         if self.poison.is_some() {
             return;
@@ -23,9 +22,9 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    /// `torus { 0.06, 0.45 }`: the two radii in the wrong order.
+    /// Warns of swapped radii: `torus { 0.06, 0.45 }`.
     pub(in crate::evaluate) fn lint_spindle(&mut self, major: &Given<f64>, minor: &Given<f64>) {
-        /// A thicker one is rather a mistake than a spindle.
+        /// Ratio of the radii above which it is more likely a mistake than a spindle torus.
         const THICK: f64 = 2.0;
         let is_literal = |given: &Given<f64>| super::is_literal(self.sources.text(given.span));
         let both = is_literal(major) && is_literal(minor);

@@ -1,6 +1,7 @@
-//! What a macro leaves beside an operator that would take but a part of it: `2*Next(3)` of `a+1`.
+//! Macro results of which an adjacent operator would take only a part: `2*Next(3)` where the macro leaves
+//! `a+1`.
 //!
-//! POV-Ray reads the text of the macro in the place of its call, so that this is `2*a + 1` there and in a `.pov`
+//! POV-Ray substitutes the macro's text for the call, so this is `2*a + 1` there and in a `.pov`
 //! (`joint.rs`). In a `.scene` a call is one value, as if in parentheses.
 
 use crate::diagnostic::{Code, Diagnostic};
@@ -15,7 +16,7 @@ use super::super::scope::MacroId;
 use super::super::value::Value;
 use super::super::{Evaluator, Here};
 
-/// Where a call stands, seen from an operator.
+/// The side of an operator on which a call is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::evaluate) enum Side {
     Left,
@@ -23,7 +24,7 @@ pub(in crate::evaluate) enum Side {
 }
 
 impl Evaluator<'_> {
-    /// `id`, an operand of `operator`, if it is a call of a macro that leaves an operation of its own.
+    /// Warns if `id`, an operand of `operator`, is a call of a macro that leaves an operation of its own.
     pub(in crate::evaluate) fn lint_loose_operand(
         &mut self,
         here: &Here,
@@ -45,7 +46,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// As [`Self::lint_loose_operand`], of what stands behind a sign.
+    /// As [`Self::lint_loose_operand`], for the operand of a sign.
     pub(in crate::evaluate) fn lint_loose_sign(
         &mut self,
         here: &Here,
@@ -64,7 +65,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Whether an operand of a calculation is a macro that may leave an operation; tells where that is parted.
+    /// Returns whether an operand is a macro that may leave an operation; warns if that is split.
     pub(in crate::evaluate) fn holds_bare_operation(
         &mut self,
         here: &Here,
@@ -78,14 +79,14 @@ impl Evaluator<'_> {
                     self.lint_loose_operand(here, operator, side, operand);
                 }
             }
-            // As deep as there are ranks.
+            // Recursion is as deep as there are ranks.
             holds |= self.holds_bare_operation(here, right);
             first = left;
         }
         holds
     }
 
-    /// The macro that is called, where in a `.pov` what it leaves need not be one operand.
+    /// Returns the called macro if, in a `.pov`, it may leave more than one operand.
     pub(in crate::evaluate) fn leaves_operation(
         &self,
         here: &Here,
@@ -100,14 +101,14 @@ impl Evaluator<'_> {
             ItemKind::Expression(left) => {
                 matches!(unit.expression(left).kind, ExpressionKind::Binary(..))
             }
-            // What a branch leaves.
+            // Items left by a branch.
             ItemKind::Directive(_) => true,
             _ => false,
         };
         (leaves && self.options.dialect == Dialect::Pov).then_some(*called)
     }
 
-    /// The operation that a called macro leaves without parentheses, and where it stands.
+    /// Returns the operation that a called macro leaves without parentheses, and its span.
     fn left_bare(&self, here: &Here, id: ExpressionId) -> Option<(BinaryOperator, Span)> {
         let ExpressionKind::Call(Callee::Name(name, _), _) = here.unit.expression(id).kind else {
             return None;

@@ -1,4 +1,4 @@
-//! Entries of a map that go down, or lie where a pattern has no values.
+//! Map entries in descending order, or outside the range of a pattern's values.
 
 use super::is_literal;
 use crate::diagnostic::{Code, Diagnostic};
@@ -7,18 +7,18 @@ use crate::evaluate::block::Given;
 use crate::scene::ColorMap;
 use crate::source::{Site, Sources};
 
-/// How far beyond 0 to 1 an entry may lie that only closes the map: `[1.001 …]` is an old habit.
+/// Distance outside 0 to 1 at which an entry only closes the map: `[1.001 …]` is an old habit.
 const BEYOND: f64 = 0.05;
-/// Entries that are remembered to be divided by a hundred.
+/// Maximum number of literal values that are kept, to suggest dividing them by a hundred.
 const MOST_PERCENTAGES: usize = 64;
 
-/// The values of a map's entries, as they are read.
+/// The values of a map's entries, collected while they are read.
 #[derive(Default)]
 pub(in crate::evaluate) struct Rise {
     last: Option<f64>,
-    /// The first that is below the one before it, and that one.
+    /// The first value that is below the one before it, and that one.
     fall: Option<(f64, f64, Site)>,
-    /// The literal ones; of a map that has others, none.
+    /// The literal values, up to `MOST_PERCENTAGES`.
     literal: Vec<Given<f64>>,
     computed: bool,
 }
@@ -32,7 +32,7 @@ impl Rise {
         }
     }
 
-    /// All entries of a declared map.
+    /// Records all entries of a declared map.
     pub fn named(&mut self, map: &ColorMap, site: Site) {
         self.computed = true;
         map.0.iter().for_each(|(value, _)| self.value(*value, site));
@@ -51,7 +51,7 @@ impl Evaluator<'_> {
     pub(in crate::evaluate) fn lint_map(&mut self, rise: Rise) {
         let within = -BEYOND..=1.0 + BEYOND;
         let outside = rise.literal.iter().find(|given| !within.contains(&given.value));
-        // What goes down from beyond 1 is out of its range first.
+        // A descent from beyond 1 is reported as out of range first.
         let is_high = |before: f64| outside.is_some_and(|given| given.value == before);
         let (fall, code) = match rise.fall {
             Some((before, ..)) if before > 1.0 && is_high(before) => (None, Code::UnsortedMap),
@@ -80,7 +80,7 @@ impl Evaluator<'_> {
                 }),
             false => diagnostic.help("a pattern goes from 0 to 1; beyond it colours are cut off"),
         };
-        // `[0.4 …] [5 …] [1 …]`: a point was lost.
+        // `[0.4 …] [5 …] [1 …]`: a decimal point was lost.
         let at = rise.literal.iter().position(|given| std::ptr::eq(given, outside)).unwrap_or(0);
         let before = at.checked_sub(1).map_or(0.0, |at| rise.literal[at].value);
         let behind = rise.literal.get(at + 1).map_or(1.0, |given| given.value);

@@ -1,4 +1,4 @@
-//! `parametric { … <0, 0>, <360, 360> }`: what u and v range over, in degrees where radians are meant.
+//! Ranges of u and v in degrees where radians are meant: `parametric { … <0, 0>, <360, 360> }`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::Evaluator;
@@ -10,7 +10,7 @@ use crate::syntax::ast::{Argument, ExpressionKind};
 use super::is_literal;
 
 impl Evaluator<'_> {
-    /// Whole turns, and halves, of what the functions ask the sine and the cosine of, and nothing else.
+    /// Warns of full or half turns in degrees for a parameter that is only an argument of sine and cosine.
     pub(in crate::evaluate) fn lint_range(
         &mut self,
         opener: &Token,
@@ -51,7 +51,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Where a component of a corner stands, if it is a typed number.
+    /// Returns the span of a corner's component, if it is a literal number.
     fn typed_component(&self, corner: &Given<[f64; 2]>, axis: usize) -> Option<Span> {
         let unit = &corner.here.unit;
         let ExpressionKind::Vector(list) = unit.expression(corner.expression?).kind else {
@@ -63,7 +63,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether all that the functions do with `u` is to take its sine and cosine.
+/// Returns whether the functions use `u` only as an argument of sine and cosine.
 fn is_an_angle(functions: &str, name: &str) -> bool {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let mut found = false;
@@ -82,7 +82,7 @@ fn is_an_angle(functions: &str, name: &str) -> bool {
     found
 }
 
-/// `180` as it is in radians.
+/// Returns literal degrees in radians: `180` is `pi`.
 fn in_radians(degrees: &str) -> String {
     let (sign, number) = match degrees.strip_prefix('-') {
         Some(number) => ("-", number.trim_start()),

@@ -1,4 +1,4 @@
-//! Vectors with fewer numbers than their place has.
+//! Vectors with fewer components than expected.
 
 use super::is_literal;
 use crate::diagnostic::{Code, Diagnostic};
@@ -12,7 +12,7 @@ use crate::syntax::ast::{Argument, Arguments, BinaryOperator, ExpressionId, Expr
 use crate::vocabulary::{Family, Word};
 
 impl Evaluator<'_> {
-    /// `<1, 2 -3>`, where a comma was lost. Where two are written as two, they may be meant.
+    /// Warns of a lost comma: `<1, 2 -3>`. Two components written as two may be intended.
     pub(in crate::evaluate) fn lint_short_vector(&mut self, here: &Here, id: ExpressionId) {
         let expression = here.unit.expression(id);
         let ExpressionKind::Vector(components) = expression.kind else { return };
@@ -21,8 +21,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `<-2.1, 0>`, where a comma became a point: of where a shape, a light or the eye is. Moves and factors may
-    /// have two numbers.
+    /// Warns of a comma that became a decimal point, `<-2.1, 0>`, in the position of a shape, a light or the
+    /// camera. Translations and factors may have two components.
     pub(in crate::evaluate) fn lint_two_numbers(&mut self, after: &Token, given: &Given<Vector>) {
         let TokenKind::Word(word) = after.kind else { return };
         let Some(id) = given.expression.filter(|_| given.value.z == 0.0) else { return };
@@ -32,7 +32,7 @@ impl Evaluator<'_> {
         self.tell_two_numbers(&given.here, id);
     }
 
-    /// As [`Self::lint_two_numbers`], in a list of places.
+    /// As [`Self::lint_two_numbers`], in a list of points.
     pub(in crate::evaluate) fn tell_two_numbers(&mut self, here: &Here, id: ExpressionId) {
         let expression = here.unit.expression(id);
         let ExpressionKind::Vector(components) = expression.kind else { return };
@@ -50,7 +50,7 @@ impl Evaluator<'_> {
             return;
         }
         let (span, text) = (expression.span, self.sources.text(expression.span));
-        // One that is never closed was told.
+        // An unclosed vector was reported.
         if !text.ends_with('>') {
             return;
         }
@@ -73,7 +73,8 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// `#declare P = <0, 0.8 -0.5>`: nobody takes one number from another with a sign that touches it.
+    /// Warns of a difference whose sign touches the second number, which is unlikely: `#declare P = <0, 0.8
+    /// -0.5>`.
     pub(in crate::evaluate) fn lint_typed_difference(
         &mut self,
         here: &Here,
@@ -106,7 +107,8 @@ impl Evaluator<'_> {
         self.report(here, diagnostic);
     }
 
-    /// `rotate y -20`: a number is taken from all three components of an axis, by a sign that touches it.
+    /// Warns of a difference of an axis and a number whose sign touches it, which subtracts from all three
+    /// components: `rotate y -20`.
     pub(in crate::evaluate) fn lint_axis_and_number(
         &mut self,
         token: &Token,
@@ -140,7 +142,7 @@ impl Evaluator<'_> {
         self.report(&given.here, diagnostic);
     }
 
-    /// `cylinder { <0, 0, 0>, 2, 0.5 }`, typed: a height, where the other end is wanted.
+    /// Warns of a literal height where the other end is expected: `cylinder { <0, 0, 0>, 2, 0.5 }`.
     pub(in crate::evaluate) fn lint_lone_height(
         &mut self,
         name: &str,
@@ -164,7 +166,7 @@ impl Evaluator<'_> {
         self.report(&cap.here, diagnostic);
     }
 
-    /// `right 16/9`, typed: a side of the picture is a vector.
+    /// Warns of a literal number where the image's side vector is expected: `right 16/9`.
     pub(in crate::evaluate) fn lint_lone_side(
         &mut self,
         given: &Given<Vector>,
@@ -185,7 +187,7 @@ impl Evaluator<'_> {
         self.report(&given.here, diagnostic);
     }
 
-    /// `rgbt <1, 1, 1>`: the word promises more than the vector has.
+    /// Warns of a vector with fewer components than its keyword takes: `rgbt <1, 1, 1>`.
     pub(in crate::evaluate) fn lint_short_color(
         &mut self,
         given: &Given<Value>,
@@ -195,7 +197,7 @@ impl Evaluator<'_> {
         let name = word.name();
         let opaque = name.trim_end_matches(['f', 't']);
         let text = self.sources.text(given.span);
-        // `rgbt <1, 0, 0>, 0.5` is told as that.
+        // `rgbt <1, 0, 0>, 0.5` is reported as such.
         let rest = self.sources.get(given.span.file).text.get(given.span.end as usize..);
         let number = rest.and_then(|rest| rest.trim_start().strip_prefix(',')).map(str::trim_start);
         let goes_on =

@@ -1,4 +1,4 @@
-//! Cases of a `#switch` that run on into the next one.
+//! Cases of a `#switch` that fall through.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -7,8 +7,8 @@ use crate::syntax::ast::{Ast, Case, CaseKind, DirectiveKind, ItemKind, Items};
 use super::super::{Evaluator, Here};
 
 impl Evaluator<'_> {
-    /// `cases`: the chosen one, and those behind it. One that ends without `#break` and has something in it runs
-    /// on; that may be meant where a comment says so ("falls through").
+    /// Checks `cases`, the chosen one and those after it, for a non-empty case without `#break`. A comment
+    /// ("falls through") marks it as intended.
     pub(in crate::evaluate) fn lint_runs_on(&mut self, here: &Here, cases: &[Case]) {
         let ast = &here.unit.ast;
         let ends = |case: &Case| may_break(ast, case.body);
@@ -40,7 +40,7 @@ impl Evaluator<'_> {
         self.report_again(here, &diagnostic);
     }
 
-    /// `#case`, `#range` or `#else` of a case.
+    /// Returns the span of the `#case`, `#range` or `#else` of a case.
     fn head_of(&self, here: &Here, case: &Case) -> Option<Span> {
         let ast = &here.unit.ast;
         let file = ast.file;
@@ -56,7 +56,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether a `#break` of these items, or `#error`, may leave the switch that they stand in.
+/// Returns whether a `#break` or `#error` in these items may leave their switch.
 fn may_break(ast: &Ast, items: Items) -> bool {
     ast.items(items).iter().any(|item| match item.kind {
         ItemKind::Block(inside) => may_break(ast, inside),

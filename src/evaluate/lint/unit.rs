@@ -1,8 +1,8 @@
-//! Whether an expression is an angle in radians, by how it is written.
+//! Inference of whether an expression is an angle in radians, from its form.
 //!
-//! **In:** an expression, and the declarations of the names in it. **Out:** the power of the unit radian:
-//! 1 for `pi/4` and `atan2(1, 1)`, 0 for `45` and `sin(pi)`, less for `180/pi`, which turns one into the other.
-//! **Invariant:** looks at a bounded number of nodes; what is not certain has power 0.
+//! **In:** an expression, and the declarations of the names in it. **Out:** the power of the unit radian: 1
+//! for `pi/4` and `atan2(1, 1)`, 0 for `45` and `sin(pi)`, negative for the conversion factor `180/pi`.
+//! **Invariant:** examines a bounded number of nodes; anything uncertain has power 0.
 
 use crate::evaluate::{Evaluator, Here, Unit};
 use crate::syntax::ast::{
@@ -11,11 +11,11 @@ use crate::syntax::ast::{
 };
 use crate::vocabulary::Word;
 
-/// Nodes of an expression and of what its names stand for; a longer one is not looked at.
+/// Maximum number of nodes examined in an expression and in the declarations of its names.
 const MOST_NODES: u32 = 200;
-/// How deep to look: an expression may be nested deeper than the stack is.
+/// Maximum depth examined: an expression may be nested deeper than the stack allows.
 const DEEPEST: u32 = 40;
-/// How far off a typed π may be, relative: 3.14 is.
+/// Relative tolerance for a literal π: 3.14 qualifies.
 const TYPED_PI: f64 = 0.001;
 
 impl Evaluator<'_> {
@@ -33,14 +33,14 @@ impl Evaluator<'_> {
 
 struct Walk<'a> {
     unit: &'a Unit,
-    /// How many may still be looked at.
+    /// Number of nodes that may still be examined.
     nodes: u32,
-    /// Names whose declarations are being looked at.
+    /// Names whose declarations are being examined.
     within: Vec<NameId>,
 }
 
 impl Walk<'_> {
-    /// `None` where there was too much to look at.
+    /// Returns the power; `None` if the limits were exceeded.
     fn power(&mut self, id: ExpressionId, depth: u32) -> Option<i32> {
         self.nodes = self.nodes.checked_sub(1)?;
         let depth = depth.checked_sub(1)?;
@@ -106,13 +106,13 @@ impl Walk<'_> {
         })
     }
 
-    /// A factor of 180 or 360 is degrees for each π or each turn.
+    /// A factor of 180 or 360 converts π or turns to degrees.
     fn turn(&self, id: ExpressionId) -> i32 {
         let Expression { kind, .. } = self.unit.expression(id);
         -i32::from(matches!(kind, ExpressionKind::Number(180.0 | 360.0)))
     }
 
-    /// Where a name is the counter of the innermost loop around: how far it counts, and by what.
+    /// If a name is the counter of the innermost enclosing loop, returns its end value and step.
     fn counter(&self, name: NameId, at: ExpressionId) -> Option<(ExpressionId, ExpressionId)> {
         let ast = &self.unit.ast;
         let span = self.unit.expression(at).span;
@@ -128,7 +128,7 @@ impl Walk<'_> {
         around.max_by_key(|(start, _)| *start).map(|(_, counts)| counts)
     }
 
-    /// The power of everything that a name is declared as, but for zeros: 0 where they differ.
+    /// Returns the power common to all declarations of a name, ignoring zeros; 0 if they differ.
     fn power_of_name(&mut self, name: NameId, depth: u32) -> Option<i32> {
         if self.within.contains(&name) {
             return Some(0);
@@ -146,7 +146,7 @@ impl Walk<'_> {
                     }
                 }
                 DirectiveKind::For { name: other, .. } if *other == name => 0,
-                // What calls give for it is not looked at.
+                // Values that calls pass for it are not examined.
                 DirectiveKind::Macro { parameters, .. }
                     if parameters.iter().any(|parameter| parameter.name == name) =>
                 {
@@ -164,8 +164,8 @@ impl Walk<'_> {
     }
 }
 
-/// A number is in radians where it is typed for π or 2π, and turns them into degrees, or back, where it is
-/// typed for 180/π, or π/180.
+/// Returns the power of a number: it is in radians if it is a literal for π or 2π, and a conversion factor if
+/// it is a literal for 180/π or π/180.
 fn power_of_number(number: f64) -> i32 {
     let is = |wanted: f64| (number / wanted - 1.0).abs() < TYPED_PI;
     let (pi, degree) = (std::f64::consts::PI, std::f64::consts::PI / 180.0);
@@ -177,7 +177,7 @@ fn is_zero(expression: &Expression) -> bool {
     matches!(expression.kind, ExpressionKind::Number(0.0))
 }
 
-/// The expression that a `#declare` is followed by.
+/// Returns the expression that follows a `#declare`.
 fn declared(unit: &Unit, directive: usize) -> Option<ExpressionId> {
     let directive = DirectiveId(u32::try_from(directive).ok()?);
     let at = unit.ast.items.iter().position(|i| i.kind == ItemKind::Directive(directive))?;

@@ -1,4 +1,4 @@
-//! Names that are declared and never used.
+//! Names that are declared but never used.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -13,15 +13,15 @@ use crate::source::{FileId, Span};
 use crate::vocabulary::{Word, is_standard_source};
 
 impl Evaluator<'_> {
-    /// Names that were declared in the main file and never used: the scene knows them, and there is
-    /// a lint for each.
+    /// Reports the names declared in the main file and never used: records them in the scene, with a lint for
+    /// each.
     pub(in crate::evaluate) fn lint_declarations(&mut self, main: &Unit) {
         self.tell_unused(main, |_| true);
         self.lint_redeclared(main);
     }
 
-    /// As [`Self::lint_declarations`], of a scene with mistakes: names that nothing but their declaration has, nor
-    /// any message.
+    /// As [`Self::lint_declarations`], for a scene with mistakes: names that occur only in their declaration,
+    /// and in no message.
     pub(in crate::evaluate) fn lint_lone_names(&mut self, main: &Unit) {
         let own = self.sources.iter().filter(|(_, source)| !is_standard_source(&source.name));
         let mut own: Vec<String> = own.skip(1).map(|(_, source)| source.text.clone()).collect();
@@ -30,7 +30,7 @@ impl Evaluator<'_> {
             own.extend(one.help.iter().chain(one.labels.iter().map(|label| &label.text)).cloned());
         }
         let known: HashSet<&str> = own.iter().flat_map(|text| words(text)).collect();
-        // It may be meant by what is not declared.
+        // An undeclared name may be a misspelling of it.
         let lacking = self.diagnostics.iter().filter(|one| one.code == Code::UndeclaredName);
         let lacking = lacking.filter_map(|one| Some(self.sources.text(one.primary()?.span)));
         let lacking: Vec<String> = lacking.map(str::to_owned).collect();
@@ -66,12 +66,12 @@ impl Evaluator<'_> {
             if has_errors && !only_declared.contains(name) {
                 continue;
             }
-            // What is wrong on its line comes first.
+            // Another mistake on its line has priority.
             let is_object = matches!(value, Some(Value::Object(_)));
             if !is_object && faulty.contains(&self.line_of(declared.site.span)) {
                 continue;
             }
-            // A word of the language cannot be declared; that has been told.
+            // A keyword cannot be declared, which has been reported.
             if Word::from_name(name).is_some() {
                 continue;
             }
@@ -136,8 +136,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The names that the main file has only where it declares them. A comment that has one counts for a use:
-    /// better silent than wrong.
+    /// Returns the names that occur in the main file only where they are declared. An occurrence in a comment
+    /// counts as a use, to avoid false warnings.
     fn only_declared(&self, main: &Unit) -> HashSet<String> {
         let mut uses: HashMap<&str, isize> = HashMap::new();
         for (name, _) in main.declarations() {
@@ -150,7 +150,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// The words of a text that may be names.
+/// Returns the words of a text that may be names.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
 }

@@ -1,4 +1,4 @@
-//! What a `.pov` file says it is written for, and what it lacks.
+//! The version and gamma that a `.pov` file declares, or lacks.
 
 use crate::color::{Clearness, Color, Gamma};
 use crate::diagnostic::{Code, Diagnostic};
@@ -10,21 +10,22 @@ use crate::vocabulary::{Word, is_standard_source};
 
 const VERSION: &str = "#version";
 
-/// The version from which on a scene without `assumed_gamma` has linear colours, and clear colours are as today.
+/// The version from which a scene without `assumed_gamma` has linear colours, and transparent colours work as
+/// today.
 const TODAY: f64 = 3.7;
 
-/// What is as old as a scene without `#version`.
+/// The version assumed for a scene without `#version`.
 const YESTERDAY: &str = "3.6";
 
 impl Evaluator<'_> {
-    /// Whether a file is not there that may say more.
+    /// Returns whether a file that may declare more is missing.
     pub(in crate::evaluate) fn lacks_file(&self) -> bool {
         self.diagnostics.iter().any(|one| {
             matches!(one.code, Code::MissingInclude | Code::ForbiddenFile | Code::ForeignFile)
         })
     }
 
-    /// Whether a scene with mistakes has a version, and a gamma, in its text; `None` where that is not certain.
+    /// Returns whether a scene with mistakes has a version and a gamma in its text; `None` if uncertain.
     pub(in crate::evaluate) fn certainly_says(&self) -> Option<(bool, bool)> {
         let main = &self.sources.iter().next()?.1.text;
         let is_scene =
@@ -36,7 +37,7 @@ impl Evaluator<'_> {
         let own = self.sources.iter().filter(|(_, source)| !is_standard_source(&source.name));
         let own: Vec<&str> = own.map(|(_, source)| source.text.as_str()).collect();
         let says = |part: &str| own.iter().any(|text| text.contains(part));
-        // `assumed_gama` is told as that.
+        // `assumed_gama` is reported as such.
         let says_version = own.iter().any(|text| {
             let mut directives = text.split('#').skip(1);
             directives.any(|directive| directive.trim_start().starts_with("version"))
@@ -44,19 +45,19 @@ impl Evaluator<'_> {
         Some((says_version, says("gamma") || says("assumed")))
     }
 
-    /// Whether POV-Ray 3.7 takes the scene for one of an older version: the language's version, where the
-    /// text ends, is below 3.7, or no file has a `#version` (measured).
+    /// Returns whether POV-Ray 3.7 treats the scene as one of an older version: the language version at the
+    /// end of the text is below 3.7, or no file has a `#version` (measured).
     pub(in crate::evaluate) fn is_old(&self) -> bool {
         self.options.dialect == Dialect::Pov && (!self.has_version || self.is_before(TODAY))
     }
 
-    /// Whether the language's version is below this one: its hundredths count, rounded (measured).
+    /// Returns whether the language version is below this one, rounded to hundredths (measured).
     pub(in crate::evaluate) fn is_before(&self, version: f64) -> bool {
         (self.version * 100.0).round() < (version * 100.0).round()
     }
 
-    /// Whether the scene has what older versions read or show otherwise, so that another `#version` changes its
-    /// picture.
+    /// Returns whether the scene uses what older versions parse or render differently, so that another
+    /// `#version` changes the image.
     fn looks_old(&self) -> bool {
         let filters = |color: Color| color.filter != 0.0;
         self.scene.settings.clearness == Clearness::Old
@@ -66,8 +67,9 @@ impl Evaluator<'_> {
                 || self.scene.pigments.iter().any(|pigment| pigment.kind.colors().any(filters)))
     }
 
-    /// An old `.pov` scene has clear colours of its own kind. One without `assumed_gamma` is shown without
-    /// gamma correction, as by POV-Ray 3.7: pixel for pixel `assumed_gamma srgb` (measured).
+    /// Applies an old version's rules to the scene: a `.pov` has its own kind of transparent colours, and
+    /// without `assumed_gamma` the image is shown without gamma correction, as by POV-Ray 3.7: pixel for
+    /// pixel `assumed_gamma srgb` (measured).
     pub(in crate::evaluate) fn note_old_version(&mut self) {
         if self.is_old() {
             self.scene.settings.clearness = Clearness::Old;
@@ -78,7 +80,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A `.pov` file that does not say what it is written for.
+    /// Warns of a `.pov` file that does not declare its version.
     pub(in crate::evaluate) fn warn_of_old_version(&mut self, main: &Unit, says: (bool, bool)) {
         let file = main.ast.file;
         let missing = match says {
@@ -127,7 +129,7 @@ impl Evaluator<'_> {
             _ => Span::new(file, 0, 0),
         };
         let mut diagnostic = Diagnostic::new(Code::OldVersion, message).at(place, label).help(help);
-        // What is included is not a scene, and says nothing for itself.
+        // An included file is not a scene, and needs no version of its own.
         if !self.sources.get(file).name.to_lowercase().ends_with(".inc") {
             let old = old.filter(|_| !looks_old);
             diagnostic = old.into_iter().fold(diagnostic, |told, old| told.fix(old, "3.7"));
@@ -139,7 +141,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// What is assumed where the file says nothing: the word of the language, and how a message puts it.
+/// The gamma assumed without a declaration: the word of the language, and its description in a message.
 struct AssumedGamma {
     value: &'static str,
     read: &'static str,
@@ -151,19 +153,19 @@ impl AssumedGamma {
     }
 }
 
-/// Where the main file says what it is written for, outside of all branches.
+/// Where the main file declares its version and gamma, outside all branches.
 #[derive(Default)]
 struct Preamble {
-    /// Behind the first `#version …;`.
+    /// Position after the first `#version …;`.
     version: Option<u32>,
-    /// Its number, typed, where that is less than 3.7.
+    /// Span of its number, if that is a literal below 3.7.
     old: Option<Span>,
-    /// Behind the brace of the first `global_settings`.
+    /// Position after the brace of the first `global_settings`.
     settings: Option<u32>,
 }
 
 impl Preamble {
-    /// What has to be inserted, and where.
+    /// Adds the fixes that insert the missing declarations.
     fn completed(
         &self,
         (says_version, says_gamma): (bool, bool),
@@ -180,7 +182,7 @@ impl Preamble {
         };
         let directive = (!says_version).then(|| (0, format!("#version {version};\n")));
         match gamma {
-            // Two insertions at one place are one.
+            // Two insertions at one position are merged.
             Some((0, _)) if !says_version => vec![(0, format!("#version {version}; {block}\n"))],
             gamma => directive.into_iter().chain(gamma).collect(),
         }
@@ -210,12 +212,12 @@ impl Preamble {
     }
 }
 
-/// Where the first `#version …;` of a file ends.
+/// Returns where the first `#version …;` of a file ends.
 pub(in crate::evaluate) fn version_end(ast: &Ast) -> Option<u32> {
     Preamble::of(ast).version
 }
 
-/// The number of a `#version` before 3.7, where it is typed.
+/// Returns the span of a literal `#version` number below 3.7.
 fn old_number(ast: &Ast, kind: &DirectiveKind) -> Option<Span> {
     let DirectiveKind::Version(number) = *kind else { return None };
     let number = ast.expression(number);

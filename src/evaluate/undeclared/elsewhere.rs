@@ -1,4 +1,4 @@
-//! Functions that other languages call, and what is written here: `round(A)`, `eof(F)`, `noise(x, y, z)`.
+//! Equivalents of functions of other languages: `round(A)`, `eof(F)`, `noise(x, y, z)`.
 
 use super::Call;
 use crate::diagnostic::{Code, Diagnostic};
@@ -8,7 +8,8 @@ use crate::evaluate::value::Value;
 use crate::source::Span;
 
 impl Evaluator<'_> {
-    /// `distance(a, b)` where a value should stand: a word of the language that others call. Passes over it.
+    /// Reports and skips another language's function that is a keyword here, where a value is expected:
+    /// `distance(a, b)`.
     pub(in crate::evaluate) fn called_elsewhere(
         &mut self,
         token: &Token,
@@ -26,7 +27,7 @@ impl Evaluator<'_> {
         Some(call.fixes.into_iter().fold(diagnostic, |told, (at, by)| told.fix(at, by)))
     }
 
-    /// Passes over what stands in parentheses right behind `name`.
+    /// Skips the parentheses right after `name`.
     fn skip_behind_parenthesis(&mut self, name: Span) {
         let Some(next) = self.peek_on().map(|next| next.span) else { return };
         let text = &self.sources.get(name.file).text;
@@ -39,7 +40,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `len(A)`, `random()`: what another language would call, and what is called here.
+    /// Returns the equivalent of another language's call: `len(A)`, `random()`.
     pub(super) fn call_elsewhere(
         &mut self,
         name: &str,
@@ -69,7 +70,7 @@ impl Evaluator<'_> {
                 Some(Value::String(_)) => Some(Call::renamed(span, "strlen")),
                 None if argument.starts_with('"') => Some(Call::renamed(span, "strlen")),
                 Some(Value::Vector(_) | Value::Color(_)) => Some(Call::renamed(span, "vlength")),
-                // `length(x, y, z)`: of three numbers.
+                // `length(x, y, z)` with three numbers.
                 None if inner.matches(',').count() == 2 && !inner.contains('<') => stays(
                     "the length of a vector: `vlength(<x, y, z>)`; in a function, `sqrt(x*x + y*y + z*z)`",
                 ),
@@ -102,8 +103,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// What to write for the call of `name` at `span`, of which all that stands in its parentheses is `argument`, if
-    /// no other parenthesis does.
+    /// Returns the replacement for the call of `name` at `span`. `argument` is the whole text in its
+    /// parentheses, if it contains no others.
     pub(super) fn function_elsewhere(
         &self,
         name: &str,

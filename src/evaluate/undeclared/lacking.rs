@@ -1,4 +1,4 @@
-//! Names that a standard include declares, which was not read.
+//! Undeclared names that a standard include, which was not read, declares.
 
 use crate::diagnostic::{Code, Diagnostic, Fix, suggest};
 use crate::source::{ExpansionKind, Span};
@@ -9,17 +9,17 @@ use super::super::lint::version_end;
 use super::super::{Evaluator, Here, Symbol};
 use super::MAIN;
 
-/// The include whose names are used most, and misspelt.
+/// The include whose names are used and misspelt most.
 const COLORS: &str = "colors.inc";
 
-/// So many includes are looked into for a name.
+/// Maximum number of includes that are searched for a name.
 const MOST_READ: usize = 16;
 
 impl Evaluator<'_> {
-    /// The standard include that declares `name`, where it was not read.
+    /// Returns the standard include that declares `name`, if it was not read.
     pub(in crate::evaluate) fn lacking_include(&self, name: &str) -> Option<String> {
         standard_include_of(name).filter(|include| {
-            // An author's own name of one letter is likelier.
+            // A single-letter name is more likely the author's own.
             name.len() > 1 && !self.has_read(include)
         })
     }
@@ -28,7 +28,7 @@ impl Evaluator<'_> {
         self.parsed.keys().any(|file| file.ends_with(include))
     }
 
-    /// The name in a standard include which was not read that one with a capital is most likely meant as.
+    /// Returns the name in an unread standard include that a capitalized name most likely means.
     pub(in crate::evaluate) fn lacking_near(&self, name: &str) -> Option<(&'static str, String)> {
         if !name.starts_with(char::is_uppercase) {
             return self.lacking_in_small_letters(name);
@@ -36,7 +36,7 @@ impl Evaluator<'_> {
         if name.len() < 3 {
             return None;
         }
-        // Of all names of the includes too many are close to a short one: only those of colours are.
+        // Too many names of the includes are close to a short one: only colours are searched.
         let near = suggest::closest(name, standard_names(COLORS))?;
         let begins = near.get(..name.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(name));
         if name.len() < 4 && !begins {
@@ -46,13 +46,13 @@ impl Evaluator<'_> {
             .then(|| (near, COLORS.to_owned()))
     }
 
-    /// `white`, `skyblue`: a colour that is `White`, `SkyBlue` there.
+    /// Returns the colour there that differs only in case: `White` for `white`, `SkyBlue` for `skyblue`.
     pub(super) fn lacking_in_small_letters(&self, name: &str) -> Option<(&'static str, String)> {
         let near = standard_color(name)?;
         (!self.has_read(COLORS)).then(|| (near, COLORS.to_owned()))
     }
 
-    /// Further down in the same file, the include that declares `name`.
+    /// Returns the include further down in the same file that declares `name`.
     pub(in crate::evaluate) fn included_below(
         &self,
         here: &Here,
@@ -88,8 +88,8 @@ impl Evaluator<'_> {
             .find(|file| declares(self.sources.text(*file).trim_matches('"')))
     }
 
-    /// Whether it was told that `include` is lacking, for another name of it; one of the main file joins what was
-    /// told of a colour.
+    /// Returns whether a missing `include` was already reported for another name. In the main file, a name is
+    /// added as a label to the diagnostic for a missing colour.
     pub(super) fn is_told_to_lack(
         &mut self,
         include: &str,
@@ -112,7 +112,7 @@ impl Evaluator<'_> {
         !is_own && include == COLORS && self.diagnostics.join(tells, span, label)
     }
 
-    /// With the include of colours at the top of the main file, for a name there.
+    /// Adds the fix that inserts the include of colours at the top of the main file, for a name there.
     fn include_at_top(&self, here: &Here, told: Diagnostic, include: &str) -> Diagnostic {
         let ast = &here.unit.ast;
         let used = told.primary().map_or(0, |label| label.span.start);
@@ -132,7 +132,8 @@ impl Evaluator<'_> {
         told.fix(Span::new(MAIN, at, at), line)
     }
 
-    /// Where a name is missing in a file that the main file includes, the include belongs before that.
+    /// If a name is missing in a file that the main file includes, adds the fix that inserts the include
+    /// before that one.
     pub(super) fn include_before(
         &self,
         here: &Here,
@@ -158,13 +159,13 @@ impl Evaluator<'_> {
     }
 }
 
-/// The colour of the standard include that `name` is in other letters: `skyblue`, `sky_blue`.
+/// Returns the colour of the standard include that `name` spells differently: `skyblue`, `sky_blue`.
 pub(in crate::evaluate) fn standard_color(name: &str) -> Option<&'static str> {
     let plain = name.replace(['_', ' '], "");
     standard_names(COLORS).find(|color| color.eq_ignore_ascii_case(&plain))
 }
 
-/// Whether a text has `#declare name`, or `#macro name`.
+/// Returns whether a text has `#declare name` or `#macro name`.
 fn declared_in(text: &str, name: &str) -> bool {
     text.match_indices('#').any(|(at, _)| {
         let line = text[..at].rsplit('\n').next().unwrap_or("");

@@ -1,4 +1,4 @@
-//! The parameters around a name that nothing has: of the function in whose formula it stands, or of a macro
+//! Suggestions of parameters for an undeclared name: those of the enclosing function, or of a macro
 //! elsewhere.
 
 use std::rc::Rc;
@@ -9,7 +9,7 @@ use crate::source::Span;
 use crate::vocabulary::{Word, is_standard_source};
 
 impl Evaluator<'_> {
-    /// The parameters of the function around a place, as they are written; without any, those that it has by itself.
+    /// Returns the parameters of the enclosing function as written; without any, its implicit ones.
     pub(super) fn parameters_around(&self, place: Span) -> Option<String> {
         let before = self.sources.get(place.file).text.get(..place.start as usize)?;
         let head = before.rfind("function")?;
@@ -31,7 +31,7 @@ impl Evaluator<'_> {
         Some(names.join(", "))
     }
 
-    /// A macro that has a parameter of this name, and the parameter's place.
+    /// Returns a macro with a parameter of this name, and the parameter's span.
     pub(super) fn macro_with_parameter(&self, symbol: Symbol) -> Option<(String, Span)> {
         let has =
             |declared: &&Rc<Macro>| declared.parameters.iter().any(|&(name, _)| name == symbol);

@@ -1,4 +1,5 @@
-//! A name that a macro declares which was not called up to here: `#macro Init() #declare R = 3; #end`.
+//! Undeclared names that a macro would declare that has not been called: `#macro Init() #declare R = 3;
+//! #end`.
 
 use std::rc::Rc;
 
@@ -10,7 +11,7 @@ use crate::syntax::ast::{DirectiveKind, ItemKind};
 use crate::vocabulary::is_standard_source;
 
 impl Evaluator<'_> {
-    /// Says of a name that nothing has which macro of the author's would declare it.
+    /// Adds to the diagnostic which of the author's macros would declare a name.
     pub(super) fn by_uncalled_macro(&self, symbol: Symbol, told: Diagnostic) -> Diagnostic {
         let declares = |declared: &&Rc<Macro>| self.declared_in_body(declared, symbol).is_some();
         let Some(found) = self.macros.iter().rev().find(declares) else { return told };
@@ -23,7 +24,7 @@ impl Evaluator<'_> {
             .help(format!("call it before: `{}`", self.form(found)))
     }
 
-    /// Where the body of a macro has a `#declare` of a name.
+    /// Returns the span of a name's `#declare` in a macro's body.
     fn declared_in_body(&self, declared: &Macro, symbol: Symbol) -> Option<Span> {
         let (unit, body) = declared.parts()?;
         unit.ast.items(body).iter().find_map(|item| {

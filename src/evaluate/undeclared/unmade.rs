@@ -1,4 +1,4 @@
-//! What is given a value before it is there: an element of an array, `#declare Points[0] = <0, 0, 0>;`, or the
+//! Assignments to what does not exist yet: an element of an array, `#declare Points[0] = <0, 0, 0>;`, or the
 //! normal of `trace(Object, A, B, Normal)`.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
@@ -8,7 +8,7 @@ use crate::source::Span;
 use crate::syntax::ast::DirectiveKind;
 
 impl Evaluator<'_> {
-    /// An element is set, and there is no array of this name, nor one much like it.
+    /// Reports an assignment to an element of an array that does not exist, with no similar name either.
     pub(in crate::evaluate) fn array_missing(
         &mut self,
         here: &Here,
@@ -53,7 +53,7 @@ impl Evaluator<'_> {
         reported
     }
 
-    /// How many elements an array has to have, where all its indices in this file are typed numbers.
+    /// Returns the size that an array needs, if all its indices in this file are literal.
     fn size_of_elements(&self, name: &str, target: Span) -> Option<u32> {
         let text = &self.sources.get(target.file).text;
         let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -73,7 +73,7 @@ impl Evaluator<'_> {
         Some(size)
     }
 
-    /// `trace(Object, A, B, Normal)`, of a normal that is nowhere declared.
+    /// Reports the undeclared normal of `trace(Object, A, B, Normal)`.
     pub(in crate::evaluate) fn normal_missing(&mut self, here: &Here, symbol: Symbol, span: Span) {
         let name = self.scopes.name(symbol).to_owned();
         if suggest::closest(&name, self.scopes.visible()).is_some() {
@@ -91,7 +91,7 @@ impl Evaluator<'_> {
         self.report(here, told);
     }
 
-    /// Where the line of a place begins with a directive, and the blanks before that.
+    /// Returns the start of the line of a position, and its indentation, if the line begins with a directive.
     fn before_line(&self, place: Span) -> Option<(Span, String)> {
         let before = self.sources.get(place.file).text.get(..place.start as usize)?;
         let start = before.rfind(['\n', '\r']).map_or(0, |at| at + 1);

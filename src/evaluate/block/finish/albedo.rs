@@ -1,11 +1,12 @@
-//! `diffuse albedo 0.7`: of all light that falls in, this part leaves again, in whatever direction.
+//! `diffuse albedo 0.7`: the fraction of all incident light that is scattered, in any direction.
 //!
-//! **Invariant:** a finish holds the weight of the brightest direction. With brilliance `b`, Phong's exponent
-//! `n`, or Blinn's, albedo `a` gives it `a·(b + 1)/2`, `a·(n + 1)/2`, `a·(n + 2) / (4·(2 − 2^(−n/2)))`, by what
-//! `b` and `n` are where the block ends: a finish that goes on from this one has the weights.
+//! **Invariant:** a finish stores the weight of the brightest direction. With brilliance `b`, Phong's
+//! exponent `n`, or Blinn's, an albedo `a` gives the weight `a·(b + 1)/2`, `a·(n + 1)/2`, `a·(n + 2) / (4·(2
+//! − 2^(−n/2)))`, with the values of `b` and `n` at the end of the block; a finish that starts from this one
+//! inherits the weights.
 //!
-//! **Source:** POV-Ray manual, section 3.4.6.3.3.1 "Diffuse" and after; the factors, and that they are taken
-//! at the end of the block, measured on POV-Ray 3.7, equal to the last of 16 bits.
+//! **Source:** POV-Ray manual, section 3.4.6.3.3.1 "Diffuse" and after. The factors, and their application at
+//! the end of the block, were measured on POV-Ray 3.7 and agree in all of 16 bits.
 
 use crate::evaluate::Evaluator;
 use crate::evaluate::stream::{Token, TokenKind};
@@ -13,7 +14,7 @@ use crate::math::elementary::pow;
 use crate::scene::ClassicFinish;
 use crate::vocabulary::Word;
 
-/// The weights of a block that are albedos.
+/// Which weights of a block are albedos.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Albedo {
     pub diffuse: bool,
@@ -22,7 +23,7 @@ pub(super) struct Albedo {
 }
 
 impl Albedo {
-    /// Turns albedos into the weights of the brightest direction.
+    /// Converts albedos to the weights of the brightest direction.
     pub fn spend(self, finish: &mut ClassicFinish) {
         if self.diffuse {
             finish.diffuse *= (finish.brilliance + 1.0) / 2.0;
@@ -38,7 +39,8 @@ impl Albedo {
 }
 
 impl Evaluator<'_> {
-    /// Takes `albedo`. Once said, it holds for the block's later numbers of its word too.
+    /// Consumes `albedo` and returns whether it came next. It then applies to the block's later numbers of
+    /// the same word, too.
     pub(super) fn skip_albedo(&mut self) -> bool {
         let found = matches!(self.peek(), Some(Token { kind: TokenKind::Word(Word::Albedo), .. }));
         found && self.next().is_some()

@@ -1,4 +1,4 @@
-//! `reflection` in a finish.
+//! `reflection` in a finish: a colour, or two for the limits of the angle.
 
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
@@ -10,13 +10,13 @@ use crate::scene::Reflection;
 use crate::source::{Site, Span};
 use crate::vocabulary::Word;
 
-/// An `exponent` as good as 0: light to the power of a million is none.
+/// An `exponent` below this counts as 0: light to the power of a million vanishes.
 const NEARLY_NOTHING: f64 = 1e-6;
 
 impl Evaluator<'_> {
-    /// `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`. What a finish had
-    /// `before` says how its reflection behaves until it is said again, as in POV-Ray. Beside it, what can
-    /// be taken out for it to be black, where less than all of it is enough.
+    /// Reads `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`. Properties that are not
+    /// specified keep their values from `before`, as in POV-Ray. Also returns the pieces whose removal makes
+    /// the reflection black, if less than all of it is enough.
     pub(super) fn reflection(
         &mut self,
         token: &Token,
@@ -69,7 +69,7 @@ impl Evaluator<'_> {
                     _ => evaluator.unexpected(&token, Place::REFLECTION),
                 }
             }
-            // With one colour only, nothing is the least (measured on POV-Ray 3.7).
+            // With only one colour, the minimum is zero (measured on POV-Ray 3.7).
             if reflection.fresnel && !both {
                 reflection.minimum = Rgb::BLACK;
             }
@@ -77,8 +77,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `exponent`: POV-Ray 3.7 takes light to the power of its reciprocal, so that 0 leaves nothing of what is
-    /// reflected (measured).
+    /// Reads `exponent`: POV-Ray 3.7 raises light to its reciprocal, so that 0 leaves no reflected light
+    /// (measured).
     fn exponent(&mut self, token: &Token) -> Outcome<f64> {
         let given = self.number_after(token, "a number")?;
         if given.value > 0.0 {
@@ -92,7 +92,7 @@ impl Evaluator<'_> {
         Ok(if given.value == 0.0 { NEARLY_NOTHING } else { given.value })
     }
 
-    /// `reflection 0.1, 0.9`, whose first number was taken.
+    /// Reports two values without braces, the first of which was taken: `reflection 0.1, 0.9`.
     fn ends_without_braces(&mut self, token: &Token) -> Option<Reported> {
         let taken = self.taken?.span;
         let behind = self.sources.get(taken.file).text.get(taken.end as usize..)?;
@@ -118,7 +118,7 @@ impl Evaluator<'_> {
         Some(self.report(&token.here, told))
     }
 
-    /// `reflection { min 0.1 max 0.5 }`.
+    /// Reports named limits: `reflection { min 0.1 max 0.5 }`.
     fn named_ends(&mut self) -> Option<Reported> {
         let first = self.peek()?.clone();
         if !matches!(first.kind, TokenKind::Word(Word::Min | Word::Max)) {
@@ -137,7 +137,8 @@ impl Evaluator<'_> {
         Some(self.report(&first.here, told))
     }
 
-    /// `reflection_min 0.1 reflection_max 0.5`, as other tools have it, which the name at `token` begins.
+    /// Reports other tools' keywords, the first of which is the name at `token`: `reflection_min 0.1
+    /// reflection_max 0.5`.
     pub(super) fn ends_of_reflection(&mut self, token: &Token) -> Option<Reported> {
         let text = self.sources.get(token.span.file).text.get(token.span.start as usize..)?;
         let (right, length) = ends_by_name(text, ["reflection_min", "reflection_max"])
@@ -157,7 +158,7 @@ impl Evaluator<'_> {
         Some(reported)
     }
 
-    /// How much is reflected at one end of the angles; all of it as a piece.
+    /// Reads the reflection at one limit of the angle; also returns its site.
     fn end_of_reflection(&mut self, opener: &Token) -> Outcome<(Given<WrittenColor>, Site)> {
         self.skip_commas();
         let first = self.peek().cloned();
@@ -167,8 +168,8 @@ impl Evaluator<'_> {
     }
 }
 
-/// `min 0.1 max 0.5` with these names, the least first, at the beginning of a text: the two as they are
-/// written here, and how long it is.
+/// Recognizes `min 0.1 max 0.5` with these names, in this order, at the beginning of a text. Returns the
+/// values in the language's syntax, and the length of the match.
 fn ends_by_name(text: &str, [least, most]: [&str; 2]) -> Option<(String, usize)> {
     let number = |text: &str, name: &str| {
         let rest = text.trim_start().strip_prefix(name)?.trim_start();

@@ -1,5 +1,5 @@
-//! Whether the words of a finish make a whole one: the seed's three together, or POV-Ray's; never both,
-//! wherever the finish starts from.
+//! Completeness of a finish: it has either all of the seed's three keywords or only POV-Ray's, never both,
+//! including those of the finish from which it starts.
 
 use super::albedo::Albedo;
 use super::list_once;
@@ -12,35 +12,34 @@ use crate::scene::{Finish, FinishOrigin};
 use crate::source::{Site, Span};
 use crate::vocabulary::Word;
 
-/// What was written in one block: the last number of each of the seed's words, and the first word of each
-/// vocabulary.
+/// Keywords of one block: the last value of each of the seed's, and the first keyword of each vocabulary.
 #[derive(Default)]
 pub(super) struct Written {
     pub kd: Option<f64>,
     pub ks: Option<f64>,
     pub phong_exponent: Option<f64>,
     pub seed: Option<(Word, Span)>,
-    /// All of the seed's words, from the first to the last.
+    /// Span from the first to the last of the seed's keywords.
     pub seed_item: Option<Site>,
-    /// Each `ks`.
+    /// Each `ks`, with its site.
     pub ks_items: Vec<(f64, Site)>,
     pub classic: Option<(Word, Span)>,
-    /// Each of POV-Ray's words.
+    /// Each of POV-Ray's keywords.
     pub said: Vec<(Word, Site)>,
-    /// Enough of the last item for it to weigh nothing, where not all of it is.
+    /// The pieces of the last item whose removal makes its weight zero, if not the whole item.
     pub pieces: Option<Vec<Site>>,
     pub albedo: Albedo,
     /// The last `ambient`.
     pub ambient: Option<Given<Rgb>>,
-    /// Each word of a highlight, for its strength or its size.
+    /// Each keyword for the strength or the size of a highlight.
     pub highlights: Vec<(Word, Site)>,
-    /// Where it starts from: its words count as written here.
+    /// The origin of the finish from which this one starts; its keywords count as written here.
     pub origin: FinishOrigin,
 }
 
 impl Written {
-    /// An item set the weight of `word`; where `pieces` of it make that zero, the rest still hides what
-    /// was set before.
+    /// Records that an item set the weight of `word`. If removing `pieces` of it makes the weight zero, the
+    /// rest still hides what was set before.
     pub fn weigh(&mut self, word: Word, weightless: bool, item: Site, pieces: Option<Vec<Site>>) {
         let Self { origin, .. } = self;
         origin.zeros.retain(|(other, _)| *other != word);
@@ -67,14 +66,15 @@ impl Written {
         }
     }
 
-    /// The seed's words made a whole finish of weight `ks`, of one with the weight `before`.
+    /// Records that the seed's keywords complete a finish of weight `ks`, starting from one with the weight
+    /// `before`.
     pub fn weigh_seed(&mut self, ks: f64, before: Option<f64>) {
         let Self { origin, .. } = self;
         let Some(item) = self.seed_item else { return };
         origin.zeros.clear();
         let zero = self.ks_items.iter().rposition(|(weight, _)| *weight == 0.0);
         if ks == 0.0 || before == Some(0.0) || (before.is_some() && zero.is_some()) {
-            // What was before stays hidden, or is nothing.
+            // The earlier words stay hidden, or have no weight.
             origin.highlights.clear();
             origin.reflection.clear();
             origin.all_of_seed = false;
@@ -88,7 +88,7 @@ impl Written {
                 let since = self.ks_items.iter().skip(zero.map_or(0, |zero| zero + 1));
                 since.map(|(_, item)| *item).collect()
             }
-            // All of them, or some would be left alone.
+            // All of them, or some would remain alone.
             _ => {
                 origin.all_of_seed = true;
                 vec![item]
@@ -100,7 +100,7 @@ impl Written {
         }
     }
 
-    /// Both vocabularies in one finish: the word that came later is wrong.
+    /// Returns the diagnostic for both vocabularies in one finish, at the later keyword.
     fn mixed(&self) -> Option<Diagnostic> {
         let earlier = |word: Option<(Word, Site)>| word.map(|(word, site)| (word, site.span));
         let (seed, seed_span) = self.seed.or(earlier(self.origin.seed))?;
@@ -127,7 +127,7 @@ impl FinishOrigin {
 }
 
 impl Evaluator<'_> {
-    /// The seed's words come together, and with none of POV-Ray's.
+    /// Checks that the seed's keywords are complete and not mixed with POV-Ray's.
     pub(super) fn whole_finish(
         &mut self,
         opener: &Token,

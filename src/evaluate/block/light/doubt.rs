@@ -1,7 +1,7 @@
-//! Words of a light that do nothing, or hardly what is meant.
+//! Warnings for light keywords that have no effect, or an unlikely one.
 //!
-//! **Invariant:** what POV-Ray's own scenes do with them is no mistake: `radius -90 falloff 90 tightness 1`
-//! falls off with the cosine.
+//! **Invariant:** usage in POV-Ray's own scenes is not a mistake: `radius -90 falloff 90 tightness 1` falls
+//! off with the cosine.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{LightKind, LightSource};
@@ -13,13 +13,13 @@ use super::super::super::{Evaluator, Outcome};
 use super::super::part::Given;
 use super::Written;
 
-/// What is said of the number of a word: a message, and what was expected.
+/// A warning about a keyword's number: the value, the message, and what was expected.
 struct Doubt<'a>(&'a Given<f64>, String, &'static str);
 
 impl Evaluator<'_> {
-    /// `fade_distance 3, 2`: the second number is rather the power.
+    /// Warns of a second number that was probably meant as the power: `fade_distance 3, 2`.
     pub(super) fn power_behind_distance(&mut self, token: &Token) {
-        // Without a comma it may be a colour of grey.
+        // Without a comma it may be a grey colour.
         let rest = self.taken.and_then(|taken| {
             let text = &self.sources.get(taken.span.file).text;
             text.get(taken.span.end as usize..)?.trim_start().strip_prefix(',')
@@ -55,7 +55,8 @@ impl Evaluator<'_> {
         self.report(&here, diagnostic);
     }
 
-    /// Tells what is doubtful in a light, before it is spent; of one from infinitely far, what is wrong.
+    /// Warns of doubtful settings of a light, before they are applied. For a light at infinity, reports
+    /// invalid ones.
     pub(super) fn doubt_light(&mut self, light: &LightSource, written: &Written) -> Outcome<()> {
         if self.poison.is_some() {
             return Ok(());

@@ -1,7 +1,8 @@
-//! The kind of a light where it does not stand: before its place, with braces of its own, as `point`; and
-//! a light that is closed before its colour.
+//! Diagnostics for a misplaced kind of light: before the position, with braces of its own, or as `point`; and
+//! for a light that is closed before its colour.
 //!
-//! **Invariant:** what belongs to it is read as it was meant, so that nothing else is told of it.
+//! **Invariant:** the misplaced items are read as they were meant, so that no further error is reported for
+//! them.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::LightSource;
@@ -13,8 +14,8 @@ use super::super::super::{Evaluator, Outcome, Reported};
 use super::order::Late;
 
 impl Evaluator<'_> {
-    /// `light_source { spotlight <1, 2, 3> rgb 1 … }`, `light_source { point <1, 2, 3> … }`: a light that
-    /// begins with its kind.
+    /// Reads a light that begins with its kind: `light_source { spotlight <1, 2, 3> rgb 1 … }`, `light_source
+    /// { point <1, 2, 3> … }`.
     pub(super) fn light_by_kind(
         &mut self,
         opener: &Token,
@@ -63,7 +64,7 @@ impl Evaluator<'_> {
         Some((Err(self.report(&first.here, told)), None))
     }
 
-    /// `spotlight { point_at 0 radius 10 }`.
+    /// Reads a kind with braces of its own: `spotlight { point_at 0 radius 10 }`.
     pub(super) fn kind_without_braces(&mut self, token: &Token) -> Outcome<()> {
         let Some(Token { kind: TokenKind::Block(contents), here, span }) =
             self.next_if(|kind| matches!(kind, TokenKind::Block(_)))
@@ -86,7 +87,7 @@ impl Evaluator<'_> {
         Err(reported)
     }
 
-    /// The `}` of the block that is read, where a light's colour stands right behind it: `{ <1, 2, 3> } rgb 1`.
+    /// Returns the `}` of the block being read, if a colour follows it: `{ <1, 2, 3> } rgb 1`.
     pub(super) fn closer_before_color(&self) -> Option<Span> {
         let block = self.blocks.last()?.span;
         if !self.sources.text(block).ends_with('}') {
@@ -99,7 +100,7 @@ impl Evaluator<'_> {
         is_color.then_some(Span { start: block.end - 1, ..block })
     }
 
-    /// Takes the colour behind the block of a light, which `closer` ends, and tells that.
+    /// Takes the colour after the block of a light that `closer` ends, and reports it.
     pub(super) fn color_behind_light(&mut self, token: &Token, closer: Span) -> Reported {
         self.skip_commas();
         self.skip_color(token);

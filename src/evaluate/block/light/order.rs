@@ -1,6 +1,6 @@
-//! A light's colour or direction in the wrong place: only the order is wrong, and that is what is told.
+//! Diagnostics for a light's colour or direction in the wrong order.
 //!
-//! **Invariant:** a colour that comes late or early is no second mistake.
+//! **Invariant:** a late or early colour causes no second error.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{LightKind, LightSource};
@@ -11,17 +11,17 @@ use super::super::super::stream::{Token, TokenKind};
 use super::super::super::{Evaluator, Outcome, Reported};
 use super::is_of_a_place;
 
-/// A light's colour that does not stand where it should: it may come after other words.
+/// A light's colour that is missing from its position; it may follow other words.
 pub(super) struct Late {
     opener: Token,
-    /// What stands in its place; `None` is the block's end.
+    /// The item in its position; `None` at the end of the block.
     found: Option<Token>,
-    /// The end of what stands before that.
+    /// The end of the item before that.
     place: Site,
 }
 
 impl Late {
-    /// Nothing stands in its place.
+    /// Returns whether the block ends where the colour is expected.
     pub fn ends_block(&self) -> bool {
         self.found.is_none()
     }
@@ -33,7 +33,7 @@ impl Evaluator<'_> {
         matches!(next, Some(TokenKind::Word(word)) if word.family() == Family::Color)
     }
 
-    /// Behind a light's place: whether its colour does not stand there.
+    /// Returns a record of the missing colour if none follows a light's position.
     pub(super) fn late_color(&mut self, opener: &Token) -> Option<Late> {
         let before = self.taken?;
         let found = self.peek().cloned();
@@ -44,7 +44,7 @@ impl Evaluator<'_> {
         is_late.then(|| Late { opener: opener.clone(), found, place })
     }
 
-    /// The colour, which should have stood right after the light's place.
+    /// Reads the colour, which should have followed the light's position.
     pub(super) fn take_late_color(
         &mut self,
         token: &Token,
@@ -52,7 +52,7 @@ impl Evaluator<'_> {
         light: Option<&mut LightSource>,
     ) -> Outcome<()> {
         let color = self.color_from(token)?;
-        // Without a light there was a mistake already.
+        // Without a light there has been an error already.
         let Some(light) = light else { return Err(Reported) };
         let Some(late) = late else {
             let diagnostic = Diagnostic::new(Code::ExtraPart, "this light has a colour already")
@@ -82,7 +82,7 @@ impl Evaluator<'_> {
         Err(self.report(&token.here, diagnostic))
     }
 
-    /// The colour never came.
+    /// Reports that the light has no colour.
     pub(super) fn no_color(&mut self, late: &Late) -> Outcome<()> {
         if self.poison.is_some() {
             return Ok(());
@@ -90,7 +90,7 @@ impl Evaluator<'_> {
         let name = self.describe(&late.opener);
         let found = match &late.found {
             Some(found) => format!(", found {}", self.describe(found)),
-            // It is taken, and that told, behind the block.
+            // It is taken and reported after the block.
             None if self.closer_before_color().is_some() => return Err(Reported),
             None => String::new(),
         };
@@ -116,7 +116,7 @@ impl Evaluator<'_> {
         self.opinion(&late.opener.here, diagnostic)
     }
 
-    /// The end of the line up to a place, in backticks.
+    /// Returns the end of the line before a position, in backticks.
     fn before(&self, place: Span) -> String {
         let text = &self.sources.get(place.file).text;
         let before = text.get(..place.start as usize).unwrap_or("");
@@ -124,7 +124,7 @@ impl Evaluator<'_> {
         if piece.is_empty() { "its place".to_owned() } else { format!("`{piece}`") }
     }
 
-    /// `light_source { rgb 1 <1, 2, 3> }`: the colour, then the place or the direction.
+    /// Reads a light whose colour precedes the position or the direction: `light_source { rgb 1 <1, 2, 3> }`.
     pub(super) fn color_before_place(&mut self, opener: &Token) -> Outcome<LightSource> {
         let Some(first) = self.next() else { return Err(Reported) };
         let color = self.color_from(&first);
@@ -169,7 +169,7 @@ impl Evaluator<'_> {
         Err(self.report(&next.here, diagnostic))
     }
 
-    /// A `direction` after the place or another direction.
+    /// Reports a `direction` after the position or another direction.
     pub(super) fn second_direction(
         &mut self,
         token: &Token,
@@ -179,7 +179,7 @@ impl Evaluator<'_> {
         self.skip_values();
         self.take_back(before);
         let (message, label) = match light.map(|light| &light.kind) {
-            // Without a light there was a mistake already.
+            // Without a light there has been an error already.
             None => return Err(Reported),
             Some(LightKind::Direction { .. }) => {
                 ("this light has a `direction` already", "expected one")

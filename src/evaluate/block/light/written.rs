@@ -1,6 +1,6 @@
-//! What the words of a light say, and the light that they make.
+//! Settings of a light as written, and the light that results from them.
 //!
-//! **Invariant:** of words of one kind the last counts, in whatever order they stand.
+//! **Invariant:** the last keyword of each kind counts, in whatever order they appear.
 
 use crate::math::Vector;
 use crate::scene::{Beam, Dialect, Fade, LightKind, LightSource, TransformId};
@@ -11,35 +11,36 @@ use super::super::super::stream::Token;
 use super::super::finish::list_once;
 use super::super::part::Given;
 
-/// What a light's words say, in whatever order.
+/// Settings of a light.
 pub(super) struct Written {
-    /// `parallel`, `spotlight`, `cylinder`. The last counts; but what is `parallel` is no spotlight.
+    /// `parallel`, `spotlight` and `cylinder`, in source order. The last counts, but a `parallel` light is
+    /// not a spotlight.
     pub shapes: Vec<Word>,
     /// A second kind of beam.
     pub second: Option<Token>,
-    /// The last word that says where its axis lies.
+    /// The last keyword that sets its axis.
     pub last: Option<Token>,
     pub point_at: Vector,
-    /// The transforms before it.
+    /// The transforms before `point_at`.
     pub aimed_after: Vec<TransformId>,
     pub radius: Option<f64>,
     pub falloff: Option<f64>,
     pub tightness: f64,
-    /// Of distance or power 0 or less: none.
+    /// No fading if the distance or the power is 0 or less.
     pub fade: Fade,
-    /// Each `fade_distance`, and all of it as a piece of the text.
+    /// Each `fade_distance`, with the site of the whole item.
     pub distances: Vec<(f64, Site)>,
-    /// The numbers as they stand in the text.
+    /// The numbers as written.
     pub numbers: Vec<(Word, Given<f64>)>,
-    /// Words that a light without a place has no use for.
+    /// Keywords that are invalid for a light without a position.
     pub of_a_place: Vec<Token>,
 }
 
 impl Written {
-    /// What a light was before; nothing where there is none.
+    /// Returns the settings of an existing light; the defaults if there is none.
     ///
-    /// **Source:** POV-Ray 3.7's behaviour, measured: its default `point_at` is <0, 0, 1>, where its
-    /// manual says <0, 0, 0>; `tightness` is 0, and a `fade_distance` or `fade_power` alone is nothing.
+    /// **Source:** measured in POV-Ray 3.7: the default `point_at` is <0, 0, 1>, although its manual says <0,
+    /// 0, 0>; `tightness` is 0, and a `fade_distance` or `fade_power` alone has no effect.
     pub fn of(light: Option<&LightSource>, dialect: Dialect) -> Self {
         let point_at = match dialect {
             Dialect::Scene => Vector::ZERO,
@@ -74,7 +75,7 @@ impl Written {
         written
     }
 
-    /// Notes the number of a word.
+    /// Records the number of a keyword.
     pub fn say(&mut self, word: Word, given: Given<f64>) {
         match word {
             Word::Radius => self.radius = Some(given.value),
@@ -86,12 +87,12 @@ impl Written {
         self.numbers.push((word, given));
     }
 
-    /// The last number of a word, where one is written here.
+    /// Returns the last number of a keyword that is written here.
     pub fn said(&self, word: Word) -> Option<&Given<f64>> {
         self.numbers.iter().rev().find(|(other, _)| *other == word).map(|(_, given)| given)
     }
 
-    /// The kind of beam it is, as [`Self::spend`] makes it: `spotlight`, `cylinder`, or none.
+    /// Returns the kind of beam that [`Self::spend`] creates: `spotlight`, `cylinder`, or none.
     pub fn round(&self, light: &LightSource) -> Option<Word> {
         let before = match light.kind {
             LightKind::Spotlight { .. } => Some(Word::Spotlight),
@@ -105,27 +106,27 @@ impl Written {
         (round == Word::Cylinder || !parallel).then_some(round)
     }
 
-    /// What has to be taken out for the light not to fade: it takes a distance and a power, and half of a
-    /// fade does not outlast its block (measured on POV-Ray 3.7).
+    /// Records the pieces whose removal stops the light from fading: fading needs a distance and a power, and
+    /// half of a fade does not outlast its block (measured on POV-Ray 3.7).
     fn note_fade(&self, light: &mut LightSource) {
         let zero = self.distances.iter().rposition(|(distance, _)| *distance == 0.0);
         let since = self.distances.iter().skip(zero.map_or(0, |zero| zero + 1));
         if zero.is_some() || light.fade.is_none() {
-            // What was before is hidden, or nothing.
+            // The earlier fade is hidden, or none.
             light.fade_sites.clear();
         } else if self.said(Word::FadePower).is_none() {
-            // It goes with the power that was before.
+            // It combines with the earlier power.
             return;
         }
         since.for_each(|(_, piece)| list_once(&mut light.fade_sites, *piece));
     }
 
-    /// Makes the light what is written; returns the word that needs another `point_at`.
+    /// Applies the settings to the light; returns the keyword that needs another `point_at`.
     pub fn spend(self, light: &mut LightSource) -> Option<Token> {
         let round = self.round(light);
         let parallel = matches!(light.kind, LightKind::Parallel { .. });
         if parallel || self.shapes.contains(&Word::Parallel) {
-            // What is parallel is no spotlight.
+            // A parallel light is not a spotlight.
             light.beam_sites.retain(|(word, _)| *word == Word::Cylinder);
         }
         self.note_fade(light);
@@ -137,7 +138,7 @@ impl Written {
             LightKind::Parallel { location, .. }
             | LightKind::Spotlight { location, .. }
             | LightKind::Cylinder { location, .. } => (location, true),
-            // Light from infinitely far has neither a distance nor an axis.
+            // A light at infinity has neither a distance nor an axis.
             LightKind::Direction { .. } => {
                 light.fade = None;
                 return None;

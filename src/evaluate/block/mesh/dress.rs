@@ -1,6 +1,6 @@
-//! What the faces of a mesh have of their own: textures, and places in one.
+//! Per-face attributes of a mesh: textures and texture coordinates.
 //!
-//! **Invariant:** each index is that of an entry.
+//! **Invariant:** each index refers to an existing entry.
 
 use std::collections::HashMap;
 
@@ -14,15 +14,15 @@ use super::super::super::value::Value;
 use super::super::super::{Evaluator, Outcome, Reported};
 use super::super::{Given, Place};
 
-/// Of one face.
+/// Attributes of one face.
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Dress {
-    /// A texture for each corner, of [`Textures`].
+    /// Index into [`Textures`] for each corner.
     pub paint: Option<[u32; 3]>,
     pub uvs: Option<[[f64; 2]; 3]>,
 }
 
-/// The textures of a mesh's triangles, each once.
+/// The textures of a mesh's triangles, without duplicates.
 #[derive(Debug, Default)]
 pub(super) struct Textures {
     list: Vec<TextureId>,
@@ -35,11 +35,11 @@ impl Textures {
     }
 }
 
-/// A face of a `mesh2`, and the textures of its corners.
+/// A face of a `mesh2`, and the texture index of each corner.
 pub(super) type Painted = ([f64; 3], Option<[u32; 3]>);
 
 impl Evaluator<'_> {
-    /// One of the words that may stand behind the corners of a mesh's triangle.
+    /// Reads an item after the corners of a mesh's triangle.
     pub(super) fn dress(
         &mut self,
         token: &Token,
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Where a texture stands in a mesh's list, into which it comes if it is new.
+    /// Returns the index of a texture in a mesh's list, adding it if it is new.
     fn number_of_texture(&self, id: TextureId, all: &mut Textures) -> u32 {
         let texture = &self.scene.textures[id.index()];
         let key = (texture.pigment, texture.finish, texture.transforms.clone());
@@ -81,13 +81,13 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `texture { … }`, to which no layer belongs.
+    /// Reads `texture { … }`, which cannot have layers here.
     fn face_texture(&mut self, token: &Token) -> Outcome<TextureId> {
         let texture = self.one_texture(token)?;
         Ok(self.add_texture(texture))
     }
 
-    /// The textures to the end of a block, each in braces or by its name alone.
+    /// Reads textures up to the end of a block, each in braces or as a bare name.
     fn listed_textures(&mut self) -> Outcome<Vec<TextureId>> {
         let mut listed = Vec::new();
         while let Some(token) = self.next() {
@@ -122,8 +122,8 @@ impl Evaluator<'_> {
         Ok(listed)
     }
 
-    /// `texture_list { count, texture { … }, … }` of a `mesh2`; and whether they are as many as it says, else that is
-    /// told.
+    /// Reads `texture_list { count, texture { … }, … }` of a `mesh2`. Also returns whether their number
+    /// equals the count; if not, it has been reported.
     pub(super) fn texture_list(&mut self, list: &Token) -> Outcome<(Vec<TextureId>, bool)> {
         self.block(list, Word::TextureList, |evaluator| {
             let count = evaluator.number_after(list, "how many there are")?;
@@ -148,9 +148,9 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `face_indices` behind a `texture_list` of `textures`: behind a face may stand the number of its
-    /// texture, or those of its corners. What follows the point of each is dropped, as in POV-Ray.
-    /// Also whether a texture was told that is not there.
+    /// Reads `face_indices` after a `texture_list` of `textures`: each face may be followed by the index of
+    /// its texture, or one index for each corner. Fractions are truncated, as in POV-Ray. Also returns
+    /// whether an invalid texture index was reported.
     pub(super) fn painted_faces(
         &mut self,
         list: &Token,
@@ -216,14 +216,14 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Whether a value stands behind commas.
+    /// Returns whether a value comes next, after any commas.
     fn is_value_next(&mut self) -> bool {
         self.skip_commas();
         let next = self.peek().map(|token| &token.kind);
         matches!(next, Some(TokenKind::Expression(_) | TokenKind::Literal(_)))
     }
 
-    /// A point of a texture, of two numbers.
+    /// Reads a texture coordinate of two numbers.
     pub(in super::super) fn uv_after(&mut self, token: &Token, name: &str) -> Outcome<[f64; 2]> {
         let wanted = format!("a vector of two numbers for the {name} corner");
         let given = self.given(token, &wanted)?;

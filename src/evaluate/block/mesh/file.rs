@@ -1,6 +1,6 @@
 //! `mesh { file "bunny.ply" … }`: triangles from another program's file.
 //!
-//! **Invariant:** a file is read once, however often it is named; what is made of it is shared.
+//! **Invariant:** a file is read once, however often it is named, and the resulting data is shared.
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -20,30 +20,30 @@ use super::super::super::stream::{Token, TokenKind};
 use super::super::super::{Evaluator, Here, Outcome, Reported};
 use super::flaw::{Flawed, Flaws, is_degenerate};
 
-/// What meshes were read from files.
+/// Cache of meshes read from files.
 #[derive(Debug, Default)]
 pub(in crate::evaluate) struct MeshFiles {
-    /// By the name in the scene, and the file of the scene that names it.
+    /// By the name in the scene, and the scene file that contains it.
     named: HashMap<(String, FileId), Rc<Read>>,
-    /// By the name it was found under.
+    /// By the name under which it was found.
     found: HashMap<String, Rc<Read>>,
-    /// With another way out than none.
+    /// Copies with an `inside_vector`.
     solids: HashMap<(*const Triangles, [u64; 3]), Arc<Triangles>>,
-    /// The colours of the mesh that was just read.
+    /// The colours of the mesh read last.
     painted: Option<(PigmentId, Site)>,
 }
 
-/// A file that was read.
+/// The contents of a mesh file.
 #[derive(Debug)]
 pub(super) struct Read {
     triangles: Arc<Triangles>,
-    /// Where the file has colours.
+    /// Set if the file has colours.
     pigment: Option<PigmentId>,
     degenerate: u32,
 }
 
 impl Evaluator<'_> {
-    /// `file "bunny.ply"`.
+    /// Reads `file "bunny.ply"`.
     pub(super) fn mesh_file(&mut self, token: &Token) -> Outcome<Rc<Read>> {
         let value = match self.peek() {
             Some(next @ Token { kind: TokenKind::Expression(_), .. }) => next.clone(),
@@ -83,7 +83,7 @@ impl Evaluator<'_> {
         Ok(read)
     }
 
-    /// The mesh of a file; what is wrong with it, unless that was told.
+    /// Reads the mesh in a file; returns what is wrong with it, unless that was reported.
     #[expect(clippy::result_large_err, reason = "an error is told once a file")]
     fn read_mesh(
         &mut self,
@@ -98,7 +98,7 @@ impl Evaluator<'_> {
         if let Some(read) = self.meshes.found.get(&found.name) {
             return Ok(read.clone());
         }
-        // It is no text, and has its name there alone.
+        // It is not scene text, so the sources hold only its name.
         self.sources.add(Source::new(found.name.clone(), ""));
         let mut beside = |other: &str| {
             let file = files.read(other, &found.name);
@@ -149,7 +149,8 @@ impl Evaluator<'_> {
         })
     }
 
-    /// What `mesh` is that holds a `file`, and `triangles` of its own, of which only the way out counts.
+    /// Returns the solid for a `mesh` with a `file`. Reports triangles of its `own`, which may only
+    /// contribute an `inside_vector`.
     pub(super) fn mesh_of_file(
         &mut self,
         token: &Token,
@@ -187,7 +188,7 @@ impl Evaluator<'_> {
         Ok(Solid::Triangles { word: Word::Mesh, triangles })
     }
 
-    /// The texture that the mesh just read has before all that is written.
+    /// Returns the texture from the file of the mesh read last, which precedes all modifiers.
     pub(in super::super) fn paint_of_file(&mut self) -> Option<Modifier> {
         let (pigment, site) = self.meshes.painted.take()?;
         let finish = self.scene.textures[self.default_texture.index()].finish;
@@ -196,7 +197,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// A mesh that is not there, though one of another ending may be.
+/// Returns the diagnostic for a mesh file that does not exist, suggesting one with another extension.
 fn missing_mesh(
     files: &dyn Files,
     from: &str,

@@ -1,6 +1,6 @@
-//! Flaws of a mesh that it can be drawn with: triangles that are nothing, normals that point nowhere.
+//! Warnings for flaws with which a mesh can still be rendered: degenerate triangles and normals of length 0.
 //!
-//! **Invariant:** each is told once a mesh, however many of its triangles have it.
+//! **Invariant:** each flaw is reported once for each mesh, however many of its triangles have it.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
@@ -11,7 +11,7 @@ use crate::vocabulary::{Dialect, Word};
 use super::super::super::stream::Token;
 use super::super::super::{Evaluator, Outcome};
 
-/// How many have a flaw, and where the first of them stands, if that is known.
+/// The number of elements with a flaw, and the position of the first, if known.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Flawed {
     pub count: u32,
@@ -29,12 +29,12 @@ impl Flawed {
 pub(super) struct Flaws {
     /// Triangles that are lines or points.
     pub degenerate: Flawed,
-    /// Normals of length 0, at corners of the other triangles.
+    /// Normals of length 0 at corners of the other triangles.
     pub aimless: Flawed,
 }
 
 impl Evaluator<'_> {
-    /// A list of a mesh2 that must not be empty: POV-Ray, too, refuses a mesh without a triangle.
+    /// Reports an empty list of a `mesh2`; POV-Ray also refuses a mesh without triangles.
     pub(super) fn expect_entries(&mut self, list: &Token, count: usize, of: &str) -> Outcome<()> {
         if count > 0 {
             return Ok(());
@@ -67,19 +67,19 @@ impl Evaluator<'_> {
         Err(self.report(&list.here, diagnostic))
     }
 
-    /// Tells what is wrong with some of a mesh's triangles, of which `left` are there to be seen.
+    /// Warns of flawed triangles in a mesh, of which `left` remain visible.
     pub(super) fn tell_of_flaws(&mut self, token: &Token, word: Word, left: usize, flaws: Flaws) {
         let Flaws { degenerate, aimless } = flaws;
         let mesh = token.here.site(token.span);
         if left == 0 && self.poison.is_none() {
             self.scene.sizeless.push((word.name(), mesh));
-            // Of a mesh2 POV-Ray 3.7 draws nothing then, and refuses a mesh (measured).
+            // POV-Ray 3.7 then draws nothing for a mesh2, and refuses a mesh (measured).
             if word == Word::Mesh2 && degenerate.count > 0 && self.options.dialect == Dialect::Pov {
                 let diagnostic = without_triangles(token, word, degenerate.count);
                 self.report(&token.here, diagnostic.as_warning());
                 return;
             }
-            // Unless its triangles stand too late.
+            // Unless its triangles come too late.
             self.owed =
                 Some((token.here.clone(), without_triangles(token, word, degenerate.count)));
         } else if degenerate.count > 0 {
@@ -104,7 +104,7 @@ impl Evaluator<'_> {
         self.tell_of_aimless(aimless, word, mesh);
     }
 
-    /// Normals of length 0, which `lower` leaves out.
+    /// Warns of normals of length 0, which `lower` omits.
     pub(super) fn tell_of_aimless(&mut self, normals: Flawed, word: Word, mesh: Site) {
         let message = match normals.count {
             0 => return,
@@ -123,7 +123,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// POV-Ray, too, refuses a mesh of which nothing is left.
+/// Returns the diagnostic for a mesh without any triangle left, which POV-Ray refuses as well.
 fn without_triangles(token: &Token, word: Word, degenerate: u32) -> Diagnostic {
     let name = word.name();
     let told = match degenerate {
@@ -148,7 +148,7 @@ fn without_triangles(token: &Token, word: Word, degenerate: u32) -> Diagnostic {
     }
 }
 
-/// Whether three corners lie in a line, or one of them nowhere.
+/// Returns whether three corners are collinear, or one of them is not finite.
 pub(super) fn is_degenerate(corners: [Vector; 3]) -> bool {
     let is_nowhere = corners.iter().any(|corner| !corner.is_finite());
     let [a, b, c] = corners.map(DoubleVector::from);

@@ -1,4 +1,4 @@
-//! The file of a mesh as it is guessed to be written: `mesh { "bunny.ply" }`, `mesh2 { obj "bunny.obj" }`.
+//! Diagnostics for a mesh file written without `file`: `mesh { "bunny.ply" }`, `mesh2 { obj "bunny.obj" }`.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::mesh_file;
@@ -11,8 +11,8 @@ use super::super::super::stream::{Token, TokenKind};
 use super::super::super::{Evaluator, Reported};
 
 impl Evaluator<'_> {
-    /// The name of a mesh's file right behind `{`, without `file` before it, or with another word; what follows is
-    /// read for its own mistakes. `token` has opened the block, as `word`.
+    /// Reports a mesh's file name right after `{`, without `file` before it or with another word. The
+    /// following items are read for their own mistakes. `token` opened the block, as `word`.
     pub(super) fn file_unworded(&mut self, token: &Token, word: Word) -> Option<Reported> {
         let first = self.peek()?.clone();
         let TokenKind::Expression(id) = first.kind else { return None };

@@ -16,7 +16,7 @@ use super::super::super::{Evaluator, Here, Outcome, Reported};
 use super::super::counted::entry_of;
 use super::flaw::{Flawed, Flaws, is_degenerate};
 
-/// What stands in a `mesh2`.
+/// Items of a `mesh2`.
 const OF_MESH2: &[Word] = &[
     Word::VertexVectors,
     Word::NormalVectors,
@@ -29,19 +29,19 @@ const OF_MESH2: &[Word] = &[
     Word::Hierarchy,
 ];
 
-/// The lists of a `mesh2`, each with what it was opened by.
+/// The lists of a `mesh2`, each with the token that opened it.
 #[derive(Default)]
 struct Lists {
     vertices: Option<(Token, Vec<Vector>)>,
-    /// How many vertices are to come.
+    /// The announced number of vertices.
     announced: usize,
     normals: Option<(Token, Vec<Vector>)>,
     uv_vectors: Option<(Token, Vec<Vector>)>,
     textures: Vec<TextureId>,
-    /// They were not understood.
+    /// The texture list could not be read.
     textures_lost: bool,
     faces: Option<(Token, Vec<[f64; 3]>)>,
-    /// Of each face, where there are textures.
+    /// The textures of each face, if there are any.
     paint: Vec<Option<[u32; 3]>>,
     face_normals: Option<(Token, Vec<[f64; 3]>)>,
     face_uv: Option<(Token, Vec<[f64; 3]>)>,
@@ -49,7 +49,7 @@ struct Lists {
 }
 
 impl Evaluator<'_> {
-    /// `mesh2 { vertex_vectors { … } … face_indices { … } … }`.
+    /// Reads `mesh2 { vertex_vectors { … } … face_indices { … } … }`.
     pub(in super::super) fn mesh2(&mut self, token: &Token) -> Outcome<Solid> {
         if let Some(reported) = self.file_unworded(token, Word::Mesh2) {
             return Err(reported);
@@ -88,14 +88,14 @@ impl Evaluator<'_> {
             let message = format!("this mesh2 has no `{}`", missing.join("` and no `"));
             let diagnostic =
                 Diagnostic::new(Code::MissingPart, message).at(token.span, Word::Mesh2.sentence());
-            // Unless they stand too late.
+            // Unless they come too late.
             self.owed = Some((token.here.clone(), diagnostic));
             return Err(Reported);
         };
         self.expect_entries(&of_vertices, vertices.len(), "vertices")?;
         self.expect_entries(&of_faces, faces.len(), "faces")?;
         let is_pov = self.options.dialect == Dialect::Pov;
-        // Of lists without an entry POV-Ray 3.7 takes no notice (measured).
+        // POV-Ray 3.7 ignores lists without an entry (measured).
         let is_said = |list: &(Token, Vec<Vector>)| !is_pov || !list.1.is_empty();
         let (normals, uv_vectors) =
             (normals.filter(is_said), uv_vectors.filter(|list| is_said(list) || face_uv.is_some()));
@@ -108,7 +108,7 @@ impl Evaluator<'_> {
             (Some((_, normals)), Some((of_indices, indices))) => {
                 let indices =
                     self.as_indices(&of_indices, &indices, normals.len(), "normal_vectors")?;
-                // Those that have none are flat, and the last.
+                // Faces without normals are flat, and come last.
                 if indices.len() > corners.len() {
                     let found = (indices.len(), "normals");
                     self.one_for_each(&of_indices, found, ("face", corners.len()))?;
@@ -137,7 +137,7 @@ impl Evaluator<'_> {
                 self.one_for_each(&of_indices, found, ("face", corners.len()))?;
                 Some((uvs, indices))
             }
-            // One place for all (measured).
+            // One coordinate for all (measured).
             (Some((_, uvs)), None) if is_pov && uvs.len() == 1 => {
                 Some((uvs, vec![[0; 3]; corners.len()]))
             }
@@ -162,7 +162,7 @@ impl Evaluator<'_> {
             (!flat).then_some(Face { vertices: all, normals, paint, uvs })
         });
         let faces: Vec<Face> = faces.collect();
-        // Those of faces that are left out.
+        // Those of omitted faces.
         let somewhere = |vertex: Vector| if vertex.is_finite() { vertex } else { Vector::ZERO };
         let vertices = vertices.into_iter().map(somewhere).collect();
         let first = first.and_then(|first| self.entry_in(&of_faces, count, first));
@@ -176,7 +176,7 @@ impl Evaluator<'_> {
         self.whole_mesh(token, Word::Mesh2, triangles, flaws)
     }
 
-    /// Normals of length 0 among those that faces have; what no face has may be anything.
+    /// Returns the normals of length 0 that faces use; unused ones may be anything.
     fn aimless(&self, list: Option<&Token>, normals: &[Vector], faces: &[Face]) -> Flawed {
         let used = faces.iter().filter_map(|face| face.normals).flatten();
         let zero = used.filter(|&i| normals[i as usize] == Vector::ZERO);
@@ -233,8 +233,8 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// `{ count, <…>, <…>, … }`: that many vectors, each filled up with zeros to three numbers. There may
-    /// be megabytes of them.
+    /// Reads `{ count, <…>, <…>, … }`: that many vectors, each padded with zeros to three numbers. The list
+    /// may be megabytes long.
     fn entries(
         &mut self,
         list: &Token,
@@ -304,7 +304,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// A list goes on behind its last entry.
+    /// Reports entries after a list's announced end.
     pub(super) fn too_many(
         &mut self,
         list: Word,
@@ -337,7 +337,7 @@ impl Evaluator<'_> {
         self.report(here, diagnostic)
     }
 
-    /// Indices of a list of `count` entries; what follows the point of each is dropped, as in POV-Ray.
+    /// Converts numbers to indices into a list of `count` entries; fractions are truncated, as in POV-Ray.
     fn as_indices(
         &mut self,
         list: &Token,
@@ -370,7 +370,7 @@ impl Evaluator<'_> {
         Ok(indices.iter().map(|all| all.map(|index| index as u32)).collect())
     }
 
-    /// Where entry `entry` is written, in a list of plain vectors.
+    /// Returns the span of entry `entry` in a list of literal vectors.
     fn entry_in(&self, list: &Token, entries: usize, entry: usize) -> Option<Span> {
         let text = &self.sources.get(list.span.file).text;
         let rest = text.get(list.span.range().end..)?;
@@ -382,7 +382,7 @@ impl Evaluator<'_> {
             let (open, _) = block.match_indices('<').nth(entry)?;
             (open, block[open..].find('>')? + 1)
         } else {
-            // `-z` among them: what stands between commas, behind the count.
+            // `-z` may be among them: entries are separated by commas, after the count.
             let mut depth = 0;
             let parts = block.split(|c| {
                 depth += i32::from(c == '<') - i32::from(c == '>');
@@ -397,7 +397,7 @@ impl Evaluator<'_> {
         Some(Span::new(list.span.file, start, start + length))
     }
 
-    /// Where number `part` of entry `entry` is written, likewise.
+    /// Returns the span of number `part` of entry `entry`, likewise.
     fn place_in(&self, list: &Token, entries: usize, entry: usize, part: usize) -> Option<Span> {
         let entry = self.entry_in(list, entries, entry)?;
         let mut numbers = self.sources.text(entry).strip_prefix('<')?.strip_suffix('>')?.split(',');

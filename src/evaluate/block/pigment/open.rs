@@ -1,4 +1,4 @@
-//! A pigment that is read item by item: from a block of its own, or from an old texture that holds its words.
+//! Incremental reading of a pigment: from a block of its own, or from an old texture that contains its items.
 
 use crate::evaluate::stream::Token;
 use crate::evaluate::{Evaluator, Outcome, Reported};
@@ -6,24 +6,24 @@ use crate::scene::{Pigment, PigmentId};
 
 use super::Written;
 
-/// A pigment under way.
+/// A pigment during reading.
 pub(in crate::evaluate::block) struct OpenPigment {
     pigment: Pigment,
-    /// It began as the default.
+    /// Whether it began as the default.
     is_default: bool,
     written: Written,
     failed: bool,
 }
 
 impl OpenPigment {
-    /// What comes next may replace the colour or the pattern that was written.
+    /// Allows the next items to replace the colour or the pattern.
     pub(in crate::evaluate::block) fn begin_anew(&mut self) {
         self.written.first = None;
     }
 }
 
 impl Evaluator<'_> {
-    /// A pigment that items are read into, and that `token` began.
+    /// Returns a pigment, begun by `token`, into which items are read.
     pub(in crate::evaluate::block) fn open_pigment(
         &self,
         token: &Token,
@@ -52,7 +52,7 @@ impl Evaluator<'_> {
         open: OpenPigment,
     ) -> Outcome<PigmentId> {
         let OpenPigment { mut pigment, is_default, written, mut failed } = open;
-        // A map may stand before its pattern.
+        // A map may precede its pattern.
         if let Some((given, token, item)) = written.map
             && !failed
         {

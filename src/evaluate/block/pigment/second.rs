@@ -1,7 +1,7 @@
-//! What to say of a second colour or pattern: a pigment is one colour or one pattern.
+//! Diagnostics for a second colour or pattern: a pigment has one colour or one pattern.
 //!
-//! **Source:** POV-Ray 3.7 refuses each of these; only a declared pigment may be followed by what replaces it
-//! (measured).
+//! **Source:** POV-Ray 3.7 refuses each of these; only after a declared pigment may another colour or pattern
+//! replace it (measured).
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
@@ -13,25 +13,26 @@ use super::super::super::stream::{Token, TokenKind};
 use super::super::super::{Evaluator, Outcome, Reported};
 use super::Written;
 
-/// What a pigment was given before, in the same block.
+/// The first colour or pattern in a block.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct First {
-    /// A pattern, or one colour.
+    /// A pattern; `None` for one colour.
     pattern: Option<Word>,
     site: Site,
-    /// A second one has been told: a third is the same mistake.
+    /// A second one has been reported: a third is the same mistake.
     told: bool,
 }
 
 impl Written {
-    /// What `token` began was told to be wrong: what it was meant as is not known, nor what it stands beside.
+    /// Records that the item begun by `token` was reported, so that it is unknown what it was meant as, and
+    /// what conflicts with it.
     pub(super) fn mistaken(&mut self, token: &Token) {
         let site = token.here.site(token.span);
         self.first = Some(First { pattern: None, site, told: true });
     }
 }
 
-/// How many colours stand behind a pattern, where it takes them without a map.
+/// Returns the number of colours after a pattern that takes them without a map.
 pub(in crate::evaluate::block) fn colors_of(pattern: Word) -> Option<usize> {
     Some(match pattern {
         Word::Checker | Word::Brick | Word::Object => 2,
@@ -43,7 +44,7 @@ pub(in crate::evaluate::block) fn colors_of(pattern: Word) -> Option<usize> {
 }
 
 impl Evaluator<'_> {
-    /// The item that `token` began gives the pigment a `pattern`, or a colour: if nothing did before.
+    /// Checks that the `pattern` or colour from the item that `token` began is the pigment's first.
     pub(super) fn alone_in_pigment(
         &mut self,
         token: &Token,
@@ -71,7 +72,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A declared pigment: it stands before what replaces its colour or pattern.
+    /// Checks that a declared pigment precedes the colour or pattern that replaces it.
     pub(super) fn first_in_pigment(&mut self, token: &Token, written: &Written) -> Outcome<()> {
         let Some(first) = written.first else { return Ok(()) };
         let text = self.sources.text(token.span).to_owned();
@@ -85,7 +86,7 @@ impl Evaluator<'_> {
         Err(self.report(&token.here, diagnostic))
     }
 
-    /// Whether the block that comes next begins with a colour: nothing of a pigment before it is left.
+    /// Returns whether the next block begins with a colour, so that nothing remains of a pigment before it.
     pub(in crate::evaluate::block) fn begins_with_color(&mut self) -> bool {
         let Some(Token { kind: TokenKind::Block(Contents::Items(items)), here, .. }) = self.peek()
         else {
@@ -95,7 +96,8 @@ impl Evaluator<'_> {
         matches!(first, Some(ItemKind::Word(Word::Color | Word::Rgb | Word::Srgb)))
     }
 
-    /// The pigment that is written right in the block that comes next, of the texture that `token` began.
+    /// Returns the site of the pigment written directly in the next block, that of the texture begun by
+    /// `token`.
     pub(in crate::evaluate::block) fn pigment_within(&mut self, token: &Token) -> Option<Site> {
         let Some(Token { kind: TokenKind::Block(Contents::Items(items)), here, .. }) = self.peek()
         else {
@@ -106,7 +108,7 @@ impl Evaluator<'_> {
         Some(token.here.site(pigment.span))
     }
 
-    /// Whether the pigment whose word stands at `site` is one colour that lets nothing through, as it is written.
+    /// Returns whether the pigment whose keyword is at `site` is literally one opaque colour.
     pub(in crate::evaluate::block) fn is_opaque_as_written(&self, site: Site) -> bool {
         let text = &self.sources.get(site.span.file).text;
         let behind = text.get(site.span.end as usize..).unwrap_or("").trim_start();
@@ -186,7 +188,7 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic)
     }
 
-    /// `rgb x, transmit 0.5`: the comma before a component of a colour, if one stands there.
+    /// Returns the comma before a component of a colour, if there is one: `rgb x, transmit 0.5`.
     fn comma_in_color(&self, token: &Token, first: Site, item: Site) -> Option<Span> {
         let is_component = matches!(
             token.kind,
@@ -198,13 +200,13 @@ impl Evaluator<'_> {
         is_component.then_some(Span { start, end: start + 1, ..between })
     }
 
-    /// Whether nothing but blanks and a comma stand between two pieces of a text.
+    /// Returns whether only blanks and a comma separate two pieces of a text.
     fn side_by_side(&self, a: Site, b: Site) -> bool {
         let between = self.sources.between(a.span, b.span).map(str::trim);
         a.expansion == b.expansion && matches!(between, Some("" | ","))
     }
 
-    /// With the fix that takes `item` out, and the comma between it and `before`.
+    /// Adds the fix that removes `item`, with the comma between it and `before`.
     fn gone_from(&self, told: Diagnostic, before: Site, item: Site) -> Diagnostic {
         match self.side_by_side(before, item) {
             true => told.fix(Span { start: before.span.end, ..item.span }, ""),
@@ -212,7 +214,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `gradient y rgb 1, rgb x`: takes the colours that follow, too, and says how they make a map.
+    /// Reports colours after a pattern that needs a map, takes the following ones too, and shows the map:
+    /// `gradient y rgb 1, rgb x`.
     fn colors_meant(&mut self, token: &Token, item: Site, told: Diagnostic) -> Reported {
         let (mut colors, mut last) = (vec![self.sources.text(item.span).to_owned()], item);
         loop {

@@ -1,9 +1,9 @@
-//! Textures of versions below 3.0: the words of their pigment, normal and finish stand in them without blocks.
+//! Textures of versions before 3.0, in which the items of pigment, normal and finish appear without blocks.
 //!
-//! **In:** an item of a `texture`, in a `.pov` of such a version. **Out:** the pigment and the finish that such words
-//! make up; a normal is not built yet.
+//! **In:** an item of a `texture`, in a `.pov` of such a version. **Out:** the pigment and the finish formed
+//! by such items; a normal is unsupported.
 //!
-//! **Source:** what POV-Ray 3.7 renders, measured against the same words in their blocks.
+//! **Source:** the output of POV-Ray 3.7, compared with that of the same items in their blocks.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::block::finish::OpenFinish;
@@ -15,10 +15,10 @@ use crate::scene::Texture;
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Dialect, Family, Word};
 
-/// The version from which on a texture has blocks only.
+/// The version from which a texture accepts only blocks.
 const BLOCKS_SINCE: f64 = 3.0;
 
-/// The parts of a texture whose words stand in it, under way.
+/// The parts of a texture whose items appear directly in it, during reading.
 #[derive(Default)]
 pub(super) struct Bare {
     pigment: Option<OpenPigment>,
@@ -26,7 +26,7 @@ pub(super) struct Bare {
 }
 
 impl Evaluator<'_> {
-    /// Reads an item that a later version has in a block of the texture; `None` where it is no such item.
+    /// Reads an item that later versions accept only in a block of the texture; `None` for other items.
     pub(super) fn bare_item(
         &mut self,
         token: &Token,
@@ -37,7 +37,7 @@ impl Evaluator<'_> {
             return None;
         }
         let block = self.block_of(token)?;
-        // A scene of that time is full of them: the first is told.
+        // A scene of that time is full of them: only the first is reported.
         if !std::mem::replace(&mut self.has_bare_textures, true) {
             let name = self.sources.text(token.span);
             let message = format!("`{name}` has no meaning in `texture` since version 3.0");
@@ -75,7 +75,7 @@ impl Evaluator<'_> {
         Some(())
     }
 
-    /// Gives the texture what the words before have come to.
+    /// Assigns the parts read so far to the texture.
     pub(super) fn close_bare(&mut self, texture: &mut Texture, bare: &mut Bare) -> Outcome<()> {
         let pigment = bare.pigment.take().map(|open| self.close_pigment(open)).transpose();
         let finish = bare.finish.take().map(|open| self.close_finish(open)).transpose();
@@ -84,7 +84,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// The block of a texture that an item belongs in; `crand` for a number, which is its value.
+    /// Returns the block to which an item of a texture belongs; `crand` for a number, which is its value.
     fn block_of(&mut self, token: &Token) -> Option<Word> {
         match token.kind {
             TokenKind::Word(word) => match word {

@@ -1,7 +1,7 @@
-//! A texture of a pattern: its parts are textures, in a `texture_map` or behind the pattern.
+//! Patterned textures, whose parts are textures in a `texture_map` or after the pattern.
 //!
-//! **In:** the items of a `texture` that are its pattern, or stand beside one. **Out:** what is wrong with them; no such
-//! texture is built yet.
+//! **In:** the pattern items of a `texture`, and items beside them. **Out:** the mistakes in them; such
+//! textures are unsupported.
 //!
 //! **Source:** POV-Ray 3.7 manual, 3.4.7.3 "Texture Maps", and what the program refuses.
 
@@ -13,23 +13,23 @@ use crate::evaluate::{Evaluator, Outcome, Reported};
 use crate::source::{Site, Span};
 use crate::vocabulary::{Family, Word};
 
-/// What was written in one block of what excludes each other.
+/// The mutually exclusive items of one block.
 #[derive(Default)]
 pub(super) struct Written {
-    /// The pattern, and what began it.
+    /// The pattern, and the token that began it.
     pattern: Option<(Word, Token)>,
     /// The first `pigment`, `normal` or `finish`.
     plain: Option<(Word, Site)>,
     /// The last `pigment`.
     pub(super) painted: Option<Site>,
-    /// Its map, or the textures behind it, were there.
+    /// Whether its map, or the textures after it, were present.
     parts: bool,
-    /// What is wrong was told: more is the same mistake.
+    /// A mistake has been reported: further ones count as the same.
     told: bool,
 }
 
 impl Evaluator<'_> {
-    /// An item that is a pattern, or stands beside one; `None` for what any texture has.
+    /// Reads an item that is a pattern, or is beside one; `None` for an item of any texture.
     pub(super) fn patterned_item(
         &mut self,
         token: &Token,
@@ -58,7 +58,7 @@ impl Evaluator<'_> {
                     Some(count) => {
                         Some(self.map_of_list(token, (pattern, count), &opener, written))
                     }
-                    // It goes with its pattern.
+                    // It belongs to its pattern.
                     None => {
                         self.pass_not_built(token, word);
                         Some(Ok(()))
@@ -77,7 +77,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A pattern of textures has textures.
+    /// Checks that a pattern of textures has textures.
     pub(super) fn whole_texture(&mut self, written: &Written) -> Outcome<()> {
         let Some((pattern, opener)) = &written.pattern else { return Ok(()) };
         if written.parts || written.told || colors_of(*pattern).is_some() {
@@ -94,7 +94,7 @@ impl Evaluator<'_> {
         Err(self.report(&opener.here, diagnostic))
     }
 
-    /// What was meant is no pattern of textures: that these are not built is no matter.
+    /// Discards the poison of a pattern that was not meant as a pattern of textures.
     fn forget_pattern(&mut self, pattern: Word) {
         self.poison = self.poison.filter(|poison| poison.word != pattern);
     }
@@ -131,7 +131,7 @@ impl Evaluator<'_> {
         if before.is_some() { Err(Reported) } else { Ok(()) }
     }
 
-    /// `brick texture { … }, texture { … }`.
+    /// Reads `brick texture { … }, texture { … }`.
     fn list_of_textures(
         &mut self,
         token: &Token,
@@ -164,7 +164,7 @@ impl Evaluator<'_> {
         };
         written.told = told.code == Code::WrongType;
         self.report(&token.here, told);
-        // More of them are the same mistake.
+        // Further ones are the same mistake.
         loop {
             self.skip_commas();
             if let Some(extra) = self.next_texture() {
@@ -181,7 +181,7 @@ impl Evaluator<'_> {
         if is_texture { self.next() } else { None }
     }
 
-    /// `texture { granite color_map { … } }`: the colours of a pattern, without the pigment around both.
+    /// Reports a pattern's colours without a pigment around both: `texture { granite color_map { … } }`.
     fn map_of_no_textures(
         &mut self,
         token: &Token,
@@ -223,7 +223,7 @@ impl Evaluator<'_> {
         Err(self.report(&token.here, diagnostic))
     }
 
-    /// Whether a text names a declared texture.
+    /// Returns whether a text names a declared texture.
     fn names_textures(&self, span: Span) -> bool {
         let is_texture = |name: &str| {
             let value = self.scopes.symbol(name).and_then(|symbol| self.scopes.look(symbol));
@@ -237,7 +237,7 @@ impl Evaluator<'_> {
         text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(is_texture)
     }
 
-    /// `brick texture_map { … }`: its values are two, with nothing between them.
+    /// Reports a map for a pattern that takes a list of textures: `brick texture_map { … }`.
     fn map_of_list(
         &mut self,
         token: &Token,
@@ -260,7 +260,7 @@ impl Evaluator<'_> {
         Err(self.report(&token.here, diagnostic))
     }
 
-    /// `texture { gradient y pigment { … } }`.
+    /// Reports `texture { gradient y pigment { … } }`.
     fn plain_behind_pattern(
         &mut self,
         token: &Token,
@@ -290,7 +290,7 @@ impl Evaluator<'_> {
         Err(self.report(&token.here, diagnostic))
     }
 
-    /// `texture { image_map { … } }`.
+    /// Reports an image in a texture: `texture { image_map { … } }`.
     fn picture_in_texture(&mut self, token: &Token, word: Word) -> Outcome<()> {
         let outer = self.poison.take();
         self.pass_not_built(token, word);

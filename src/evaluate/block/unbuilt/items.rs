@@ -1,7 +1,7 @@
-//! The items of blocks that are not built: how many values each takes, for the mistakes in them.
+//! The items of unsupported blocks, with the number of values each takes, to report the mistakes in them.
 //!
-//! **Source:** POV-Ray 3.7 manual, 3.4.3.3 "Radiosity", 3.4.7 "Patterns", 3.4.8.1 "Media", 3.4.8.2 "Photons", and what the
-//! program refuses.
+//! **Source:** POV-Ray 3.7 manual, 3.4.3.3 "Radiosity", 3.4.7 "Patterns", 3.4.8.1 "Media", 3.4.8.2 "Photons",
+//! and what the program refuses.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::Span;
@@ -16,7 +16,7 @@ use super::super::pigment::colors_of;
 use super::super::place::home;
 use super::ranges;
 
-/// How many numbers stand behind an item of `block`: at least, and at most.
+/// Returns the minimum and maximum number of values after an item of `block`.
 fn numbers(item: Word, block: Word) -> Option<(usize, usize)> {
     use Word as W;
     Some(match (block, item) {
@@ -42,7 +42,7 @@ fn numbers(item: Word, block: Word) -> Option<(usize, usize)> {
     })
 }
 
-/// What may stand in a `fog`.
+/// Returns whether an item is valid in a `fog`.
 fn is_of_fog(item: Word) -> bool {
     matches!(item.family(), Family::Color | Family::Transform)
         || numbers(item, Word::Fog).is_some()
@@ -57,7 +57,7 @@ fn is_of_fog(item: Word) -> bool {
         )
 }
 
-/// What else may stand in a block, beside what is of it alone.
+/// Returns whether an item that is not specific to a block is valid in it.
 fn is_also_of(item: Word, block: Word) -> bool {
     match block {
         Word::Normal => {
@@ -81,16 +81,16 @@ fn is_also_of(item: Word, block: Word) -> bool {
     }
 }
 
-/// How many ways of tiling there are; the manual has 24 of them.
+/// Number of tiling patterns; the manual has 24 of them.
 const TILINGS: f64 = 27.0;
 
-/// Whether a colour stands behind an item of `block`.
+/// Returns whether an item of `block` takes a colour.
 fn takes_color(item: Word, block: Word) -> bool {
     block == Word::Media && matches!(item, Word::Absorption | Word::Emission)
 }
 
 impl Evaluator<'_> {
-    /// Whether the items of a block are known though it is not built.
+    /// Returns whether the items of an unsupported block are known.
     pub(in crate::evaluate::block) fn knows_items(block: Word) -> bool {
         matches!(
             block,
@@ -104,7 +104,7 @@ impl Evaluator<'_> {
         )
     }
 
-    /// The items of a block that is not built.
+    /// Reads the items of an unsupported block.
     pub(in crate::evaluate::block) fn items_not_built(&mut self, opener: &Token, block: Word) {
         if block == Word::Scattering {
             self.scattering(opener);
@@ -159,7 +159,7 @@ impl Evaluator<'_> {
         self.numbers_not_built(token, item, block, (least, most));
     }
 
-    /// The numbers behind an item that is not built.
+    /// Reads the numbers after an unsupported item.
     fn numbers_not_built(
         &mut self,
         token: &Token,
@@ -216,7 +216,7 @@ impl Evaluator<'_> {
         self.skip_values();
     }
 
-    /// `[0.5 color Red]` in a `texture_map`: a colour by itself is no texture.
+    /// Reports a colour in a `texture_map`, where a texture is expected: `[0.5 color Red]`.
     pub(super) fn entry_of_textures(&mut self) {
         if self.is_before_value() {
             let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.next() else {
@@ -253,7 +253,8 @@ impl Evaluator<'_> {
         self.report(&first.here, diagnostic);
     }
 
-    /// Whether a value comes next, behind a comma or not; a name that is not declared is none.
+    /// Returns whether a value comes next, with or without a comma before it; an undeclared name does not
+    /// count.
     pub(in crate::evaluate::block) fn is_before_value(&mut self) -> bool {
         self.skip_commas();
         match self.peek().cloned() {
@@ -265,7 +266,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `scattering { 1, rgb 0.5 … }`: a kind, and a colour.
+    /// Reads a kind and a colour: `scattering { 1, rgb 0.5 … }`.
     fn scattering(&mut self, opener: &Token) {
         let lacks_kind = match self.peek().cloned() {
             Some(Token { kind: TokenKind::Word(word), here, span })
@@ -297,7 +298,7 @@ impl Evaluator<'_> {
         self.poison = outer;
     }
 
-    /// `extinct 0.9`: a name that is not declared, where a word of the block is close.
+    /// Reports an undeclared name that resembles a word of the block: `extinct 0.9`.
     pub(super) fn misspelt_item(&mut self, token: &Token, id: ExpressionId, block: Word) -> bool {
         if self.unknown_name(&token.here, id).is_none() {
             return false;
@@ -331,7 +332,7 @@ impl Evaluator<'_> {
         true
     }
 
-    /// What stands behind a pattern that is not built: its numbers, or its colours.
+    /// Reads the numbers or colours after an unsupported pattern.
     pub(super) fn pattern_not_built(&mut self, token: &Token, pattern: Word) {
         let outer = self.poison.take();
         if pattern == Word::Tiling {
@@ -359,7 +360,8 @@ impl Evaluator<'_> {
         self.poison = outer;
     }
 
-    /// `hexagon rgb 1, rgb 0, rgb x, rgb z`: one more than it takes.
+    /// Reads the colours of an unsupported pattern and reports surplus ones: `hexagon rgb 1, rgb 0, rgb x,
+    /// rgb z`.
     fn colors_not_built(&mut self, token: &Token, pattern: Word, most: usize) {
         for _ in 0..most {
             self.skip_commas();
@@ -394,7 +396,7 @@ impl Evaluator<'_> {
         self.skip_colors(token);
     }
 
-    /// Passes over the colours that are left of a pattern of which one was told.
+    /// Skips the remaining colours of a pattern in which one was reported.
     fn skip_colors(&mut self, token: &Token) {
         let before = self.told();
         while self.at_color() {

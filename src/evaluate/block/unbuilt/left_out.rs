@@ -1,4 +1,4 @@
-//! Effects of a `.pov` that are left out, with a warning: all else is rendered as it is written.
+//! Effects of a `.pov` that are omitted with a warning; everything else renders as written.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::vocabulary::Word;
@@ -9,8 +9,8 @@ use super::super::super::{Evaluator, Outcome};
 use super::super::Place;
 
 impl Evaluator<'_> {
-    /// `crand`, `caustics` (light that is added) and `refraction` in a finish. The last is a factor of the light
-    /// that goes through, beside that of the pigment (measured).
+    /// Reads `crand`, `caustics` (additional light) and `refraction` in a finish. The latter is a factor of
+    /// the transmitted light, besides that of the pigment (measured).
     pub(in super::super) fn old_finish_word(&mut self, token: &Token, word: Word) -> Outcome<()> {
         let value = self.number_after(token, "a number")?.value;
         match word {
@@ -24,7 +24,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// `radiosity { importance n }` of an object: how many samples it is worth.
+    /// Reads `radiosity { importance n }` of an object: its relative number of samples.
     pub(in super::super) fn importance(&mut self, token: &Token) -> Outcome<()> {
         self.block(token, Word::Radiosity, |evaluator| {
             while let Some(item) = evaluator.next() {

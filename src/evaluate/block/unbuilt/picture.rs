@@ -1,4 +1,4 @@
-//! The block of an `image_map` and its like, which are not built.
+//! The block of `image_map` and the like, which are unsupported.
 
 use crate::diagnostic::{Code, Diagnostic, suggest};
 use crate::source::FileError;
@@ -10,12 +10,12 @@ use super::super::super::include::missing_file;
 use super::super::super::stream::{Token, TokenKind};
 use super::super::named::is_of_picture;
 
-/// The endings that may be left out of a picture's name.
+/// Extensions that an image's name may omit.
 const ENDINGS: &[&str] =
     &[".png", ".jpg", ".jpeg", ".gif", ".tga", ".ppm", ".pgm", ".tiff", ".hdr"];
 
 impl Evaluator<'_> {
-    /// `image_map { png "file" … }`: whether there is such a file.
+    /// Checks that the file in `image_map { png "file" … }` exists.
     pub(super) fn picture_not_built(&mut self) {
         while let Some(token) = self.next() {
             match token.kind {
@@ -40,7 +40,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `jpg "file"`: the kind of a picture as others call it.
+    /// Reports another tool's name for an image type: `jpg "file"`.
     fn misspelt_kind(&mut self, token: &Token, id: ExpressionId) -> bool {
         if self.unknown_name(&token.here, id).is_none() {
             return false;

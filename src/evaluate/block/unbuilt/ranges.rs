@@ -1,7 +1,7 @@
-//! Between which numbers those of what is not built must be.
+//! Valid ranges for the numbers of unsupported items.
 //!
-//! **Source:** what POV-Ray 3.7 refuses, one number after the other; manual, 3.4.3.3 "Radiosity", 3.4.7.6 "Pattern Modifiers",
-//! 3.4.8.1 "Media".
+//! **Source:** what POV-Ray 3.7 refuses, tested number by number; manual, 3.4.3.3 "Radiosity", 3.4.7.6
+//! "Pattern Modifiers", 3.4.8.1 "Media".
 
 use crate::vocabulary::{Dialect, Word};
 
@@ -9,7 +9,7 @@ use super::super::super::Evaluator;
 use super::super::super::stream::Token;
 use super::super::part::Given;
 
-/// Numbers that may stand behind a word, and how that is said.
+/// A valid range, and its description.
 pub(super) struct Range {
     holds: fn(f64) -> bool,
     wanted: &'static str,
@@ -21,7 +21,7 @@ const UP_TO_20: Range = Range { holds: |n| (1.0..=20.0).contains(&n), wanted: "f
 const UP_TO_1: Range = Range { holds: |n| n > 0.0 && n <= 1.0, wanted: "above 0, and 1 or less" };
 const NOT_NEGATIVE: Range = Range { holds: |n| n >= 0.0, wanted: "0 or more" };
 
-/// Those of the first number behind an item of a block.
+/// Returns the range of the first number after an item of a block.
 pub(super) fn of_item(item: Word, block: Word) -> Option<Range> {
     use Word as W;
     Some(match (block, item) {
@@ -55,7 +55,7 @@ pub(super) fn of_item(item: Word, block: Word) -> Option<Range> {
     })
 }
 
-/// Those of the number behind a modifier of a pattern or of an interior.
+/// Returns the range of the number after a modifier of a pattern or of an interior.
 fn of_modifier(word: Word) -> Option<Range> {
     Some(match word {
         Word::MapType => {
@@ -75,7 +75,7 @@ fn of_modifier(word: Word) -> Option<Range> {
 }
 
 impl Evaluator<'_> {
-    /// Tells a number that cannot stand behind `word`; not the 0 of `0,04`, which is told as that.
+    /// Reports a number that is invalid after `word`, except the 0 of `0,04`, which is reported as such.
     pub(super) fn within(&mut self, given: &Given<f64>, word: Word, range: &Range) {
         let text = &self.sources.get(given.span.file).text;
         let mut behind = text.get(given.span.end as usize..).unwrap_or("").chars();
@@ -89,14 +89,14 @@ impl Evaluator<'_> {
         }
     }
 
-    /// As [`Self::within`], of a modifier of a pattern or of an interior.
+    /// As [`Self::within`], for a modifier of a pattern or of an interior.
     pub(in crate::evaluate::block) fn within_bounds(&mut self, given: &Given<f64>, word: Word) {
         if let Some(range) = of_modifier(word) {
             self.within(given, word, &range);
         }
     }
 
-    /// The number behind a modifier that is not built; `false` where it is none whose numbers have bounds.
+    /// Reads the number after an unsupported modifier; returns `false` if the modifier has no range.
     pub(super) fn modifier_not_built(&mut self, token: &Token, word: Word) -> bool {
         if of_modifier(word).is_none() || !self.is_before_value() {
             return false;
@@ -109,7 +109,7 @@ impl Evaluator<'_> {
         true
     }
 
-    /// As many lights as an `area_light` has along a side.
+    /// Checks the number of lights along a side of an `area_light`.
     pub(super) fn lights_of_a_side(&mut self, given: &Given<f64>) {
         self.within(given, Word::AreaLight, &ONE_OR_MORE);
     }
