@@ -1,4 +1,4 @@
-//! FLIP, a number for how much two pictures differ to who looks at one after the other.
+//! FLIP: a measure of the difference that a viewer sees when two pictures alternate.
 //!
 //! **Source:** P. Andersson et al., "FLIP: a difference evaluator for alternating images", Proceedings of the
 //! ACM on Computer Graphics and Interactive Techniques 3 (2020): sections 4.1 (color), 4.2 (features) and 4.3

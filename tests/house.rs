@@ -544,26 +544,29 @@ fn row_72_nothing_is_fused_nor_left_to_a_processor() {
     assert!(code("let a = b.mul_add(c, d);").contains(FUSED[0]));
 }
 
-/// The case of a snapshot: what stands behind the `@` of its name, or else the name of its test.
-fn case_of(snapshot: &str) -> &str {
+/// The test of a snapshot, and the case that the test was run on, if it has several.
+fn test_and_case(snapshot: &str) -> (&str, Option<&str>) {
     let name = snapshot.rsplit('/').next().unwrap_or(snapshot).trim_end_matches(".snap");
-    name.rsplit_once('@').or_else(|| name.rsplit_once("__")).map_or(name, |(_, case)| case)
+    let (name, case) = name.split_once('@').map_or((name, None), |(name, case)| (name, Some(case)));
+    (name.rsplit_once("__").map_or(name, |(_, test)| test), case)
 }
 
 #[test]
 fn every_snapshot_is_of_a_test() {
-    let is_case = |name: &str| root().join("tests/cases").join(name).exists();
-    let is_named = |(file, _): &(String, String)| {
-        let tests = root().join("src").join(file.split("/snapshots/").next().unwrap_or(file));
-        fs::read_to_string(tests.join("tests.rs")).is_ok_and(|text| text.contains(case_of(file)))
+    let texts = ["src/syntax/tests.rs", "tests/snapshots.rs"];
+    let texts = texts.map(|file| fs::read_to_string(root().join(file)).expect("readable")).concat();
+    let is_lone = |(file, _): &(String, String)| {
+        let (test, case) = test_and_case(file);
+        let is_case = case.is_none_or(|case| root().join("tests/cases").join(case).exists());
+        // A test of its own, or an entry of the macro `snapshots!`.
+        let is_test = [format!("fn {test}("), format!("    {test}: ")];
+        !is_case || !is_test.iter().any(|text| texts.contains(text))
     };
-    let of_src = files("src", &["snap", "new"]).into_iter().filter(|one| !is_named(one));
-    let of_tests =
-        files("tests", &["snap", "new"]).into_iter().filter(|(f, _)| !is_case(case_of(f)));
-    let lone = of_src.chain(of_tests);
+    let snapshots = ["src", "tests"].map(|folder| files(folder, &["snap", "new"])).into_iter();
+    let lone = snapshots.flatten().filter(is_lone);
     assert_none(lone.map(|(file, _)| format!("{file}: no test makes it")).collect());
-    assert_eq!(case_of("a/b__tests__some_case.snap"), "some_case");
-    assert_eq!(case_of("a/b__tests__each@some.scene.snap"), "some.scene");
+    assert_eq!(test_and_case("a/b__tests__some.snap"), ("some", None));
+    assert_eq!(test_and_case("a/b__tests__each@some.scene.snap"), ("each", Some("some.scene")));
 }
 
 /// Phrases that make prose hard to read, and stand where a subject and a verb belong.

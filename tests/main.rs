@@ -1,4 +1,4 @@
-//! All tests that see the program from outside, a module a kind; one program, so that they are linked once.
+//! All tests that use lucarne from outside, with one module per kind, linked into one program.
 
 mod command_line;
 mod conformance;

@@ -7,7 +7,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::syntax::ast::{
-    Argument, BinaryOperator, Callee, ExpressionId, ExpressionKind, UnaryOperator,
+    Argument, Ast, BinaryOperator, Callee, ExpressionId, ExpressionKind, UnaryOperator,
 };
 use crate::vocabulary::Dialect;
 
@@ -80,10 +80,12 @@ impl Evaluator<'_> {
         let expression = here.unit.expression(whole);
         let value = match expression.kind {
             ExpressionKind::Name(name) => self.scopes.look(here.symbol(name))?.clone(),
-            ExpressionKind::Index(..) | ExpressionKind::Vector(_) => {
+            // A call may have other effects when it is evaluated again.
+            ExpressionKind::Index(..) | ExpressionKind::Vector(_)
+                if is_without_calls(&here.unit.ast, whole) =>
+            {
                 self.expression(here, whole).ok()?
             }
-            // Calling it twice may have different effects.
             _ => return None,
         };
         let numbers = match value {
@@ -139,4 +141,26 @@ impl Evaluator<'_> {
         let kind = TokenKind::Literal(Box::new(value));
         Some((Token { kind, span, here: here.clone() }, group))
     }
+}
+
+/// Whether an expression consists of names, numbers and operators alone.
+fn is_without_calls(ast: &Ast, id: ExpressionId) -> bool {
+    let mut open = vec![id];
+    while let Some(id) = open.pop() {
+        match ast.expression(id).kind {
+            ExpressionKind::Number(_) | ExpressionKind::Name(_) | ExpressionKind::Word(_) => {}
+            ExpressionKind::Unary(_, a)
+            | ExpressionKind::Group(a)
+            | ExpressionKind::Component(a, _) => open.push(a),
+            ExpressionKind::Binary(_, a, b) | ExpressionKind::Index(a, b) => open.extend([a, b]),
+            ExpressionKind::Vector(arguments) => {
+                for argument in ast.arguments(arguments) {
+                    let Argument::Expression(part) = *argument else { return false };
+                    open.push(part);
+                }
+            }
+            _ => return false,
+        }
+    }
+    true
 }

@@ -27,12 +27,11 @@ const MOST_ENTRIES: usize = 1 << 20;
 /// **Source:** measured: from the value of the last entry on, that entry's colour; below, the interpolation
 /// between the first entry with a larger value and the entry before it.
 fn rising(entries: &[(f64, Color)]) -> Vec<(f64, Color)> {
+    let entries: Vec<_> = entries.iter().copied().filter(|(value, _)| !value.is_nan()).collect();
     let Some(&(end, last)) = entries.last() else { return Vec::new() };
     let mut rising = Vec::with_capacity(2 * entries.len());
     let (mut highest, mut before) = (f64::NEG_INFINITY, None);
-    for (place, &(value, color)) in
-        entries.iter().enumerate().filter(|(_, entry)| !entry.0.is_nan())
-    {
+    for (place, &(value, color)) in entries.iter().enumerate() {
         if value <= highest {
             continue;
         }

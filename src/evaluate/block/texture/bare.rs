@@ -79,8 +79,8 @@ impl Evaluator<'_> {
     pub(super) fn close_bare(&mut self, texture: &mut Texture, bare: &mut Bare) -> Outcome<()> {
         let pigment = bare.pigment.take().map(|open| self.close_pigment(open)).transpose();
         let finish = bare.finish.take().map(|open| self.close_finish(open)).transpose();
-        texture.pigment = pigment?.unwrap_or(texture.pigment);
         texture.finish = finish?.unwrap_or(texture.finish);
+        texture.pigment = pigment?.unwrap_or(texture.pigment);
         Ok(())
     }
 
