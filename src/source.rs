@@ -157,11 +157,10 @@ pub struct Source {
     /// Name of the file as given or as included.
     pub name: String,
     pub text: String,
-    /// It was no UTF-8: each character is one byte of the file.
+    /// The file was not UTF-8: each character is one byte of it.
     pub is_latin: bool,
     line_starts: Vec<u32>,
-    /// Number of characters that start before each block of [`BLOCK`] bytes, since a line may be as long as
-    /// the text.
+    /// Number of characters that start before each block of [`BLOCK`] bytes: lines may be long.
     blocks: Vec<u32>,
 }
 

@@ -1,8 +1,8 @@
 //! Drops diagnostics of evaluation that repeat a fault reported by the parser.
 //!
 //! A bracket without its partner shifts what follows it: errors that evaluation then finds are consequences
-//! of it, up to where the text is certainly parsed as its author meant it. So are parts that it finds missing
-//! on the line of any other fault, except in the statements after the block that contains the fault.
+//! of it, up to where the text is certainly parsed as its author meant it. Missing parts on the
+//! line of any other fault are consequences too, except in the statements after the block with the fault.
 //! **In:** a file's tree, and the diagnostics about it. **Out:** the diagnostics of independent mistakes.
 //! **Invariant:** an unknown name is wrong anywhere, and its diagnostic is kept.
 
