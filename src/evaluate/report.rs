@@ -305,9 +305,7 @@ impl Evaluator<'_> {
                             "change in its body what its condition asks, or leave it with `#break`",
                         );
                         match endless::never_set(ast, condition, body) {
-                            Some(name) => told.help(format!(
-                                "its body never changes `{name}`, as by `#declare {name} = {name} + 1;`"
-                            )),
+                            Some(name) => told.help(format!("its body never changes `{name}`")),
                             None => told,
                         }
                     }
