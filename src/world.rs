@@ -35,7 +35,7 @@ pub struct World {
     /// All other solids, each with its placement; bodies are shared.
     pub placed: Vec<Placed>,
     /// CSG solids.
-    pub wholes: Vec<Whole>,
+    pub csg_solids: Vec<CsgSolid>,
     pub materials: Vec<Material>,
     /// Interiors of solids, indexed by `Object::interior`. Empty when nothing refracts light.
     pub interiors: Vec<Interior>,
@@ -47,7 +47,7 @@ pub struct World {
 
 /// A CSG solid.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Whole {
+pub struct CsgSolid {
     /// In postfix order.
     pub nodes: Vec<Node>,
     /// The index of its first leaf in `World::objects`; the leaves follow in the order of the nodes.
@@ -55,7 +55,7 @@ pub struct Whole {
     pub count: u32,
 }
 
-impl Whole {
+impl CsgSolid {
     /// Returns the indices of its leaves in `World::objects`.
     pub fn leaves(&self) -> std::ops::Range<usize> {
         self.first as usize..(self.first + self.count) as usize
@@ -181,15 +181,15 @@ pub struct Object {
     pub double_illuminate: bool,
     /// Inside and outside are exchanged.
     pub inverse: bool,
-    /// Index into `World::wholes` of the CSG solid that it is part of; it is not an object by itself then.
-    pub whole: Option<u32>,
+    /// Index into `World::csg_solids` of the CSG solid that it is part of; it is not an object by itself then.
+    pub csg_solid: Option<u32>,
 }
 
 impl Object {
     /// Returns whether rays can be intersected with it in 32-bit floats.
     pub fn has_single_kernel(&self) -> bool {
         match self.shape {
-            Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) => self.whole.is_none(),
+            Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) => self.csg_solid.is_none(),
             Shape::Ellipsoid(_) | Shape::Placed(_) => false,
         }
     }
@@ -207,7 +207,7 @@ impl Object {
             in_reflections: true,
             double_illuminate: false,
             inverse: false,
-            whole: None,
+            csg_solid: None,
         }
     }
 }
@@ -265,12 +265,12 @@ impl Pigment {
 ///
 /// The radiance toward the viewer is, with C the pigment's colour, f and t its filter and
 /// transmit, and the sum over the lights that are visible:
-/// `(1 − f − t)·C·(glow + Σ I·diffuse·(N·L)^brilliance) + Σ I·Σ lobes + reflection +
+/// `(1 − f − t)·C·(emission + Σ I·diffuse·(N·L)^brilliance) + Σ I·Σ lobes + reflection +
 /// (f·C + t)·what is seen through it`; see [`Clearness`] for the first factor in old scenes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finish {
     /// Light without a light source: `ambient · ambient_light + emission`, or the seed's kd·Ia.
-    pub glow: Rgb,
+    pub emission: Rgb,
     pub diffuse: f64,
     pub brilliance: f64,
     pub lobes: Vec<Lobe>,

@@ -261,7 +261,7 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} merge {{ box {{ 0, 2 }} box {{
                 "  difference, 1: ",
                 "  a face in common: box  (",
                 "  single precision of every torus: it has no kernel for it  (",
-                "  single precision of every part of a whole: ",
+                "  single precision of every part of a CSG solid: ",
                 "  single precision cannot resolve this range: ",
             ] {
                 assert!(said.contains(part), "{part}\n{said}");

@@ -16,10 +16,10 @@ pub fn glare(world: &World) -> Option<f64> {
         .iter()
         .filter(|light| light.attenuation.is_none_or(|less| less.fade.is_none()))
         .map(|light| light.color.largest());
-    let glows = world.materials.iter().flat_map(|material| {
-        let glow = material.finish.glow;
-        material.pigment.colors().map(move |color| (color.rgb * glow).largest())
+    let emissions = world.materials.iter().flat_map(|material| {
+        let emission = material.finish.emission;
+        material.pigment.colors().map(move |color| (color.rgb * emission).largest())
     });
-    let brightest = lights.chain(glows).fold(0.0, f64::max);
+    let brightest = lights.chain(emissions).fold(0.0, f64::max);
     (brightest >= GLARING).then_some(brightest)
 }

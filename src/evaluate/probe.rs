@@ -167,9 +167,7 @@ impl Evaluator<'_> {
 
 impl Probe {
     fn contains(&self, point: Vector) -> bool {
-        self.world
-            .solids()
-            .any(|i| self.world.whole_contains(&self.world.objects[i as usize], point))
+        self.world.solids().any(|i| self.world.csg_contains(&self.world.objects[i as usize], point))
     }
 
     /// Returns the first surface from `origin` on and its normal, oriented as in POV-Ray: outward, except for

@@ -56,7 +56,8 @@ impl Key {
 
 /// The plane that an object is, its normal turned so that its largest share is positive.
 fn plane(world: &World, object: u32) -> Option<Plane> {
-    let Object { shape: Shape::Plane(i), whole: None, .. } = world.objects[object as usize] else {
+    let Object { shape: Shape::Plane(i), csg_solid: None, .. } = world.objects[object as usize]
+    else {
         return None;
     };
     let plane = world.planes[i as usize];
@@ -133,7 +134,7 @@ impl Lines<'_> {
     fn have_one_body(&self, a: u32, b: u32) -> bool {
         let world = self.world;
         let [a, b] = [a, b].map(|object| &world.objects[object as usize]);
-        if a.whole.is_some() || b.whole.is_some() {
+        if a.csg_solid.is_some() || b.csg_solid.is_some() {
             return false;
         }
         let at = |i: u32| i as usize;

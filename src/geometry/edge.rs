@@ -18,7 +18,7 @@ const ACROSS: f64 = 64.0;
 /// The surface at a hit of a box.
 #[inline(always)]
 pub(super) fn surface(world: &World, ray: &Ray, hit: &Hit, box_: &Box_) -> SurfacePoint {
-    match world.objects[hit.object as usize].whole {
+    match world.objects[hit.object as usize].csg_solid {
         None => box_.surface(ray, hit.t, hit.leaving),
         Some(_) => surface_of_part(world, ray, hit, box_),
     }
@@ -43,7 +43,7 @@ fn surface_of_part(world: &World, ray: &Ray, hit: &Hit, box_: &Box_) -> SurfaceP
         let into = (away - out * away.dot(out)).normalize_or(Vector::ZERO);
         let place = usual.point + into * (ASIDE * usual.error);
         let step = out * (ACROSS * usual.error);
-        let inside = |point| world.whole_contains(object, point);
+        let inside = |point| world.csg_contains(object, point);
         inside(place - step) != inside(place + step)
     };
     if is_outer(&usual.face) {

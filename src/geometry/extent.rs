@@ -59,10 +59,10 @@ impl Extent {
 
     /// Of an object, or the whole that it is a part of.
     pub(super) fn of(world: &World, object: u32, rounding: Rounding) -> Self {
-        let Some(whole) = world.objects[object as usize].whole else {
+        let Some(whole) = world.objects[object as usize].csg_solid else {
             return Self::of_shape(world, object, rounding);
         };
-        let whole = &world.wholes[whole as usize];
+        let whole = &world.csg_solids[whole as usize];
         let mut leaves = whole.leaves();
         let mut stack: SmallVec<[Self; 16]> = SmallVec::new();
         // Of each of the stack the leaf that it is, if it is one.

@@ -164,7 +164,7 @@ impl Geometry {
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
             placed: Vec::with_capacity(world.placed.len()),
-            wholes: Vec::with_capacity(world.wholes.len()),
+            wholes: Vec::with_capacity(world.csg_solids.len()),
             manner: Manner::Double,
             in_image: None,
             in_reflections: None,
@@ -222,12 +222,12 @@ impl Geometry {
 
     /// Adds an object, or the whole that it is the first part of.
     fn append(&mut self, world: &World, number: u32) {
-        let Some(whole) = world.objects[number as usize].whole else {
+        let Some(whole) = world.objects[number as usize].csg_solid else {
             let entry = self.entry(world, number);
             self.entries.push(entry);
             return;
         };
-        let whole = &world.wholes[whole as usize];
+        let whole = &world.csg_solids[whole as usize];
         let leaves: Vec<Entry> =
             whole.leaves().map(|leaf| self.entry(world, leaf as u32)).collect();
         let parts: Vec<Part> = leaves.iter().map(|leaf| Part::of(world, self, leaf)).collect();

@@ -166,7 +166,7 @@ mod tests {
     fn world(random: &mut Random, far: f64) -> World {
         let finish = Finish {
             conserve_energy: false,
-            glow: crate::color::Rgb::BLACK,
+            emission: crate::color::Rgb::BLACK,
             diffuse: 1.0,
             brilliance: 1.0,
             lobes: Vec::new(),

@@ -15,7 +15,7 @@ fn empty() -> World {
         pigment: Pigment::Color(Color::default()),
         finish: Finish {
             conserve_energy: false,
-            glow: Rgb::default(),
+            emission: Rgb::default(),
             diffuse: 0.6,
             brilliance: 1.0,
             lobes: Vec::new(),

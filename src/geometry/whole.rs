@@ -72,7 +72,7 @@ fn price(parts: &[Part], always: &[u32], tree: Option<&[u32]>) -> u64 {
 
 impl Whole {
     pub fn new(
-        whole: &world::Whole,
+        whole: &world::CsgSolid,
         leaves: Vec<Entry>,
         parts: &[Part],
         bounds: Option<Bounds>,

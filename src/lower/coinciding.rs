@@ -12,7 +12,7 @@ use crate::world::Coinciding;
 impl Lowering<'_, '_> {
     pub(super) fn coinciding(&mut self) {
         let told = self.reporter.diagnostics.tells(Code::CoincidingFaces);
-        if self.world.wholes.is_empty() || !(told || self.options.coinciding) {
+        if self.world.csg_solids.is_empty() || !(told || self.options.coinciding) {
             return;
         }
         let mut known = BTreeSet::new();

@@ -9,7 +9,7 @@ use super::empty::Known;
 use crate::scene::Operation;
 use crate::shape::csg::Node;
 use crate::source::Site;
-use crate::world::{OperationOrigin, Whole};
+use crate::world::{CsgSolid, OperationOrigin};
 
 /// A CSG solid under construction.
 #[derive(Debug)]
@@ -164,14 +164,14 @@ impl Lowering<'_, '_> {
         let building = self.building.as_mut()?;
         building.nodes.push(Node::Leaf { inverse });
         building.parts += 1;
-        Some(self.world.wholes.len() as u32)
+        Some(self.world.csg_solids.len() as u32)
     }
 
     /// Turns the parts of an unfinished CSG solid into separate objects.
     pub(super) fn leave_unfinished(&mut self) {
         let Some(building) = self.building.take() else { return };
         for part in &mut self.world.objects[building.first as usize..] {
-            part.whole = None;
+            part.csg_solid = None;
         }
     }
 
@@ -180,10 +180,10 @@ impl Lowering<'_, '_> {
         let Building { first, nodes, operations, .. } = building;
         match &mut self.world.objects[first as usize..] {
             [] => {}
-            [only] if nodes.len() == 1 => only.whole = None,
+            [only] if nodes.len() == 1 => only.csg_solid = None,
             leaves => {
                 let count = leaves.len() as u32;
-                self.world.wholes.push(Whole { nodes, first, count });
+                self.world.csg_solids.push(CsgSolid { nodes, first, count });
                 self.origins.operations.extend(operations);
             }
         }

@@ -34,7 +34,7 @@ impl Lowering<'_, '_> {
             if !meets_one_ray || !known.insert(sites.map(|site| site.span)) {
                 continue;
             }
-            let [first, second] = [a, b].map(|object| match object.whole {
+            let [first, second] = [a, b].map(|object| match object.csg_solid {
                 Some(_) => "solid",
                 None => world.word(object),
             });

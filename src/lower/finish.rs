@@ -10,7 +10,7 @@ use crate::world::{Finish, Lobe, LobeKind, Reflection};
 
 /// A finish that reflects and emits no light.
 pub const BARE: Finish = Finish {
-    glow: Rgb::BLACK,
+    emission: Rgb::BLACK,
     diffuse: 0.0,
     brilliance: 1.0,
     lobes: Vec::new(),
@@ -23,7 +23,7 @@ pub const BARE: Finish = Finish {
 pub fn lower_finish(finish: &scene::Finish, ambient_light: Rgb) -> Result<Finish, Fault> {
     let lowered = match finish {
         &scene::Finish::Seed { kd, ks, phong_exponent } => Finish {
-            glow: ambient_light * kd,
+            emission: ambient_light * kd,
             diffuse: kd,
             lobes: lobe(LobeKind::Blinn, ks, phong_exponent, 1.0),
             reflection: (ks != 0.0).then_some(Reflection {
@@ -41,7 +41,7 @@ pub fn lower_finish(finish: &scene::Finish, ambient_light: Rgb) -> Result<Finish
     };
     let exponents = lowered.lobes.iter().flat_map(|lobe| [lobe.weight, lobe.exponent]);
     let mut numbers = exponents.chain([lowered.diffuse, lowered.brilliance]);
-    if !lowered.glow.is_finite() || numbers.any(|n| !n.is_finite()) {
+    if !lowered.emission.is_finite() || numbers.any(|n| !n.is_finite()) {
         return Err(Fault::not_finite("this object's finish"));
     }
     Ok(lowered)
@@ -53,7 +53,7 @@ fn lower_classic(finish: &ClassicFinish, ambient_light: Rgb) -> Finish {
     let reflection = finish.reflection.as_ref();
     let reflection = reflection.filter(|r| r.minimum.gives_light() || r.maximum.gives_light());
     Finish {
-        glow: finish.ambient * ambient_light + finish.emission,
+        emission: finish.ambient * ambient_light + finish.emission,
         diffuse: if finish.diffuse < 0.0 { 0.0 } else { finish.diffuse },
         // Brilliance affects diffuse reflection only.
         brilliance: if finish.diffuse <= 0.0 { 1.0 } else { finish.brilliance },

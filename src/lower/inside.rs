@@ -30,13 +30,13 @@ impl Lowering<'_, '_> {
         let is_starless = world.sky.is_none() && world.background.is_black();
         let is_dim = |object: &Object| {
             let material = world.materials.get(object.material as usize);
-            material.is_some_and(|m| m.finish.glow.largest() <= DEFAULT_AMBIENT)
+            material.is_some_and(|m| m.finish.emission.largest() <= DEFAULT_AMBIENT)
         };
         // Below a ground plane it is as dark as in a closed room, because no sky is visible.
         let is_plane = |solid: u32| self.is_plane(solid);
         // An error may have kept a part of a solid from being read.
         let is_certain =
-            |solid: u32| self.is_sound || world.objects[solid as usize].whole.is_none();
+            |solid: u32| self.is_sound || world.objects[solid as usize].csg_solid.is_none();
         let is_around = |solid: u32| {
             is_certain(solid)
                 && world.parts(solid).iter().all(is_dim)
@@ -130,11 +130,12 @@ impl Lowering<'_, '_> {
                 && !object.double_illuminate
                 && self.is_closed(object)
         };
-        let whole = world.objects[solid as usize].whole.map(|i| &world.wholes[i as usize]);
+        let csg_solid =
+            world.objects[solid as usize].csg_solid.map(|i| &world.csg_solids[i as usize]);
         // A clipped solid is open where it is cut.
         let is_clip = |node: &Node| matches!(node, Node::Clip { .. });
         !self.is_inverse(solid)
-            && !whole.is_some_and(|whole| whole.nodes.iter().any(is_clip))
+            && !csg_solid.is_some_and(|csg_solid| csg_solid.nodes.iter().any(is_clip))
             && world.parts(solid).iter().all(is_wall)
     }
 
@@ -180,7 +181,7 @@ impl Lowering<'_, '_> {
     }
 
     fn holds(&self, solid: u32, place: Vector) -> bool {
-        self.world.whole_contains(&self.world.objects[solid as usize], place)
+        self.world.csg_contains(&self.world.objects[solid as usize], place)
     }
 
     /// Returns whether a point lies inside a solid of size `size` by more than the accumulated rounding.
@@ -195,13 +196,13 @@ impl Lowering<'_, '_> {
     /// Returns whether a solid is a plane outside any CSG solid: its inside is everything below it.
     fn is_plane(&self, solid: u32) -> bool {
         let object = &self.world.objects[solid as usize];
-        object.whole.is_none() && matches!(object.shape, Shape::Plane(_))
+        object.csg_solid.is_none() && matches!(object.shape, Shape::Plane(_))
     }
 
     /// Returns whether a solid is inverse, so that its inside is unbounded. (An unbounded CSG solid has no
     /// bounds.)
     pub(super) fn is_inverse(&self, solid: u32) -> bool {
         let object = &self.world.objects[solid as usize];
-        object.whole.is_none() && object.inverse
+        object.csg_solid.is_none() && object.inverse
     }
 }

@@ -329,7 +329,8 @@ impl Lowering<'_, '_> {
     /// Returns whether any surface emits more than the default ambient without a light.
     pub(super) fn glows(&self) -> bool {
         self.world.materials.iter().any(|material| {
-            let bright = |color: Rgb| (color * material.finish.glow).largest() > DEFAULT_AMBIENT;
+            let bright =
+                |color: Rgb| (color * material.finish.emission).largest() > DEFAULT_AMBIENT;
             material.pigment.colors().any(|color| bright(color.rgb))
         })
     }

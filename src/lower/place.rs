@@ -136,11 +136,11 @@ impl Lowering<'_, '_> {
             }
         }
         let interior = self.interior(here.interior, surface.finish, site);
-        let whole = self.leaf(inverse);
-        let object = Object { material, texture_from_world, faces, interior, whole, ..object };
+        let csg_solid = self.leaf(inverse);
+        let object = Object { material, texture_from_world, faces, interior, csg_solid, ..object };
         self.world.objects.push(object);
         self.origins.objects.push(site);
-        if whole.is_some() {
+        if csg_solid.is_some() {
             self.know_leaf(inverse, site);
         }
         Ok(())

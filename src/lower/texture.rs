@@ -390,6 +390,7 @@ fn telling_numbers(material: &Material) -> [u64; 6] {
         Pigment::Faces(colors) => colors.first().copied().unwrap_or(Color::BLACK),
     };
     let [red, green, blue] = color.rgb.components();
-    let Finish { glow, diffuse, ref lobes, .. } = material.finish;
-    [red, green, blue, glow.red, diffuse, lobes.first().map_or(0.0, |lobe| lobe.weight)].map(bits)
+    let Finish { emission, diffuse, ref lobes, .. } = material.finish;
+    [red, green, blue, emission.red, diffuse, lobes.first().map_or(0.0, |lobe| lobe.weight)]
+        .map(bits)
 }

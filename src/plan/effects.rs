@@ -50,7 +50,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         bodies: !world
             .objects
             .iter()
-            .all(|object| object.whole.is_none() && object.shape.is_plain()),
+            .all(|object| object.csg_solid.is_none() && object.shape.is_plain()),
     };
     plan
 }

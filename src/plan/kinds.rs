@@ -103,8 +103,8 @@ pub(super) fn without_single_kernel<'a>(
     let mut found: BTreeMap<&'static str, Site> = BTreeMap::new();
     let objects = world.objects.iter().zip(&origins.objects);
     for (object, &site) in objects.filter(|(object, _)| !Object::has_single_kernel(object)) {
-        let word = match object.whole {
-            Some(_) => "part of a whole",
+        let word = match object.csg_solid {
+            Some(_) => "part of a CSG solid",
             None => word_and_cost(world, object.shape).0,
         };
         found.entry(word).or_insert(site);

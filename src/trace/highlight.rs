@@ -57,7 +57,7 @@ mod tests {
     fn finish(kind: LobeKind, exponent: f64) -> Finish {
         Finish {
             conserve_energy: false,
-            glow: Rgb::BLACK,
+            emission: Rgb::BLACK,
             diffuse: 0.0,
             brilliance: 1.0,
             lobes: vec![Lobe { kind, weight: 0.5, exponent, metallic: 0.0 }],

@@ -58,7 +58,7 @@ impl Media {
         let start = self.start;
         if self.last_start != Some(start) {
             self.last_start = Some(start);
-            let contains = |&i: &u32| world.whole_contains(&world.objects[i as usize], start);
+            let contains = |&i: &u32| world.csg_contains(&world.objects[i as usize], start);
             self.at_last_start.clear();
             self.at_last_start.extend(world.solids().filter(contains));
         }

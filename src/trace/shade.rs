@@ -52,7 +52,7 @@ impl Place<'_> {
     }
 }
 
-/// `B·glow + Σ I·(B·diffuse·(N·L)^brilliance + Σ lobes)` over the lights that are visible, where B is
+/// `B·emission + Σ I·(B·diffuse·(N·L)^brilliance + Σ lobes)` over the lights that are visible, where B is
 /// the body's colour. A surface shines however clear it is.
 ///
 /// A light behind the surface or on the point itself contributes nothing. One in the surface's
@@ -68,7 +68,7 @@ pub(super) fn local<const SHADOWS: bool, const KINDS: bool, const COUNTS: bool>(
     place: &Place,
 ) -> Rgb {
     let Place { finish, body, .. } = *place;
-    let mut sum = body * finish.glow;
+    let mut sum = body * finish.emission;
     if finish.diffuse == 0.0 && finish.lobes.is_empty() {
         return sum;
     }

@@ -6,8 +6,8 @@
 use std::fmt::{self, Write};
 
 use super::{
-    Attenuation, Beam, CameraKind, Fade, Finish, LightKind, LobeKind, Object, Origins, Pigment,
-    Whole, World,
+    Attenuation, Beam, CameraKind, CsgSolid, Fade, Finish, LightKind, LobeKind, Object, Origins,
+    Pigment, World,
 };
 use crate::color::Clearness;
 use crate::math::placement::{Map, Placement};
@@ -57,11 +57,11 @@ impl Printer<'_> {
         for (i, object) in self.world.objects.iter().enumerate() {
             self.object(out, i, object)?;
         }
-        if !self.world.wholes.is_empty() {
-            writeln!(out, "wholes {}", self.world.wholes.len())?;
-            for (i, whole) in self.world.wholes.iter().enumerate() {
+        if !self.world.csg_solids.is_empty() {
+            writeln!(out, "csg_solids {}", self.world.csg_solids.len())?;
+            for (i, solid) in self.world.csg_solids.iter().enumerate() {
                 write!(out, "  {i}")?;
-                nodes(out, whole)?;
+                nodes(out, solid)?;
             }
         }
         writeln!(out, "materials {}", self.world.materials.len())?;
@@ -176,8 +176,8 @@ impl Printer<'_> {
         if object.inverse {
             write!(out, " inverse")?;
         }
-        if let Some(whole) = object.whole {
-            write!(out, " of whole {whole}")?;
+        if let Some(solid) = object.csg_solid {
+            write!(out, " of csg_solid {solid}")?;
         }
         writeln!(out, "{}", self.at(self.origins.objects.get(i).copied()))?;
         out.push_str(&more);
@@ -219,9 +219,9 @@ fn placement(out: &mut String, more: &mut String, placement: &Placement) -> fmt:
 }
 
 /// Prints the operations of a CSG solid in postfix order, its leaves by their objects.
-fn nodes(out: &mut String, whole: &Whole) -> fmt::Result {
-    let mut leaves = whole.leaves();
-    for node in &whole.nodes {
+fn nodes(out: &mut String, solid: &CsgSolid) -> fmt::Result {
+    let mut leaves = solid.leaves();
+    for node in &solid.nodes {
         match node {
             Node::Leaf { inverse } => {
                 let outside = if *inverse { "outside of " } else { "" };
@@ -284,8 +284,8 @@ fn finish(out: &mut String, finish: &Finish) -> fmt::Result {
     if finish.seed {
         parts.push("seed".to_owned());
     }
-    if !finish.glow.is_black() {
-        parts.push(format!("glow {}", finish.glow));
+    if !finish.emission.is_black() {
+        parts.push(format!("emission {}", finish.emission));
     }
     if finish.diffuse != 0.0 {
         parts.push(format!("diffuse {}", finish.diffuse));

@@ -23,11 +23,11 @@ impl World {
     }
 
     /// Returns whether a point lies inside an object, or inside the CSG solid that it is part of.
-    pub fn whole_contains(&self, object: &Object, point: Vector) -> bool {
-        let Some(whole) = object.whole else { return self.contains(object, point) };
-        let whole = &self.wholes[whole as usize];
+    pub fn csg_contains(&self, object: &Object, point: Vector) -> bool {
+        let Some(solid) = object.csg_solid else { return self.contains(object, point) };
+        let solid = &self.csg_solids[solid as usize];
         let leaf = |object: &Object| self.contains(object, point) != object.inverse;
-        csg::contains(&whole.nodes, self.objects[whole.leaves()].iter().map(leaf))
+        csg::contains(&solid.nodes, self.objects[solid.leaves()].iter().map(leaf))
     }
 
     /// Returns the keyword of an object's shape.
@@ -43,16 +43,16 @@ impl World {
     /// Returns the indices of the objects outside CSG solids, and of the first part of each CSG solid.
     pub fn solids(&self) -> impl Iterator<Item = u32> {
         (0..self.objects.len() as u32).filter(|&i| {
-            let whole = self.objects[i as usize].whole;
-            whole.is_none_or(|whole| self.wholes[whole as usize].first == i)
+            let solid = self.objects[i as usize].csg_solid;
+            solid.is_none_or(|solid| self.csg_solids[solid as usize].first == i)
         })
     }
 
     /// Returns the objects that make up a solid of [`World::solids`].
     pub fn parts(&self, solid: u32) -> &[Object] {
         let at = solid as usize;
-        match self.objects[at].whole {
-            Some(whole) => &self.objects[self.wholes[whole as usize].leaves()],
+        match self.objects[at].csg_solid {
+            Some(solid) => &self.objects[self.csg_solids[solid as usize].leaves()],
             None => &self.objects[at..=at],
         }
     }
@@ -77,10 +77,10 @@ impl World {
         let mut world = self.clone();
         let mut made: HashMap<*const Body, Arc<Body>> = HashMap::new();
         for placed in &mut world.placed {
-            let Some(whole) = fractal(placed).filter(|whole| whole.iterations > most) else {
+            let Some(full) = fractal(placed).filter(|full| full.iterations > most) else {
                 continue;
             };
-            let less = || JuliaFractal { iterations: most, ..whole.clone() };
+            let less = || JuliaFractal { iterations: most, ..full.clone() };
             let known = made.entry(Arc::as_ptr(&placed.body));
             let body = known.or_insert_with(|| Arc::new(Body::JuliaFractal(less()))).clone();
             placed.body = body;
@@ -106,8 +106,8 @@ impl World {
 
     /// Returns whether both are parts of one CSG solid, or the same object.
     pub fn is_same_solid(&self, a: u32, b: u32) -> bool {
-        let whole = |object: u32| self.objects[object as usize].whole;
-        a == b || whole(a).is_some() && whole(a) == whole(b)
+        let solid = |object: u32| self.objects[object as usize].csg_solid;
+        a == b || solid(a).is_some() && solid(a) == solid(b)
     }
 }
 

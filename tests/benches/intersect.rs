@@ -23,7 +23,7 @@ const LIGHTS: [Vector; 2] = [Vector::new(50.0, 80.0, 60.0), Vector::new(-60.0, 5
 fn empty() -> World {
     let finish = Finish {
         conserve_energy: false,
-        glow: Rgb::default(),
+        emission: Rgb::default(),
         diffuse: 0.6,
         brilliance: 1.0,
         lobes: Vec::new(),

@@ -126,7 +126,7 @@ fn row_74_a_path_may_be_as_long_as_one_likes_on_a_small_stack() {
             .expect("a thread")
             .join()
             .expect("no overflow");
-        // Each surface adds its glow of ¼; white from 4 on.
+        // Each surface adds its emission of ¼; white from 4 on.
         let expected = 0.25 * f64::from(level.max(1));
         for c in film.radiance {
             assert!((c.red / expected - 1.0).abs() < 1e-9, "{level}: {}", c.red);

@@ -111,7 +111,7 @@ fn row_61_light_of_any_strength_is_white_or_black() {
         }
         if strength > 0.0 {
             let scene = Scene::new(above(), &[light([5.0, 8.0, 6.0])], ball(strength));
-            hold(&format!("a glow of {strength:e}"), &scene);
+            hold(&format!("an emission of {strength:e}"), &scene);
         }
     }
     let scene = Scene::new(above(), &[light([5.0, 8.0, 6.0])], ball(0.1));

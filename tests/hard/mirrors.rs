@@ -94,7 +94,7 @@ fn row_42_in_a_white_furnace_nothing_is_lost() {
     let film = room(200, (0.5, 0.5));
     let worst = film.radiance.iter().flat_map(|c| c.components()).map(|c| (1.0 - c).abs());
     assert!(worst.fold(0.0, f64::max) < 1e-12);
-    // Nothing is lost by mirrors either: after 199 whole reflections the last one's glow is left.
+    // Nothing is lost by mirrors either: after 199 whole reflections the last one's emission is left.
     let film = room(200, (1.0 / 200.0, 1.0));
     let worst = film.radiance.iter().flat_map(|c| c.components()).map(|c| (1.0 - c).abs());
     assert!(worst.fold(0.0, f64::max) < 1e-12);

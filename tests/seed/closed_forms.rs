@@ -196,7 +196,7 @@ fn a_colour_counts_at_most_one() {
     assert_eq!(at_the_pole(&ball(5.0, 0.0, 1.0, Vector::Z)), 1.0);
 }
 
-/// Two planes that face each other across the origin, both grey mirrors that glow.
+/// Two planes that face each other across the origin, both grey mirrors that emit light.
 fn corridor(ks: f64, bound: u32) -> f64 {
     let mut sketch = Sketch::new();
     sketch.scene.settings.max_trace_level = bound;
@@ -212,8 +212,8 @@ fn corridor(ks: f64, bound: u32) -> f64 {
 
 #[test]
 fn five_means_the_cameras_ray_and_four_reflections() {
-    let glow = 0.5 * 0.2;
-    let sum = |n: i32| glow * (0..n).map(|i| 0.5f64.powi(i)).sum::<f64>();
+    let emission = 0.5 * 0.2;
+    let sum = |n: i32| emission * (0..n).map(|i| 0.5f64.powi(i)).sum::<f64>();
     assert!(near(corridor(0.5, 5), sum(5)));
     assert!(near(corridor(0.5, 1), sum(1)));
     assert!(near(corridor(0.5, 2), sum(2)));

@@ -12,9 +12,9 @@ fn polyhedron(planes: &[Plane]) -> World {
         add_plane(&mut world, plane.normal, plane.distance);
         nodes.push(Node::Leaf { inverse: false });
     }
-    world.objects.iter_mut().for_each(|object| object.whole = Some(0));
+    world.objects.iter_mut().for_each(|object| object.csg_solid = Some(0));
     nodes.push(Node::Intersection(planes.len() as u32));
-    world.wholes.push(crate::world::Whole { nodes, first: 0, count: planes.len() as u32 });
+    world.csg_solids.push(crate::world::CsgSolid { nodes, first: 0, count: planes.len() as u32 });
     world
 }
 
@@ -176,10 +176,10 @@ fn a_ball_that_planes_cut_ends_at_them() {
         distance: -0.5 * 2.0_f64.sqrt(),
     }]);
     add_sphere(&mut world, Vector::ZERO, 1.0);
-    world.objects[1].whole = Some(0);
+    world.objects[1].csg_solid = Some(0);
     let leaf = Node::Leaf { inverse: false };
-    world.wholes[0].nodes = vec![leaf, leaf, Node::Intersection(2)];
-    world.wholes[0].count = 2;
+    world.csg_solids[0].nodes = vec![leaf, leaf, Node::Intersection(2)];
+    world.csg_solids[0].count = 2;
     let Extent(bounds) = Extent::of(&world, 0, Rounding::Nearest);
     // x ≤ −1 − y, and y ≥ −1.
     assert!((bounds.high - Vector::new(0.0, 0.0, 1.0)).abs().max_element() < 1e-14, "{bounds:?}");

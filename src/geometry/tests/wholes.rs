@@ -47,7 +47,7 @@ fn add_parts(
         nodes.push(Node::Leaf { inverse });
         if let Some(object) = world.objects.last_mut() {
             object.inverse = inverse;
-            object.whole = Some(world.wholes.len() as u32);
+            object.csg_solid = Some(world.csg_solids.len() as u32);
             object.casts_shadow = true;
         }
         return;
@@ -79,7 +79,7 @@ fn add_whole(
         add_parts(world, random, place, depth, walls, &mut nodes);
     }
     let count = world.objects.len() as u32 - first;
-    world.wholes.push(crate::world::Whole { nodes, first, count });
+    world.csg_solids.push(crate::world::CsgSolid { nodes, first, count });
 }
 
 #[test]
@@ -98,8 +98,9 @@ fn trees_find_of_wholes_among_others_what_trying_every_part_finds() {
         assert_tree_agrees(&world, &mut random, reach, tries_in(1000));
         let ray = random_ray(&mut random, &world, reach);
         let hit = geometry.nearest(&ray);
-        met +=
-            usize::from(hit.is_some_and(|hit| world.objects[hit.object as usize].whole.is_some()));
+        met += usize::from(
+            hit.is_some_and(|hit| world.objects[hit.object as usize].csg_solid.is_some()),
+        );
     }
     assert!(trees > 20 && met > 10, "{trees} trees, {met} met");
 }
@@ -133,9 +134,14 @@ fn a_whole_is_entered_and_left_where_membership_changes() {
                     continue;
                 }
                 let at =
-                    |a: f64, b: f64| world.whole_contains(&world.objects[0], ray.at(0.5 * (a + b)));
+                    |a: f64, b: f64| world.csg_contains(&world.objects[0], ray.at(0.5 * (a + b)));
                 let changes = at(last.t, here.t) != at(here.t, next.t);
-                assert_eq!(kept.contains(&here.t), changes, "{here:?} {ray:?} {:?}", world.wholes);
+                assert_eq!(
+                    kept.contains(&here.t),
+                    changes,
+                    "{here:?} {ray:?} {:?}",
+                    world.csg_solids
+                );
                 ends += usize::from(changes);
             }
         }
@@ -179,7 +185,7 @@ fn what_is_inside_of_a_whole_lies_within_its_bounds() {
                 cut += usize::from(place != point[axis]);
                 point[axis] = place;
             }
-            if world.whole_contains(&world.objects[0], point) {
+            if world.csg_contains(&world.objects[0], point) {
                 assert!(bounds.contains(point), "{point} {bounds:?} {world:?}");
                 inside += 1;
             }
@@ -217,10 +223,10 @@ fn a_block_with_ten_thousand_balls_taken_out_asks_few_of_them() {
     }
     nodes.push(Node::Intersection(10_001));
     for object in &mut world.objects {
-        object.whole = Some(0);
+        object.csg_solid = Some(0);
         object.inverse = object.shape != Shape::Box(0);
     }
-    world.wholes.push(crate::world::Whole { nodes, first: 0, count: 10_001 });
+    world.csg_solids.push(crate::world::CsgSolid { nodes, first: 0, count: 10_001 });
     let geometry = Geometry::build(&world);
     let list = without_tree(&geometry);
     let (mut asked, mut balls) = (0, 0);
@@ -248,10 +254,10 @@ fn a_ray_that_starts_where_parts_begin_and_end_enters_before_it_leaves() {
                 let half = 0.5 * size;
                 add_box(&mut world, aligned_box(Vector::splat(half), [half.abs(); 3]));
             }
-            world.objects.iter_mut().for_each(|object| object.whole = Some(0));
+            world.objects.iter_mut().for_each(|object| object.csg_solid = Some(0));
             let leaf = Node::Leaf { inverse: false };
             let nodes = vec![leaf, leaf, node];
-            world.wholes.push(crate::world::Whole { nodes, first: 0, count: 2 });
+            world.csg_solids.push(crate::world::CsgSolid { nodes, first: 0, count: 2 });
             let geometry = Geometry::build(&world);
             let Some(whole) = geometry.wholes.first() else { continue };
             let mut random = Random(24);

@@ -146,7 +146,7 @@ fn an_inverse_goes_down_to_the_leaves() {
     let csg = |operation, children| ObjectKind::Csg { operation, children };
     let union = spell(&ObjectKind::Union, false);
     assert_eq!(union, spell(&|all| csg(Operation::Intersection, all), true));
-    assert_eq!(union.wholes.len(), 1);
+    assert_eq!(union.csg_solids.len(), 1);
     let shared = spell(&|all| csg(Operation::Intersection, all), false);
     assert_eq!(shared, spell(&|all| csg(Operation::Merge, all), true));
 }
@@ -165,7 +165,7 @@ fn a_difference_is_what_the_first_and_the_outsides_of_the_others_share() {
     };
     let world = spell(Operation::Difference, vec![]);
     assert_eq!(world, spell(Operation::Intersection, vec![ModifierKind::Inverse]));
-    let nodes = &world.wholes[0].nodes;
+    let nodes = &world.csg_solids[0].nodes;
     let [solid, hole] = [false, true].map(|inverse| Node::Leaf { inverse });
     assert_eq!(nodes.as_slice(), [solid, hole, Node::Intersection(2)]);
 }

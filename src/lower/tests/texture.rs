@@ -167,7 +167,7 @@ fn ambient_is_lit_by_the_ambient_light_and_emission_is_not() {
         Finish::Classic(ClassicFinish { ambient, emission, ..Default::default() });
     let object = build.object(sphere(0.0, 0.0, 0.0, 1.0), vec![]);
     build.root(object);
-    assert_eq!(build.world().materials[0].finish.glow, Rgb::gray(1.125));
+    assert_eq!(build.world().materials[0].finish.emission, Rgb::gray(1.125));
 }
 
 #[test]
@@ -327,7 +327,7 @@ fn the_seeds_finish_is_its_formula() {
     let object = build.object(sphere(0.0, 0.0, 0.0, 1.0), vec![]);
     build.root(object);
     let finish = build.world().materials[0].finish.clone();
-    assert_eq!(finish.glow, Rgb::new(0.5, 0.25, 0.0));
+    assert_eq!(finish.emission, Rgb::new(0.5, 0.25, 0.0));
     assert_eq!((finish.diffuse, finish.brilliance, finish.seed), (0.5, 1.0, true));
     let kind = world::LobeKind::Blinn;
     assert_eq!(finish.lobes, [world::Lobe { kind, weight: 0.25, exponent: 20.0, metallic: 1.0 }]);
@@ -353,7 +353,7 @@ fn what_a_finish_gives_no_weight_is_absent() {
     };
     let dull = lowered(ClassicFinish { reflection: Some(black.clone()), ..Default::default() });
     assert!(dull.lobes.is_empty() && dull.reflection.is_none());
-    assert_eq!(dull.glow, Rgb::gray(0.1));
+    assert_eq!(dull.emission, Rgb::gray(0.1));
     let bright = lowered(ClassicFinish {
         phong: 0.5,
         specular: 0.25,

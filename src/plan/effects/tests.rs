@@ -20,7 +20,7 @@ fn lit_mirror() -> (World, Origins) {
     let lobe = Lobe { kind: LobeKind::Phong, weight: 0.5, exponent: 9.0, metallic: 0.0 };
     let finish = Finish {
         conserve_energy: false,
-        glow: Rgb::BLACK,
+        emission: Rgb::BLACK,
         diffuse: 0.5,
         brilliance: 1.0,
         lobes: vec![lobe],

@@ -189,7 +189,7 @@ fn a_clear_surface_shows_by_itself_as_much_as_is_not_clear_and_shines_all_the_sa
     let mut part = pane(0.5);
     let color = Color { rgb: Rgb::new(0.5, 0.6, 0.7), filter: 0.3, transmit: 0.5 };
     part.pigment = Pigment::Color(color);
-    part.finish.glow = Rgb::gray(0.4);
+    part.finish.emission = Rgb::gray(0.4);
     let behind = Rgb::new(0.8, 0.4, 0.2);
     let seen = |part: &Material| {
         let built = Built::default().plane(UnitVector::Z, -3.0, part.clone());
@@ -198,7 +198,7 @@ fn a_clear_surface_shows_by_itself_as_much_as_is_not_clear_and_shines_all_the_sa
     let close = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
     assert!(close(seen(&part), [0.56, 0.32, 0.198]), "measured");
     part.finish.reflection = mirror(0.2, 0.0).finish.reflection;
-    part.finish.glow = Rgb::BLACK;
+    part.finish.emission = Rgb::BLACK;
     assert!(close(seen(&part), [0.68, 0.352, 0.182]), "measured");
     part.finish.conserve_energy = true;
     assert!(close(seen(&part), [0.576, 0.2976, 0.1536]), "measured");

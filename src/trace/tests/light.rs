@@ -108,16 +108,16 @@ fn a_seed_surface_follows_the_seeds_formula() {
 #[test]
 fn a_light_behind_the_surface_or_on_it_or_behind_something_gives_nothing() {
     let wall = || Built::default().plane(UnitVector::Z, -3.0, matte(1.0, 1.0, 1.0));
-    let glow = 0.1;
-    assert_eq!(centre(&wall().light([0.0, 0.0, -5.0], 1.0).world(|_| ())).red, glow);
+    let emission = 0.1;
+    assert_eq!(centre(&wall().light([0.0, 0.0, -5.0], 1.0).world(|_| ())).red, emission);
     let behind = wall().light([0.0, 0.0, -5.0], 1.0);
     let shining_through = behind.world(|world| world.lights[0].casts_shadows = false);
-    assert_eq!(centre(&shining_through).red, glow);
-    assert_eq!(centre(&wall().light([0.0, 0.0, -3.0], 1.0).world(|_| ())).red, glow);
+    assert_eq!(centre(&shining_through).red, emission);
+    assert_eq!(centre(&wall().light([0.0, 0.0, -3.0], 1.0).world(|_| ())).red, emission);
     let lit = wall().light([0.0, 2.0, 0.0], 1.0);
     assert!(centre(&lit.world(|_| ())).red > 0.5);
     let covered = || wall().light([0.0, 2.0, 0.0], 1.0).sphere([0.0, 1.0, -1.5], 0.5, glowing(0.0));
-    assert_eq!(centre(&covered().world(|_| ())).red, glow);
+    assert_eq!(centre(&covered().world(|_| ())).red, emission);
     let transparent = covered().world(|world| world.objects[1].casts_shadow = false);
     assert!(centre(&transparent).red > 0.5);
     let shadowless = covered().world(|world| world.lights[0].casts_shadows = false);

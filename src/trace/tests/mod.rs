@@ -20,7 +20,7 @@ use crate::world::{
 
 const NO_FINISH: Finish = Finish {
     conserve_energy: false,
-    glow: Rgb::BLACK,
+    emission: Rgb::BLACK,
     diffuse: 0.0,
     brilliance: 1.0,
     lobes: Vec::new(),
@@ -28,12 +28,12 @@ const NO_FINISH: Finish = Finish {
     seed: false,
 };
 
-fn glowing(glow: f64) -> Material {
-    let finish = Finish { glow: Rgb::gray(glow), ..NO_FINISH };
+fn glowing(emission: f64) -> Material {
+    let finish = Finish { emission: Rgb::gray(emission), ..NO_FINISH };
     Material { pigment: Pigment::Color(Color::WHITE), finish }
 }
 
-fn mirror(albedo: f64, glow: f64) -> Material {
+fn mirror(albedo: f64, emission: f64) -> Material {
     let all = Rgb::gray(albedo);
     let reflection = Reflection {
         fresnel: false,
@@ -43,12 +43,13 @@ fn mirror(albedo: f64, glow: f64) -> Material {
         exponent: 1.0,
         metallic: 0.0,
     };
-    let finish = Finish { glow: Rgb::gray(glow), reflection: Some(reflection), ..NO_FINISH };
+    let finish =
+        Finish { emission: Rgb::gray(emission), reflection: Some(reflection), ..NO_FINISH };
     Material { pigment: Pigment::Color(Color::WHITE), finish }
 }
 
 fn matte(red: f64, green: f64, blue: f64) -> Material {
-    let finish = Finish { glow: Rgb::gray(0.1), diffuse: 0.6, ..NO_FINISH };
+    let finish = Finish { emission: Rgb::gray(0.1), diffuse: 0.6, ..NO_FINISH };
     Material { pigment: Pigment::Color(Color::opaque(Rgb::new(red, green, blue))), finish }
 }
 
