@@ -43,7 +43,8 @@ fn work_is_stopped_within_a_pixel_and_the_pixel_is_left_undone() {
         for antialias in [Antialias::Off, Antialias::Grid(3), Antialias::default()] {
             let plan = plan(&world, &origins, &PlanOptions { antialias, ..own });
             let clock = Ticking::new(1.0);
-            let watch = afford::Deadline { clock: &clock, until: 300.0, watch: &Unwatched };
+            let watch =
+                affordable_reference::Deadline { clock: &clock, until: 300.0, watch: &Unwatched };
             let Traced { film, counters, complete } = trace(&world, &plan, &ONE_THREAD, &watch);
             assert!(!complete && film.samples.contains(&0), "{antialias:?}");
             assert!(counters.rays() < 300 * 1000, "{counters:?}");
@@ -119,13 +120,13 @@ fn pixels_that_turn_out_too_dear_are_made_with_the_cheapest_settings_and_hold_up
     // does would take longer than there is.
     let (world, origins) = compiled(&GLASS.replace("0 angle 45", "<9, 9, 0> angle 130"), 200.0);
     let options = asked(48, 36);
-    let easel = easel::Easel::new(&world, &origins, &options);
+    let easel = render_settings::Easel::new(&world, &origins, &options);
     let geometry = Geometries::default();
     let studio =
         Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
     let begun = |time: f64| {
         let clock = Ticking::new(1.0);
-        let begun = begin::begin(&studio, &origins, &easel, 1, (&clock, time));
+        let begun = first_samples::begin(&studio, &origins, &easel, 1, (&clock, time));
         assert!(begun.traced.complete && clock.wall() <= time, "{time} {}", clock.wall());
         assert!(!begun.is_less && begun.settings.antialias == Antialias::Off);
         let least = plan(&world, &origins, &begun.least);
@@ -195,7 +196,7 @@ fn without_a_clock_a_reference_is_as_deep_on_every_run() {
         let geometry = Geometries::default();
         let options = TraceOptions::on_threads(threads);
         let studio = Studio { world: &world, geometry: &geometry, options, watch: &Unwatched };
-        afford::counted_depth(&studio, &depths, &list, 1, 2).expect("not stopped")
+        affordable_reference::counted_depth(&studio, &depths, &list, 1, 2).expect("not stopped")
     };
     assert_eq!(depth(1), depth(3));
     assert!((5..40).contains(&depth(1)), "{}", depth(1));
@@ -203,7 +204,8 @@ fn without_a_clock_a_reference_is_as_deep_on_every_run() {
     let geometry = Geometries::default();
     let studio =
         Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
-    let own = afford::counted_depth(&studio, &depths, &list, 1, 200).expect("not stopped");
+    let own =
+        affordable_reference::counted_depth(&studio, &depths, &list, 1, 200).expect("not stopped");
     assert!(own >= depth(1) && own < 60, "{own}");
 }
 
@@ -230,7 +232,8 @@ fn where_a_level_is_worth_many_a_reference_is_as_deep_as_can_be_and_no_look_is_e
         let geometry = Geometries::default();
         let studio =
             Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
-        let depth = afford::counted_depth(&studio, &depths, &list, 1, asked).expect("not stopped");
+        let depth = affordable_reference::counted_depth(&studio, &depths, &list, 1, asked)
+            .expect("not stopped");
         let rays = |depth: u32| {
             let plan = depths.plan(&studio, depth);
             let reference = Reference::new(&studio, &plan, &list[..30], 1, Reference::ROUGH);
@@ -253,7 +256,7 @@ fn refined(until: f64) -> (Film, usize) {
     let plan = plan(&world, &origins, &PlanOptions { antialias: Antialias::Off, ..own });
     let geometry = Geometries::default();
     let clock = Ticking::new(1.0);
-    let watch = afford::Deadline { clock: &clock, until, watch: &Unwatched };
+    let watch = affordable_reference::Deadline { clock: &clock, until, watch: &Unwatched };
     let studio = Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &watch };
     let Traced { film, counters, .. } = studio.picture(&plan, &Unwatched);
     let pace = Pace { seconds: 100.0, samples: film.samples.len() as f64 };
@@ -354,7 +357,11 @@ fn a_time_makes_no_worse_a_picture_than_a_plain_grid_that_takes_it() {
             let antialias = Antialias::Grid(side);
             let options = PlanOptions { antialias, ..own(&world, frame) };
             let clock = Ticking::new(1.0);
-            let watch = afford::Deadline { clock: &clock, until: f64::MAX, watch: &Unwatched };
+            let watch = affordable_reference::Deadline {
+                clock: &clock,
+                until: f64::MAX,
+                watch: &Unwatched,
+            };
             let grid = trace(&world, &plan(&world, &origins, &options), &ONE_THREAD, &watch);
             let time = clock.wall();
             let clock = Ticking::new(1.0);

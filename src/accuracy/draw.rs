@@ -10,7 +10,7 @@
 
 use std::collections::BTreeSet;
 
-use super::afford::{Deadline, LEAST};
+use super::affordable_reference::{Deadline, LEAST};
 use super::measure::Clock;
 use super::proof::Audit;
 use super::reference::{Studio, clamped, colors_of};

@@ -6,7 +6,7 @@
 
 use std::cmp::Ordering;
 
-use super::afford::Deadline;
+use super::affordable_reference::Deadline;
 use super::knob::cost;
 use super::measure::{Clock, Span};
 use super::reference::Studio;

@@ -4,14 +4,13 @@
 //! pixels, samples and intervals are drawn from seeds, so errors are the same on every run that has time
 //! for the same reference; only seconds differ. Nothing here prints or accesses disks.
 
-mod afford;
-mod alike;
+mod affordable_reference;
 mod answer;
 mod audit;
-mod begin;
 mod choose;
 mod draw;
-mod easel;
+mod equal_settings;
+mod first_samples;
 mod forecast;
 mod front;
 mod glare;
@@ -22,6 +21,7 @@ mod promise;
 mod proof;
 mod reference;
 mod refine;
+mod render_settings;
 mod report;
 mod sentence;
 mod spend;
@@ -30,7 +30,7 @@ pub mod svg;
 pub mod table;
 mod trial;
 
-pub use afford::LEAST as LEAST_PIXELS;
+pub use affordable_reference::LEAST as LEAST_PIXELS;
 pub use front::{Order, Verdict};
 pub use glare::glare;
 pub use knob::{KNOBS, Knob, Need, share};
@@ -44,8 +44,8 @@ pub use statistics::{Estimate, Metric};
 use crate::plan::{Frame, PlanOptions, plan};
 use crate::trace::{TraceOptions, Watch};
 use crate::world::{Origins, World};
-use afford::Depths;
-use alike::Alike;
+use affordable_reference::Depths;
+use equal_settings::Alike;
 use measure::Elapsing;
 use reference::{Geometries, Reference, Studio};
 use trial::{Bench, Candidate, Picture, Trial};

@@ -5,14 +5,14 @@
 
 use std::cell::Cell;
 
-use super::afford::{self, Depths, LEAST};
+use super::affordable_reference::{self, Depths, LEAST};
 use super::audit;
 use super::choose::{Choice, Tuning};
-use super::easel::Easel;
 use super::knob::cost;
 use super::measure::Clock;
 use super::proof::{Audit, audited, expected};
 use super::reference::{Geometries, Reference, Studio};
+use super::render_settings::Easel;
 use super::statistics::{Estimate, Metric};
 use super::{Options, Quiet};
 use crate::plan::{Antialias, Plan, PlanOptions, plan};
@@ -150,7 +150,8 @@ impl<'a> Search<'a> {
         let depths = Depths { origins, deepest: easel.deepest };
         let few = audit::shuffled(sets[0].clone(), options.seed);
         let own_depth = easel.own.depth.unwrap_or(1);
-        let depth = afford::counted_depth(&studio, &depths, &few, options.seed, own_depth)?;
+        let depth =
+            affordable_reference::counted_depth(&studio, &depths, &few, options.seed, own_depth)?;
         let deep = depths.plan(&studio, depth);
         let cut = (depth < depths.most()).then_some(depth);
         let few = &few[..few.len().min(TIMED)];

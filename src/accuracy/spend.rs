@@ -4,14 +4,14 @@
 //! what is known of its error. **Invariant:** the deadline is kept even if it is too short for the scene's
 //! own settings; an error is reported only against a reference as deep as the scene.
 
-use super::afford::{Deadline, Depths, LEAST};
-use super::begin::{Begun, begin};
+use super::affordable_reference::{Deadline, Depths, LEAST};
 use super::draw::{Truth, Urn};
-use super::easel::Easel;
+use super::first_samples::{Begun, begin};
 use super::measure::Clock;
 use super::proof::Audit;
 use super::reference::{Geometries, Studio};
 use super::refine::{Canvas, MOST_SIDE, Pace, Until, is_finest};
+use super::render_settings::Easel;
 use super::{Options, Quiet};
 use crate::film::Film;
 use crate::plan::{Effect, Plan, PlanOptions, plan};

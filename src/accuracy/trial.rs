@@ -6,8 +6,8 @@
 //! once. Runs are interleaved: the k-th run of one picture is made between the k-th runs of the others, so
 //! that other load on the machine affects all of them alike.
 
-use super::afford::{self, Affordable, Deadline, Depths};
-use super::alike::{Alike, alike};
+use super::affordable_reference::{self, Affordable, Deadline, Depths};
+use super::equal_settings::{Alike, alike};
 use super::forecast::{Forecast, at_once, forecast};
 use super::measure::{Clock, Span, Timer, Times};
 use super::reference::{Reference, Studio, colors_of};
@@ -141,12 +141,12 @@ impl Bench<'_> {
         let all_rows = candidates.len() as f64 * statistics_take(self.clock, metric);
         let whole = self.until - self.clock.wall();
         let most = (FOR_STATISTICS * whole / all_rows) as usize;
-        let list = &list[..list.len().min(most.max(afford::LEAST))];
+        let list = &list[..list.len().min(most.max(affordable_reference::LEAST))];
         let until = until - all_rows * list.len() as f64 - FOR_THE_REPORT * whole;
 
         let own = self.picture((0, &candidates[0]), list, self.after(FOR_OWN, until));
         let own = own.ok_or_else(stopped)?;
-        let known = afford::reference(
+        let known = affordable_reference::reference(
             &self.studio,
             &self.depths,
             list,

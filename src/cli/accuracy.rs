@@ -18,7 +18,7 @@ use lucarne::trace::TraceOptions;
 use super::arguments::AccuracyArguments;
 use super::exit::{Exit, Failure, Outcome};
 use super::files::DiskFiles;
-use super::life::duration;
+use super::heartbeat::duration;
 use super::messages;
 use super::output::{can_be_made, write_whole};
 use super::progress::{self, Progress};

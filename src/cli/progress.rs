@@ -15,7 +15,7 @@ use lucarne::evaluate::Interrupt;
 use lucarne::trace::Watch;
 
 use super::exit::Exit;
-use super::life::{Life, NOW_AND_THEN};
+use super::heartbeat::{Life, NOW_AND_THEN};
 use super::messages;
 use super::stats::cpu_seconds;
 

@@ -11,7 +11,7 @@ use lucarne::world::{Origins, World};
 use super::arguments::RenderArguments;
 use super::budget::spend;
 use super::exit::{Exit, Failure};
-use super::life::duration;
+use super::heartbeat::duration;
 use super::progress::Progress;
 use super::stats::Stopwatch;
 

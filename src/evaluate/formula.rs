@@ -17,8 +17,8 @@ use crate::syntax::ast::{
 };
 use crate::vocabulary::Word;
 
+use super::continuation::holds_directive;
 use super::function::{AuthorFunction, FunctionId, ParameterName, outside_id};
-use super::joint::holds_directive;
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported, builtin};
 

@@ -20,13 +20,13 @@ use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
 
-mod asked;
-mod broken;
 mod closed;
 mod internal;
+mod tape_call;
+mod unreadable_body;
 
-pub use asked::{AuthorFunction, FunctionId};
-pub(super) use asked::{Functions, outside_id};
+pub use tape_call::{AuthorFunction, FunctionId};
+pub(super) use tape_call::{Functions, outside_id};
 
 /// Name of a parameter: an identifier or an axis (`u` is `x`, `v` is `y`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -353,7 +353,7 @@ impl Evaluator<'_> {
         let value = match &self.functions[id.0 as usize] {
             AuthorFunction::Spline(spline) => return Ok(spline.at(arguments[0])),
             AuthorFunction::Pigment(pigment) => {
-                return Ok(Value::Color(asked::color(pigment, &arguments).single()));
+                return Ok(Value::Color(tape_call::color(pigment, &arguments).single()));
             }
             AuthorFunction::Transform(rows) => {
                 let coordinate = |axis: usize| rows[axis].run().at(&arguments, &functions);

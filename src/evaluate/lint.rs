@@ -7,13 +7,13 @@ mod equation;
 mod finish;
 mod light;
 mod local;
-mod lone;
 mod loose;
 mod map;
 mod range;
 mod short;
 mod switch;
 mod unit;
+mod unlikely_shape;
 mod unused;
 mod version;
 

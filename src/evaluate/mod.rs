@@ -5,6 +5,7 @@
 //! asks the stream for its next item, and directives, macro calls and includes run at their position on the
 //! way to it.
 
+mod analysis_cache;
 mod argument;
 mod arity;
 mod array;
@@ -14,43 +15,42 @@ mod builtin;
 mod call;
 mod comparison;
 mod concat;
+mod continuation;
 mod directive;
 mod element;
 mod enclosure;
 mod endless;
 mod expand;
 mod expression;
+mod fast_arithmetic;
 mod file;
 mod formula;
 mod function;
+mod geometric_query;
 mod include;
-mod joint;
+mod iteration;
 mod lint;
 mod memory;
+mod misleading_syntax;
+mod missing_result;
+mod multiple_results;
 mod options;
-mod plain;
-mod probe;
-mod quirk;
-mod remembered;
+mod paths;
 mod report;
+mod rollback;
 mod run;
 mod scope;
 mod semicolon;
-mod silent;
 mod spline;
-mod spread;
 mod stream;
 #[cfg(test)]
 mod tests;
-mod told;
-mod turn;
 mod unbounded;
 mod undeclared;
 mod unit;
 mod unrun;
 pub mod value;
 mod vector;
-mod way;
 mod written;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -70,10 +70,10 @@ use crate::vocabulary::{Dialect, PREDECLARED};
 
 pub use options::{EvaluateOptions, Interrupt, Limits};
 
+use analysis_cache::Remembered;
 use builtin::RandomStreams;
 use enclosure::Enclosure;
 use expand::Macro;
-use remembered::Remembered;
 use scope::{Scopes, Symbol};
 use stream::{Frame, Hold, MOST_RUN_SINCE_FAULT, Silent, Token};
 use unit::{Here, Unit};
@@ -222,7 +222,7 @@ struct Evaluator<'a> {
     faults: u64,
     /// Cached analyses for messages, by span.
     remembered: Remembered,
-    read: way::Read,
+    read: paths::Read,
     /// The keywords that opened the blocks being read, outermost first.
     openers: Vec<Span>,
     /// A diagnostic for a part that a block lacks, reported unless the part appears too late in the block.
@@ -232,7 +232,7 @@ struct Evaluator<'a> {
     /// Whether an expression is an angle in radians, cached for lints.
     in_radians: HashMap<Span, bool>,
     /// The objects that `trace` and similar functions have examined.
-    probes: HashMap<crate::scene::ObjectId, Rc<probe::Probe>>,
+    probes: HashMap<crate::scene::ObjectId, Rc<geometric_query::Probe>>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -349,7 +349,7 @@ impl<'a> Evaluator<'a> {
             reports: 0,
             faults: 0,
             remembered: Remembered::default(),
-            read: way::Read::default(),
+            read: paths::Read::default(),
             openers: Vec::new(),
             owed: None,
             blocks: Vec::new(),

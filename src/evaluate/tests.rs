@@ -52,14 +52,14 @@ macro_rules! facts {
 }
 
 mod call;
+mod continuation;
 mod deep;
 mod extent;
 mod file;
 mod internal;
-mod joint;
 mod made;
 mod promotion;
-mod told;
+mod repetition;
 
 facts! {
     an_element_of_an_array_is_an_operand_like_any_other:

@@ -32,6 +32,7 @@ mod numbers;
 mod numeric;
 mod old_words;
 mod operand;
+mod paths;
 mod print;
 mod prose;
 mod repair;
@@ -42,13 +43,12 @@ mod tally;
 mod target;
 mod token;
 mod unread;
-mod way;
 
 pub use self::dump::dump;
 pub use self::format::{Unformatted, format};
 pub use self::legacy::legacy;
+pub use self::paths::{Ways, alone};
 pub use self::print::print;
-pub use self::way::{Ways, alone};
 
 use std::ops::Range;
 

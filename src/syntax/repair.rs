@@ -8,13 +8,13 @@ use std::collections::{HashMap, HashSet};
 
 mod angle;
 mod blame;
-mod early;
+mod early_closer;
 mod ends;
 mod opener;
 mod outside;
 mod owed;
 
-use self::early::close_later;
+use self::early_closer::close_later;
 use self::ends::match_directives;
 use self::opener::{open_missing, open_objects};
 use self::outside::Outside;

@@ -8,7 +8,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Poison;
 use super::super::{Evaluator, Reported};
 use super::Place;
-use super::custom::custom;
+use super::foreign_keyword::custom;
 use super::place::{home, is_at_top_level};
 use super::unknown::is_transform;
 

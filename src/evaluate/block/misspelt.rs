@@ -4,12 +4,12 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::ExpressionId;
 use crate::vocabulary::{Family, Role, Word};
 
-use super::super::remembered::Asked;
+use super::super::analysis_cache::Asked;
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::word_like;
 use super::super::{Evaluator, Reported};
 use super::Place;
-use super::custom::custom;
+use super::foreign_keyword::custom;
 use super::unknown::{UNKNOWN, meant};
 
 /// The words other than shapes and textures whose block is a value.

@@ -2,7 +2,7 @@
 //!
 //! **Invariant:** a mistake in a block costs only that block's object; the items after it are read as usual.
 
-mod bare;
+mod bare_object;
 mod blob;
 mod braces;
 mod camera;
@@ -10,26 +10,25 @@ mod clip;
 mod color;
 mod color_map;
 mod colored;
+mod confused_solid;
 mod counted;
-mod custom;
-mod early;
 mod finish;
-mod habit;
+mod foreign_keyword;
+mod foreign_value;
 mod height_field;
-mod inert;
+mod ignored_keyword;
 mod interior;
 mod isosurface;
 mod item;
+mod item_suggestion;
 mod julia_fractal;
 mod light;
-mod lone;
 mod matrix;
-mod meant;
 mod mesh;
 mod misplaced;
 mod missing;
+mod missing_keyword;
 mod misspelt;
-mod mistaken;
 mod modifier;
 mod named;
 mod object;
@@ -49,13 +48,14 @@ mod swapped;
 mod sweep;
 mod text;
 mod texture;
+mod trailing_item;
 mod transform;
 mod unbuilt;
 mod unexpected;
 mod unknown;
 
 pub(super) use color::takes_transmit;
-pub(super) use habit::color_of_string;
+pub(super) use foreign_value::color_of_string;
 pub(super) use mesh::MeshFiles;
 
 use crate::diagnostic::{Code, Diagnostic};

@@ -7,7 +7,7 @@ use crate::vocabulary::Word;
 
 use super::super::stream::{FrameKind, Token, TokenKind};
 use super::super::{Evaluator, Here, Outcome};
-use super::habit::told_comma;
+use super::foreign_value::told_comma;
 use super::part::Given;
 
 /// Value that POV-Ray 3.7 substitutes for an exponent of 0 in a superellipsoid (measured).

@@ -6,13 +6,13 @@ use crate::syntax::ast::{Callee, ExpressionKind};
 use crate::vocabulary::{Family, Word};
 
 use super::super::Evaluator;
-use super::super::remembered::Asked;
+use super::super::analysis_cache::Asked;
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::is_built;
 use super::super::value::{Poison, Value};
 use super::Place;
-use super::habit::told_comma;
-use super::meant::{block_for, told_directive};
+use super::foreign_value::told_comma;
+use super::item_suggestion::{block_for, told_directive};
 use super::place::{is_of_no_part, stands_alone};
 
 impl Evaluator<'_> {

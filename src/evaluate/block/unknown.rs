@@ -12,8 +12,8 @@ use crate::vocabulary::{Dialect, Family, Role, Word};
 use super::super::stream::{Token, TokenKind};
 use super::super::undeclared::{is_built, is_likely, word_like};
 use super::super::{Evaluator, Outcome, Symbol};
-use super::custom::{custom, has_no_word, has_other_parts};
-use super::meant::{told_directive, with_number};
+use super::foreign_keyword::{custom, has_no_word, has_other_parts};
+use super::item_suggestion::{told_directive, with_number};
 use super::place::home;
 use super::{Place, opens_value};
 

@@ -4,7 +4,7 @@ use crate::function::{Asked, Builder, Closed, Function, OutsideId};
 use crate::world::Pigment;
 
 use super::super::Evaluator;
-use super::asked::{AuthorFunction, FunctionId, named_by, outside_id, part};
+use super::tape_call::{AuthorFunction, FunctionId, named_by, outside_id, part};
 
 impl Evaluator<'_> {
     /// Returns a self-contained function with a numeric value; `None` for other values.

@@ -2,7 +2,7 @@
 //! `a+1`.
 //!
 //! POV-Ray substitutes the macro's text for the call, so this is `2*a + 1` there and in a `.pov`
-//! (`joint.rs`). In a `.scene` a call is one value, as if in parentheses.
+//! (`continuation.rs`). In a `.scene` a call is one value, as if in parentheses.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;

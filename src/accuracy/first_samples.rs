@@ -4,13 +4,13 @@
 //! **Invariant:** one setting for the entire picture, the scene's own if it fits. Only pixels left over
 //! when a forecast turns out wrong have other settings, and they are counted.
 
-use super::afford::{Deadline, LEAST};
+use super::affordable_reference::{Deadline, LEAST};
 use super::audit;
-use super::easel::Easel;
 use super::knob::Knob;
 use super::measure::Clock;
 use super::reference::Studio;
 use super::refine::{MOST_IN_PART, Spread, place};
+use super::render_settings::Easel;
 use crate::film::Film;
 use crate::plan::{Antialias, Plan, PlanOptions, plan};
 use crate::trace::{Sampling, Traced, Watch};

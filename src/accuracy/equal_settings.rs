@@ -5,7 +5,7 @@
 //! and so the colors are identical to the last bit. A knob is vain if none of its settings changes an
 //! audited pixel, whatever the rays.
 
-use super::afford::Deadline;
+use super::affordable_reference::Deadline;
 use super::forecast::{Forecast, Look};
 use super::measure::Clock;
 use super::reference::Studio;

@@ -1,7 +1,7 @@
 //! Diagnostics for items after an object that belong inside it: `sphere { 0, 1 } pigment { rgb 1 }`.
 //!
 //! **In:** a word at the top level that is only valid in objects. **Out:** one message at the brace that
-//! closes too early. If there are surplus braces as well, `syntax/repair/early.rs` has reported it.
+//! closes too early. If there are surplus braces as well, `syntax/repair/early_closer.rs` has reported it.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::{Site, Span};
