@@ -458,7 +458,18 @@ fn a_warning_is_dropped_told_or_denied_as_the_flags_and_the_comments_say() {
     let words = ["old-version", "color-range", "2 warnings"];
     place.run("check a.pov --warn color-range").ends(0, &words);
     place.run("check a.scene --allow unused-declarations").ends(2, &["unused-declaration"]);
-    place.run("check a.scene --allow unclosed-block").ends(2, &["no warning"]);
+    place.run("check a.scene --allow unclosed-block").ends(2, &["never a warning", "no-pigment"]);
+    place.run("check a.scene --allow zzzzzzzz").ends(2, &["expected `all`", " no-pigment "]);
+}
+
+#[test]
+fn allowing_a_code_that_is_an_error_here_is_told_to_have_no_effect() {
+    let place = Place::new();
+    place.write("a.scene", "global_settings { radiosity { } }\nsphere { 0, 1 }\n");
+    let said = "`--allow not-supported-yet` silences warnings, and these are errors";
+    place.run("check a.scene --allow not-supported-yet").ends(1, &["not-supported-yet", said]);
+    let without = place.run("check a.scene").ends(1, &[]);
+    assert!(!without.stderr().contains("silences"));
 }
 
 #[test]
@@ -562,6 +573,8 @@ fn help_and_version_are_asked_for() {
     ] {
         assert!(help.contains(word), "{word}");
     }
+    let lines = help.lines().skip_while(|line| !line.starts_with("Exit codes"));
+    assert!(lines.clone().count() > 5 && lines.clone().all(|line| line.len() <= 60), "{help}");
     assert!(place.run("--version").ends(0, &[]).stdout().starts_with("lucarne "));
     assert!(place.run("render --help").ends(0, &[]).stdout().contains("--region"));
 }
@@ -881,6 +894,11 @@ fn a_plan_as_json_has_every_place_and_what_the_pilot_counted() {
 fn a_broken_scene_shows_what_there_is_of_it() {
     let run = Place::new().run("show broken.scene --stage world").ends(1, &["unknown-word"]);
     assert!(run.stdout().contains("lights 1"));
+    let plan = Place::new().run("plan broken.scene").ends(1, &["unknown-word"]).stdout();
+    assert!(plan.starts_with("incomplete: the scene has errors"), "{plan}");
+    let json = Place::new().run("plan broken.scene --json").ends(1, &[]).stdout();
+    let json: serde_json::Value = serde_json::from_str(&json).expect("one object");
+    assert_eq!(json["incomplete"], true);
 }
 
 #[test]
@@ -888,7 +906,10 @@ fn explain_prints_a_page_or_lists_the_codes() {
     let place = Place::new();
     let page = place.run("explain zero-scale").ends(0, &[]).stdout();
     assert!(page.starts_with("zero-scale\n") && page.contains("\nInstead\n"));
-    assert!(place.run("explain").ends(0, &[]).stdout().lines().count() > 50);
+    let list = place.run("explain").ends(0, &[]).stdout();
+    for heading in ["\nErrors\n  unclosed-block ", "\nOpinions: ", "\nLimits: ", "\nLints: "] {
+        assert!(list.contains(heading), "{heading}:\n{list}");
+    }
 }
 
 #[test]

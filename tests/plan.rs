@@ -26,6 +26,7 @@ fn list(value: &Value) -> &[Value] {
 
 /// The text, written from nothing but the JSON.
 fn written(plan: &Value) -> String {
+    assert_eq!(plan["incomplete"], false);
     let region = &plan["region"];
     let mut out = format!("picture {}×{}", plan["width"], plan["height"]);
     if (&region[2], &region[3]) != (&plan["width"], &plan["height"]) {

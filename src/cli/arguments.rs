@@ -33,12 +33,20 @@ const USAGE: &str = "\
 lucarne [OPTIONS] <FILE>
        lucarne <COMMAND> [OPTIONS] …";
 
+/// Paragraphs are single lines, which clap wraps to the terminal.
 const HINTS: &str = "\
-The options of `lucarne FILE` are those of `lucarne render --help`. If FILE is `-`, the scene is read
-from standard input.
+The options of `lucarne FILE` are those of `lucarne render --help`.
+If FILE is `-`, the scene is read from standard input.
 
-Exit codes: 0 success; 1 errors in the scene; 2 invalid command line; 3 a file cannot be read or written;
-4 a limit was exceeded; 5 `--max-error` or `--time-budget` not met; 70 internal error; 130 interrupted.";
+Exit codes:
+    0  success
+    1  errors in the scene
+    2  invalid command line
+    3  a file cannot be read or written
+    4  a limit was exceeded
+    5  `--max-error` or `--time-budget` not met
+   70  internal error
+  130  interrupted";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {

@@ -1,7 +1,7 @@
 //! `lucarne explain`: prints the page of a diagnostic code.
 
-use lucarne::diagnostic::Code;
 use lucarne::diagnostic::suggest::closest;
+use lucarne::diagnostic::{Code, Severity};
 
 use super::arguments::ExplainArguments;
 use super::exit::{Exit, Failure, Outcome};
@@ -9,9 +9,7 @@ use super::messages;
 
 pub fn run(arguments: &ExplainArguments) -> Outcome {
     let Some(name) = &arguments.code else {
-        let list: String =
-            Code::ALL.iter().map(|c| format!("{:20} {}\n", c.name(), c.sentence())).collect();
-        messages::print(&list)?;
+        messages::print(&list())?;
         return Ok(Exit::Done);
     };
     let Some(code) = Code::from_name(name) else {
@@ -37,6 +35,39 @@ pub fn run(arguments: &ExplainArguments) -> Outcome {
     Ok(Exit::Done)
 }
 
+/// A heading of the list of codes, and whether a code stands below it.
+type Group = (&'static str, fn(Code) -> bool);
+
+/// The headings of the list. Each code is below exactly one.
+const GROUPS: &[Group] = &[
+    ("Errors", |code| code.severity() == Severity::Error && !code.is_opinion() && !code.is_limit()),
+    ("Opinions: errors, but warnings in a `.pov` that POV-Ray renders all the same", |code| {
+        code.is_opinion()
+    }),
+    ("Limits: errors until `--limit` raises the limit", Code::is_limit),
+    ("Warnings in every file", |code| code.warns() && (!code.is_lint() || code.is_sure())),
+    ("Lints: warnings in a `.scene`, and with `--lint` in a `.pov`", |code| {
+        code.is_lint() && !code.is_sure() && !code.is_quiet()
+    }),
+    ("Lints that only `--warn CODE` enables", Code::is_quiet),
+    ("Output of the scene", |code| code.severity() == Severity::Note),
+];
+
+/// Lists all codes by kind, each with its sentence.
+fn list() -> String {
+    let mut out =
+        "`lucarne explain CODE` explains a code, with an example. `--allow CODE` silences a \
+                   warning,\n`--deny CODE` makes it an error.\n"
+            .to_owned();
+    for (heading, holds) in GROUPS {
+        out.push_str(&format!("\n{heading}\n"));
+        for code in Code::ALL.iter().filter(|code| holds(**code)) {
+            out.push_str(&format!("  {:20} {}\n", code.name(), code.sentence()));
+        }
+    }
+    out
+}
+
 /// Formats a page for a terminal: examples are indented instead of fenced.
 fn plain(page: &str) -> String {
     let mut fenced = false;
@@ -55,4 +86,17 @@ fn plain(page: &str) -> String {
         text.push('\n');
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_code_is_below_one_heading() {
+        for code in Code::ALL {
+            let headings = GROUPS.iter().filter(|(_, holds)| holds(*code)).count();
+            assert_eq!(headings, 1, "{}", code.name());
+        }
+    }
 }

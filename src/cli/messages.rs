@@ -3,7 +3,7 @@
 //! **Invariant:** messages for people go to standard error, messages for programs (`json`) to standard
 //! output. A closed pipe is not an error.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
@@ -49,13 +49,31 @@ pub struct Messages {
     errors: usize,
     warnings: usize,
     limits: usize,
+    /// Codes that the command line allows by name.
+    allowed: Vec<Code>,
+    /// Those of them that were reported as errors, which cannot be allowed.
+    not_allowed: BTreeSet<Code>,
 }
 
 impl Messages {
     pub fn new(format: Format, deny_warnings: bool) -> Self {
         let style = style();
-        let (errors, warnings, limits) = (0, 0, 0);
-        Self { format, deny_warnings, picture_on_stdout: false, style, errors, warnings, limits }
+        Self {
+            format,
+            deny_warnings,
+            picture_on_stdout: false,
+            style,
+            errors: 0,
+            warnings: 0,
+            limits: 0,
+            allowed: Vec::new(),
+            not_allowed: BTreeSet::new(),
+        }
+    }
+
+    /// Sets the codes that the command line allows by name.
+    pub fn allowing(self, allowed: Vec<Code>) -> Self {
+        Self { allowed, ..self }
     }
 
     /// Prints all of the messages.
@@ -68,10 +86,13 @@ impl Messages {
         let mut of_code: BTreeMap<Code, usize> = BTreeMap::new();
         for diagnostic in list {
             match diagnostic.severity {
-                Severity::Error if is_limit(diagnostic.code) => self.limits += 1,
+                Severity::Error if diagnostic.code.is_limit() => self.limits += 1,
                 Severity::Error => self.errors += 1,
                 Severity::Warning => self.warnings += 1,
                 Severity::Note => {}
+            }
+            if diagnostic.is_error() && self.allowed.contains(&diagnostic.code) {
+                self.not_allowed.insert(diagnostic.code);
             }
             match self.format {
                 Format::Human | Format::Narrated => {
@@ -134,6 +155,12 @@ impl Messages {
         if let (Format::Human | Format::Narrated, Some(summary)) = (self.format, summary) {
             eprint(&format!("{summary}\n"));
         }
+        for code in self.not_allowed.iter().filter(|_| self.format != Format::Json) {
+            eprint(&format!(
+                "note: `--allow {}` silences warnings, and these are errors\n",
+                code.name()
+            ));
+        }
         let warnings_alone = self.errors + self.limits == 0 && self.exit() != Exit::Done;
         if warnings_alone && self.format != Format::Json {
             eprint("error: warnings are errors here (--deny-warnings)\n");
@@ -156,19 +183,6 @@ impl Messages {
             _ => Exit::Done,
         }
     }
-}
-
-fn is_limit(code: Code) -> bool {
-    matches!(
-        code,
-        Code::LoopLimit
-            | Code::MacroLimit
-            | Code::IncludeLimit
-            | Code::ObjectLimit
-            | Code::MemoryLimit
-            | Code::StringLimit
-            | Code::NestingLimit
-    )
 }
 
 /// Returns the style for standard error: the width of the terminal or of `COLUMNS`, in color if it is a

@@ -12,6 +12,10 @@ use super::files::DiskFiles;
 use super::messages;
 use super::text::{name_of, read_scene};
 
+/// First line of the plan of a scene with errors.
+const INCOMPLETE: &str =
+    "incomplete: the scene has errors, and this is the plan of what could be read\n";
+
 pub fn run(arguments: &PlanArguments) -> Outcome {
     let frame = arguments.picture.frame(&arguments.scene)?;
     let bytes = read_scene(&arguments.file)?;
@@ -23,12 +27,14 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     let (world, origins) = road.compile(&name_of(&arguments.file), bytes);
     let mut plan = plan(&world, &origins, &arguments.picture.options(frame));
     pilot(&world, &mut plan);
+    let incomplete = road.diagnostics.has_errors();
     let text = match arguments.json {
         // Names and numbers only: nothing here can fail to serialise.
         true => {
-            serde_json::to_string_pretty(&Report::of(&plan, &road.sources)).unwrap_or_default()
-                + "\n"
+            let report = Report::of(&plan, &road.sources, incomplete);
+            serde_json::to_string_pretty(&report).unwrap_or_default() + "\n"
         }
+        false if incomplete => INCOMPLETE.to_owned() + &print::dump(&plan, &road.sources),
         false => print::dump(&plan, &road.sources),
     };
     let mut messages = arguments.scene.messages();
@@ -44,6 +50,8 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
 /// Plan as printed by `--json`; `docs/effects.md` explains each name.
 #[derive(Serialize)]
 struct Report<'a> {
+    /// Whether the scene has errors, and this is the plan of what could be read.
+    incomplete: bool,
     width: u32,
     height: u32,
     region: [u32; 4],
@@ -172,7 +180,7 @@ struct Place<'a> {
 }
 
 impl<'a> Report<'a> {
-    fn of(plan: &'a Plan, sources: &'a Sources) -> Self {
+    fn of(plan: &'a Plan, sources: &'a Sources, incomplete: bool) -> Self {
         let region = plan.frame.region;
         let place = |site: Site| Place::of(site, sources);
         let mut effects: Vec<Row> = Vec::new();
@@ -200,6 +208,7 @@ impl<'a> Report<'a> {
         let number =
             |measured: Measured| Number { value: measured.value, place: measured.site.map(place) };
         Self {
+            incomplete,
             width: plan.frame.width,
             height: plan.frame.height,
             region: [region.x, region.y, region.width, region.height],

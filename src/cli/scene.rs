@@ -66,7 +66,12 @@ pub struct SceneArguments {
 
 impl SceneArguments {
     pub fn messages(&self) -> Messages {
-        Messages::new(self.message_format, self.deny_warnings)
+        let by_name = |warnings: &Warnings| match warnings {
+            Warnings::Of(code) if !self.deny.contains(warnings) => Some(*code),
+            Warnings::Of(_) | Warnings::All => None,
+        };
+        let allowed = self.allow.iter().filter_map(by_name).collect();
+        Messages::new(self.message_format, self.deny_warnings).allowing(allowed)
     }
 
     /// Returns the level of each warning. A code takes precedence over `all`; if one code is given several

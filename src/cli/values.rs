@@ -36,15 +36,33 @@ pub fn warning(text: &str) -> Result<Warnings, String> {
     }
     match Code::from_name(text) {
         Some(code) if code.may_warn() => Ok(Warnings::Of(code)),
-        Some(_) => Err("this is no warning, and stays as it is".to_owned()),
+        Some(_) => Err(format!("it is never a warning; the codes of warnings are:{}", levelled())),
         None => {
             let names = Code::ALL.iter().filter(|code| code.may_warn()).map(|code| code.name());
             Err(match closest(text, names) {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => "expected the code of a warning, or `all`".to_owned(),
+                None => format!("expected `all`, or the code of a warning:{}", levelled()),
             })
         }
     }
+}
+
+/// Returns the codes that have a level, in alphabetical order, in indented lines of at most 78 columns.
+fn levelled() -> String {
+    let mut names: Vec<&str> =
+        Code::ALL.iter().filter(|code| code.may_warn()).map(|code| code.name()).collect();
+    names.sort_unstable();
+    let (mut list, mut column) = (String::new(), usize::MAX);
+    for name in names {
+        if column.saturating_add(name.len() + 1) > 78 {
+            list.push_str("\n   ");
+            column = 3;
+        }
+        list.push(' ');
+        list.push_str(name);
+        column += name.len() + 1;
+    }
+    list
 }
 
 pub fn size(text: &str) -> Result<(u32, u32), String> {

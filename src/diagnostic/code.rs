@@ -204,6 +204,20 @@ codes! {
 }
 
 impl Code {
+    /// Whether this error reports that a limit was exceeded, which `--limit` raises.
+    pub fn is_limit(self) -> bool {
+        matches!(
+            self,
+            Self::LoopLimit
+                | Self::MacroLimit
+                | Self::IncludeLimit
+                | Self::ObjectLimit
+                | Self::MemoryLimit
+                | Self::StringLimit
+                | Self::NestingLimit
+        )
+    }
+
     /// Whether this syntax error makes the parser assign the text after it to the wrong blocks.
     pub fn shifts_what_follows(self) -> bool {
         matches!(

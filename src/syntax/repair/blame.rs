@@ -5,7 +5,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::balance::{Opener, Turn, turn};
 use crate::syntax::token::{Bracket, Head, Mark, TokenKind};
-use crate::vocabulary::{Role, Word};
+use crate::vocabulary::{Family, Role, Word};
 
 impl Repair<'_> {
     pub(super) fn are_on_a_line(&self, opener: usize, closer: usize) -> bool {
@@ -69,6 +69,12 @@ impl Repair<'_> {
                 .fix(self.span(outside.token - 1).after(), " }"),
             None => diagnostic,
         };
+        let diagnostic = match self.closer_at_end(&open).filter(|_| ends_file) {
+            Some((end, closer)) => {
+                diagnostic.help("write the `}` at the end of the file").fix(end, closer)
+            }
+            None => diagnostic,
+        };
         let of_head = outside.and_then(|outside| self.end_of_condition(&open, outside.token));
         self.tell(match beside.map(|outside| self.span(outside.token - 1).after()) {
             Some(end) => diagnostic
@@ -79,6 +85,46 @@ impl Repair<'_> {
                 None => diagnostic,
             },
         });
+    }
+
+    /// Returns the position and the text of the `}` of a block that is still open at the end of the file, if
+    /// all that follows its `{` certainly belongs to it: it is indented more than the line of the `{`, or on
+    /// that line and no object.
+    fn closer_at_end(&self, open: &Open) -> Option<(Span, String)> {
+        let last = self.tokens.len().checked_sub(1)?;
+        // `sphere { 0, 1 pig`: a file may be cut off in the middle of a word.
+        let is_end = match self.tokens[last].kind {
+            TokenKind::Number | TokenKind::String => true,
+            TokenKind::Word(word) => word.role() == Role::Value,
+            TokenKind::Mark(mark) => matches!(mark, Mark::Close(_) | Mark::Greater),
+            _ => false,
+        };
+        let is_block = open.opener == Opener::Bracket(Bracket::Brace) && !open.closed_in_branch;
+        // Another mistake may have moved the end of the block.
+        if !(is_block && is_end && last > open.token) || self.told > 0 {
+            return None;
+        }
+        let end = self.span(last).after();
+        let mut inside = open.token + 1..=last;
+        if self.are_on_a_line(open.token, last) {
+            let is_certain = inside.all(|at| !self.begins_object(at) && !self.is_call(at));
+            return is_certain.then(|| (end, " }".to_owned()));
+        }
+        let is_certain = inside.all(|at| {
+            let place = self.layout.place(at);
+            !place.first || place.indent > open.indent
+        });
+        let before = self.text.get(..self.tokens[open.token].start as usize)?;
+        let line = before.rsplit(['\n', '\r']).next().unwrap_or(before);
+        let indent: String = line.chars().take_while(|c| matches!(c, ' ' | '\t')).collect();
+        is_certain.then(|| (end, format!("\n{indent}}}")))
+    }
+
+    /// Returns whether an object that could be beside a block begins at `at`.
+    fn begins_object(&self, at: usize) -> bool {
+        let TokenKind::Word(word) = self.tokens[at].kind else { return false };
+        matches!(word.family(), Family::Shape | Family::Csg | Family::Light)
+            && self.begins_statement(at)
     }
 
     /// `#if (A < 2 sphere {`: returns the end of the condition, if it is a value.

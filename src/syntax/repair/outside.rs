@@ -92,7 +92,7 @@ impl Repair<'_> {
     }
 
     /// Returns whether a directive, or a keyword that opens a block, is at `at`.
-    fn begins_statement(&self, at: usize) -> bool {
+    pub(super) fn begins_statement(&self, at: usize) -> bool {
         let brace = TokenKind::Mark(Mark::Open(Bracket::Brace));
         match self.tokens[at].kind {
             TokenKind::Directive(head) => head != Head::End && !head.divides(),
@@ -105,7 +105,7 @@ impl Repair<'_> {
     }
 
     /// Returns whether a macro call may be at `at`: `Disk(0, Red)`.
-    fn is_call(&self, at: usize) -> bool {
+    pub(super) fn is_call(&self, at: usize) -> bool {
         let round = TokenKind::Mark(Mark::Open(Bracket::Round));
         self.tokens[at].kind == TokenKind::Name
             && self.tokens.get(at + 1).is_some_and(|next| next.kind == round)
