@@ -1,9 +1,12 @@
 //! Applies the fixes suggested by messages, if they improve the text.
 //!
 //! **In:** a text, and a function that returns its messages. **Out:** the fixed text, and how many messages
-//! that resolved. **Invariant:** a fix is kept only if it reduces the number of errors, so that one mistake
-//! is not replaced by another; errors that a closing bracket or a misspelt word had hidden may appear after
-//! it. Applying the function again changes nothing, unless the limit of rounds was reached.
+//! that resolved. **Invariant:** a fix is kept only if it reduces the number of errors, or that of errors and
+//! warnings together, so that one mistake is not replaced by another. Two mistakes hide others, and their
+//! fixes only have to resolve their own messages: after a bracket, string, comment or directive that is not
+//! closed, or a surplus closer, any messages may appear; after a misspelt word, as many errors as before, and
+//! new messages only behind it. Applying the function again changes nothing, unless the limit of rounds was
+//! reached.
 
 use std::collections::BTreeMap;
 

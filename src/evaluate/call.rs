@@ -117,11 +117,12 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Returns the array element that `A(3)` or `A(I, J)` probably means, as it is written.
+    /// Returns what `A(3)` or `A(I, J)` probably means, for an array `A`: `A[3]` or `A[I][J]`. `None` if there
+    /// are no arguments, or one of them contains a bracket.
     fn element_meant(&self, call: Span, name: Span) -> Option<String> {
         let rest = self.sources.text(call).strip_prefix(self.sources.text(name))?.trim();
         let inside = rest.strip_prefix('(')?.strip_suffix(')')?;
-        let plain = !inside.contains(['(', '[', '<']);
+        let plain = !inside.contains(['(', '[', '<']) && !inside.trim().is_empty();
         let indices: String =
             inside.split(',').map(|index| format!("[{}]", index.trim())).collect();
         plain.then(|| format!("{}{indices}", self.sources.text(name)))

@@ -5,8 +5,9 @@
 
 use crate::vocabulary::Dialect;
 
-/// Tolerance, absolute or relative, that absorbs the rounding error of decimal arithmetic.
-const LEFT_OVER: f64 = 1e-10;
+/// Tolerance within which numbers are equal: absolute in a `.pov`, relative to the larger one in a `.scene`.
+/// In a `.pov`, also the largest number that is false.
+const TOLERANCE: f64 = 1e-10;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Comparison {
@@ -34,15 +35,15 @@ impl Comparison {
         match self {
             Self::Absolute => {
                 let apart = (a - b).abs();
-                apart <= LEFT_OVER || apart.is_nan()
+                apart <= TOLERANCE || apart.is_nan()
             }
-            Self::Relative => (a - b).abs() <= LEFT_OVER * a.abs().max(b.abs()),
+            Self::Relative => (a - b).abs() <= TOLERANCE * a.abs().max(b.abs()),
         }
     }
 
     pub fn is_true(self, number: f64) -> bool {
         match self {
-            Self::Absolute => number.abs() > LEFT_OVER,
+            Self::Absolute => number.abs() > TOLERANCE,
             Self::Relative => number != 0.0,
         }
     }

@@ -1,7 +1,9 @@
 //! Reads pictures as heights.
 //!
 //! **In:** the bytes of a picture file. **Out:** a height for each pixel, from 0 to less than 1.
-//! **Invariant:** never panics, for any bytes, and never uses more memory than the picture.
+//! **Invariant:** never panics, for any bytes. Memory is proportional to the number of pixels, of which there
+//! are at most `MOST`; the size is checked before pixels are decoded, except for a GIF, whose decoder has a
+//! limit of its own.
 //!
 //! **Source:** POV-Ray 3.7 manual, 3.4.5.1.5 "Height Field": for palettes, the index counts, not the colour;
 //! for other colours, red is the high byte and green the low one; grey is used as it is, in 8 or 16 bits.

@@ -389,7 +389,7 @@ vocabulary! {
         AssumedGamma "assumed_gamma" statement built "the exponent of the scene's colours, or `srgb` for the sRGB curve; default 1";
         Autostop "autostop" statement later "when photons stop";
         Brightness "brightness" statement later "how bright radiosity is";
-        Charset "charset" statement inert "the encoding of strings: UTF-8; in a `.pov` without `charset utf8`, characters beyond ASCII are blanks";
+        Charset "charset" statement inert "the encoding of strings: `utf8` and `sys` keep all characters; `ascii`, the default in a `.pov`, turns those beyond ASCII into blanks";
         Count "count" statement later "how many rays or photons are sent";
         ErrorBound "error_bound" statement later "how accurate radiosity is";
         ExpandThresholds "expand_thresholds" statement later "when photons are gathered more widely";

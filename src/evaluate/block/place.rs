@@ -246,8 +246,9 @@ pub(super) fn is_at_top_level(word: Word) -> bool {
     Place::SCENE.holds(word) && !is_part(word)
 }
 
-/// Returns whether a word's block is independent: inside another block, it is valid only if that block names
-/// the word.
+/// Returns whether a word's block is never an argument of an unsupported word before it. If the block around
+/// both does not accept it, it is reported, although what follows an unsupported word otherwise counts as
+/// part of it.
 pub(super) fn stands_alone(word: Word) -> bool {
     use Word as W;
     matches!(
