@@ -186,6 +186,11 @@ impl Color {
         self.rgb.map(|c| c * self.filter + self.transmit)
     }
 
+    /// Returns the same without the tint: `filter + transmit`.
+    pub fn untinted(self) -> Rgb {
+        Rgb::gray(self.filter + self.transmit)
+    }
+
     /// Returns the colour of its own surface, scaled by its opacity. Negative if `filter` and `transmit` sum
     /// to more than 1.
     ///
@@ -203,6 +208,16 @@ impl Color {
             }
         };
         self.rgb * (1.0 - filter - self.transmit)
+    }
+
+    /// Returns the sum with `weight` times `other`, per component.
+    #[inline]
+    pub fn plus(self, other: Self, weight: f64) -> Self {
+        Self {
+            rgb: self.rgb + other.rgb * weight,
+            filter: self.filter + other.filter * weight,
+            transmit: self.transmit + other.transmit * weight,
+        }
     }
 
     /// Interpolates linearly from `self` to `other`, per component.
@@ -276,11 +291,12 @@ impl Gamma {
         }
     }
 
-    /// Converts light from 0 to 1 to a component: the inverse of [`Gamma::linear`].
+    /// Converts light to a component: the inverse of [`Gamma::linear`].
     pub fn of_light(self, light: f64) -> f64 {
         match self {
             Self::Power(1.0) => light,
             Self::Power(exponent) => pow(light.max(0.0), 1.0 / exponent),
+            Self::Srgb if light > 1.0 => 1.055 * pow(light, 1.0 / 2.4) - 0.055,
             Self::Srgb => srgb_encode(light),
         }
     }

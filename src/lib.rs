@@ -34,6 +34,7 @@ pub mod source;
 pub mod spline;
 pub mod standard;
 pub mod syntax;
+pub mod texture;
 pub mod trace;
 pub mod vocabulary;
 pub mod world;

@@ -3,7 +3,10 @@
 //! **In:** an [`Image`]. **Out:** the bytes of a file. **Invariant:** the bytes depend only on the image: no
 //! date, no name, no thread order.
 
+mod exr;
 pub mod heights;
+pub mod read;
+mod tiff;
 
 use std::io::Cursor;
 

@@ -119,6 +119,8 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         | Effect::Attenuation
         | Effect::DoubleIllumination
         | Effect::Hiding
+        | Effect::Absorption
+        | Effect::Dispersion
         | Effect::ColoredShadows
         | Effect::Patterns
         | Effect::Sky

@@ -1,22 +1,22 @@
 //! The scene in canonical form, as the tracer reads it.
 //!
 //! **Invariant:** no transform list, no degrees, no missing default, no nested union; every placement is
-//! invertible; every number is finite. One flat list per kind; an object is (kind, index, material).
+//! invertible; every number is finite. One flat list per kind; an object is (kind, index, texture).
 //! Specified in `docs/world.md`.
 
-pub mod pigment;
 pub mod print;
 mod solid;
 
-use std::sync::Arc;
-
-use crate::color::{Clearness, Color, Gamma, Rgb};
+use crate::color::{Clearness, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};
-use crate::pattern::Pattern;
 use crate::shape::csg::Node;
+use crate::shape::uv::Mapping;
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
 use crate::source::{Expansions, Site, Span};
+pub use crate::texture::{
+    Extras, Finish, Irid, Lobe, LobeKind, Pigment, Plain, Reflection, Texture,
+};
 
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct World {
@@ -36,11 +36,18 @@ pub struct World {
     pub placed: Vec<Placed>,
     /// CSG solids.
     pub csg_solids: Vec<CsgSolid>,
-    pub materials: Vec<Material>,
-    /// Interiors of solids, indexed by `Object::interior`. Empty when nothing refracts light.
+    pub textures: Vec<Texture>,
+    /// Interiors of solids, indexed by `Object::interior`. Empty when nothing refracts or absorbs light.
     pub interiors: Vec<Interior>,
-    /// Placements of textures, indexed by `Object::texture_from_world`.
+    /// The exponent of each object's caustics; 0, like an entry that is missing, for none. Light
+    /// on its way to another surface passes `1 + |L·N|^exponent` times its transmittance.
+    pub caustics: Vec<f64>,
+    /// Textures of the inner sides of objects.
+    pub linings: Vec<Coat>,
+    /// Placements of the nodes of textures: those of one object one after the other, from `Object::places` on.
     pub texture_maps: Vec<Map>,
+    /// The surfaces' own coordinates; see `Object::uv`.
+    pub uv_mappings: Vec<Mapping>,
     /// Texture coordinates that are constant over a flat face; see `Object::faces`.
     pub faces: Vec<FaceCoordinates>,
 }
@@ -74,9 +81,10 @@ pub struct Origins {
     pub light_pieces: Vec<Vec<Site>>,
     /// Each keyword that attenuates a light, likewise.
     pub attenuation: Vec<Site>,
-    pub materials: Vec<MaterialOrigin>,
-    /// The source pieces that give each interior, likewise.
-    pub interiors: Vec<Vec<Site>>,
+    pub textures: Vec<TextureOrigin>,
+    /// What all textures and the sky consist of, each place once.
+    pub surfaces: Vec<SurfaceOrigin>,
+    pub interiors: Vec<InteriorOrigin>,
     /// Each `no_image` and `no_reflection` that applies to a solid, likewise.
     pub hidden: Vec<Site>,
     /// Each `double_illuminate`, likewise.
@@ -93,21 +101,50 @@ pub struct Origins {
     pub expansions: Expansions,
 }
 
-/// The origins of a material's parts. Each site of a list is a removable source piece, such as `phong 0.4`;
-/// without all of them the material has no such part.
+/// The origins of a texture's parts. Each site of a list is a removable source piece, such as `phong 0.4`;
+/// without all of them the texture has no such part.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct MaterialOrigin {
+pub struct TextureOrigin {
     /// The keyword `pigment` of its first use; `None` for a default.
     pub pigment: Option<Site>,
     /// The keyword `finish`, likewise.
     pub finish: Option<Site>,
     pub pattern: Vec<Site>,
     pub highlights: Vec<Site>,
+    /// For light from behind, as in `diffuse 0.6, 0.3`.
+    pub behind: Vec<Site>,
     pub reflection: Vec<Site>,
     /// For colours that let light through.
     pub clear: Vec<Site>,
     /// For colours with a `filter` on objects that cast shadows.
     pub filter: Vec<Site>,
+}
+
+/// What a pattern, a picture or layers are part of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SurfacePart {
+    Pigment,
+    Normal,
+    Texture,
+    Layers,
+}
+
+/// A pattern, a picture or layers in a texture or the sky.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceOrigin {
+    pub part: SurfacePart,
+    /// For example `wood` or `image_map`.
+    pub word: &'static str,
+    /// `None` for layers without pigments of their own.
+    pub site: Option<Site>,
+}
+
+/// The origins of an interior's parts: the source pieces to remove for it not to have that part.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct InteriorOrigin {
+    pub ior: Vec<Site>,
+    pub absorption: Vec<Site>,
+    pub dispersion: Vec<Site>,
 }
 
 /// An operation that combines several solids into one.
@@ -125,7 +162,7 @@ pub struct SkyOrigin {
     pub site: Site,
     /// The source range of each pigment.
     pub items: Vec<Site>,
-    /// As in [`MaterialOrigin`].
+    /// As in [`TextureOrigin`].
     pub pattern: Vec<Site>,
 }
 
@@ -163,13 +200,20 @@ pub struct Coinciding {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Object {
     pub shape: Shape,
-    /// Index into `World::materials`.
-    pub material: u32,
-    /// Index into `World::texture_maps`; `None` for the identity, or a material without pattern.
-    pub texture_from_world: Option<u32>,
+    /// Index into `World::textures`.
+    pub texture: u32,
+    /// The index in `World::texture_maps` of the map into the space of its texture's slot 0; the other slots'
+    /// follow. `None` if all are the identity, or the texture has no pattern.
+    pub places: Option<u32>,
     /// For a patterned plane (1 entry) or box (6 entries, in the order of
-    /// [`crate::shape::SurfacePoint::face`]): the index of its first entry in `World::faces`.
+    /// [`crate::shape::SurfacePoint::face`]): the index in `World::faces` of the first entry of slot 0; the
+    /// other slots' follow.
     pub faces: Option<u32>,
+    /// Index into `World::uv_mappings`, if its texture asks for it; `None` for shapes without coordinates of
+    /// their own, which have the x and y of the point.
+    pub uv: Option<u32>,
+    /// Index into `World::linings`; `None`: both sides have the same texture.
+    pub lining: Option<u32>,
     /// Index into `World::interiors`; `None` for air.
     pub interior: Option<u32>,
     pub casts_shadow: bool,
@@ -194,13 +238,15 @@ impl Object {
         }
     }
 
-    /// Returns an object of this shape with defaults: the first material, filled with air.
+    /// Returns an object of this shape with defaults: the first texture, filled with air.
     pub fn plain(shape: Shape) -> Self {
         Self {
             shape,
-            material: 0,
-            texture_from_world: None,
+            texture: 0,
+            places: None,
             faces: None,
+            uv: None,
+            lining: None,
             interior: None,
             casts_shadow: true,
             in_image: true,
@@ -212,107 +258,59 @@ impl Object {
     }
 }
 
+/// The texture of one side of an object, and where it lies: see the fields of [`Object`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coat {
+    pub texture: u32,
+    pub places: Option<u32>,
+    pub faces: Option<u32>,
+}
+
 /// The interior of a solid. It matters only where light enters it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interior {
     /// Index of refraction, > 0; that of air is 1.
     pub ior: f64,
+    /// `None`: light does not fade.
+    pub absorption: Option<Absorption>,
+    /// `None`: all colours have the same index of refraction.
+    pub dispersion: Option<Dispersion>,
+}
+
+impl Interior {
+    /// Returns an interior that only refracts.
+    pub const fn of(ior: f64) -> Self {
+        Self { ior, absorption: None, dispersion: None }
+    }
+
+    /// Returns whether rays change in it, unlike in air.
+    pub fn is_active(&self) -> bool {
+        self.ior != 1.0 || self.absorption.is_some() || self.dispersion.is_some()
+    }
+}
+
+/// What is left of light after a way of length d, with c the colour: c + (1 − c)/(1 + (d/distance)^power), or
+/// e^((c − 1)·d/distance) for a power of 1000 or more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Absorption {
+    /// Not 0.
+    pub distance: f64,
+    pub power: f64,
+    pub color: Rgb,
+}
+
+/// The index of refraction at the position p of the spectrum, 0 (red) to 1 (violet), is ior·ratio^(p − ½).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dispersion {
+    pub ratio: f64,
+    /// The number of rays that a ray of all colours is split into; at least 2.
+    pub samples: u32,
 }
 
 /// For one flat face: each texture coordinate that is constant over it, computed in extended precision. The
 /// tracer uses these numbers, so that a pattern never flickers on its own lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FaceCoordinates(pub [Option<f64>; 3]);
-
-#[derive(Debug, Clone, PartialEq)]
-pub struct Material {
-    pub pigment: Pigment,
-    pub finish: Finish,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub enum Pigment {
-    Color(Color),
-    Patterned {
-        pattern: Pattern,
-        /// Maps the texture's space to the pattern's.
-        pattern_from_texture: Map,
-        /// Sorted by value; at least one entry.
-        map: Vec<(f64, Color)>,
-    },
-    /// The colours of a mesh's faces, by corner: `shape::mesh::Skin::paint`. At least two.
-    Faces(Arc<[Color]>),
-}
-
-impl Pigment {
-    /// Returns its colours, without their map values.
-    pub fn colors(&self) -> impl Iterator<Item = Color> {
-        let (some, map) = match self {
-            Self::Color(color) => (std::slice::from_ref(color), &[][..]),
-            Self::Patterned { map, .. } => (&[][..], map.as_slice()),
-            Self::Faces(colors) => (&colors[..], &[][..]),
-        };
-        some.iter().copied().chain(map.iter().map(|(_, color)| *color))
-    }
-
-    /// Returns whether light passes through it anywhere.
-    pub fn is_clear(&self) -> bool {
-        self.colors().any(Color::is_clear)
-    }
-}
-
-/// The reflection and emission of a surface. Components of weight zero are absent.
-///
-/// The radiance toward the viewer is, with C the pigment's colour, f and t its filter and
-/// transmit, and the sum over the lights that are visible:
-/// `(1 − f − t)·C·(emission + Σ I·diffuse·(N·L)^brilliance) + Σ I·Σ lobes + reflection +
-/// (f·C + t)·what is seen through it`; see [`Clearness`] for the first factor in old scenes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Finish {
-    /// Light without a light source: `ambient · ambient_light + emission`, or the seed's kd·Ia.
-    pub emission: Rgb,
-    pub diffuse: f64,
-    pub brilliance: f64,
-    pub lobes: Vec<Lobe>,
-    pub reflection: Option<Reflection>,
-    /// The transmitted light is reduced by the reflected; set only if there are both.
-    pub conserve_energy: bool,
-    /// The native rules: every radiance is clamped at 1 per component, and the surface is visible from
-    /// outside only. Its one lobe is `Blinn` with the pigment's colour, unweighted by angle.
-    pub seed: bool,
-}
-
-/// A specular lobe.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lobe {
-    pub kind: LobeKind,
-    pub weight: f64,
-    pub exponent: f64,
-    /// 0: the light's colour; 1: the pigment's.
-    pub metallic: f64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LobeKind {
-    /// (R·L)^exponent, where R is the mirrored view direction.
-    Phong,
-    /// (N·H)^exponent, where H bisects the directions to the light and to the viewer.
-    Blinn,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reflection {
-    /// At normal incidence; equal to `maximum` where the angle does not matter.
-    pub minimum: Rgb,
-    /// At grazing incidence.
-    pub maximum: Rgb,
-    pub falloff: f64,
-    /// Varies from minimum to maximum by Fresnel's equations, with the indices of refraction on both sides;
-    /// `falloff` is then 1.
-    pub fresnel: bool,
-    pub exponent: f64,
-    pub metallic: f64,
-}
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Light {
@@ -412,6 +410,8 @@ pub struct Settings {
     pub assumed_gamma: Gamma,
     /// `Old` only if that changes the picture.
     pub clearness: Clearness,
+    /// Of the layers of a texture only the last below tints the light behind. Set only if there are layers.
+    pub untinted_layers: bool,
 }
 
 impl Default for Settings {
@@ -421,6 +421,7 @@ impl Default for Settings {
             adc_bailout: 1.0 / 255.0,
             assumed_gamma: Gamma::LINEAR,
             clearness: Clearness::Current,
+            untinted_layers: false,
         }
     }
 }

@@ -10,9 +10,10 @@ use crate::programs::is_installed;
 
 mod examples;
 mod pictures;
+mod plain;
 mod proofs;
-mod silhouettes;
 mod syntax;
+mod textures;
 
 const SCENES: &str = "/usr/share/doc/povray/examples";
 const INCLUDES: &str = "/usr/share/povray-3.7/include";

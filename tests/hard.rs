@@ -20,6 +20,7 @@ mod multiple;
 mod other_words;
 mod outlines;
 mod page;
+mod patterns;
 mod poles;
 mod round;
 #[path = "benches/numerics/rows.rs"]

@@ -21,17 +21,19 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("diagnostic", &["source"]),
     // things
     ("noise", &["math"]),
-    ("pattern", &["math"]),
+    ("pattern", &["math", "noise"]),
     ("spline", &["math"]),
-    ("function", &["math", "noise", "pattern", "spline"]),
-    ("shape", &["function", "math"]),
+    ("function", &["math", "noise"]),
+    ("texture", &["color", "function", "math", "noise", "pattern", "spline"]),
+    ("shape", &["function", "math", "texture"]),
     // nouns
-    ("scene", &["color", "function", "math", "pattern", "source", "vocabulary"]),
-    ("world", &["color", "math", "pattern", "shape", "source"]),
+    ("scene", &["color", "math", "noise", "pattern", "source", "texture", "vocabulary"]),
+    ("world", &["color", "math", "pattern", "shape", "source", "texture"]),
     ("geometry", &["math", "shape", "world"]),
-    ("plan", &["color", "math", "pattern", "shape", "source", "world"]),
+    ("plan", &["color", "math", "shape", "source", "world"]),
     ("film", &["color", "math", "plan"]),
-    ("picture", &["color", "film"]),
+    // Pictures of textures have an encoding.
+    ("picture", &["color", "film", "texture"]),
     // verbs
     ("mesh_file", &["color", "math", "scene"]),
     ("font", &["scene"]),
@@ -41,14 +43,15 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "color",
             "diagnostic",
-            "function",
             // Whether anything is in view.
             "geometry",
             "math",
+            "noise",
             "pattern",
             "scene",
             "shape",
             "source",
+            "texture",
             "vocabulary",
             "world",
         ],
@@ -76,12 +79,16 @@ const ROOMS: &[(&str, &[&str])] = &[
             "geometry",
             "lower",
             "shape",
+            "texture",
             "world",
         ],
     ),
     (
         "trace",
-        &["color", "film", "geometry", "math", "pattern", "plan", "shape", "source", "world"],
+        &[
+            "color", "film", "geometry", "math", "noise", "pattern", "plan", "shape", "source",
+            "texture", "world",
+        ],
     ),
     // road
     (
@@ -119,7 +126,18 @@ const DOORS: &[(&str, &[&str])] = &[
     ("serde_json", &["diagnostic/json.rs", "accuracy/json.rs", "cli/"]),
     // Lists that are mostly short, where crossings are found.
     ("rustc_hash", &["lower/"]),
-    ("smallvec", &["function/", "geometry/", "lower/texture.rs", "math/roots/", "shape/"]),
+    (
+        "smallvec",
+        &[
+            "function/",
+            "geometry/",
+            "lower/",
+            "math/roots/",
+            "shape/",
+            "texture/",
+            "trace/layers.rs",
+        ],
+    ),
     ("strsim", &["diagnostic/suggest.rs"]),
     // How wide what miette draws is.
     ("unicode_width", &["diagnostic/cut.rs"]),

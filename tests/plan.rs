@@ -105,11 +105,14 @@ fn written(plan: &Value) -> String {
             more => format!(", in {} calls at {}\n", more.len(), places(more)),
         };
     }
-    let shapes = list(&plan["shapes"]);
-    out += if shapes.is_empty() { "" } else { "shapes\n" };
-    for kind in shapes {
-        out += &format!("  {}, {}: {}\n", text(&kind["shape"]), kind["count"], text(&kind["cost"]));
-        out += &format!("    ({})\n", places(list(&kind["places"])));
+    for (title, name) in [("shapes", "shape"), ("surfaces", "part")] {
+        let kinds = list(&plan[title]);
+        out += &if kinds.is_empty() { String::new() } else { format!("{title}\n") };
+        for kind in kinds {
+            let (word, cost) = (text(&kind[name]), text(&kind["cost"]));
+            out += &format!("  {word}, {}: {cost}\n", kind["count"]);
+            out += &format!("    ({})\n", places(list(&kind["places"])));
+        }
     }
     out += "numerics\n";
     let numerics = &plan["numerics"];
@@ -247,6 +250,7 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} merge {{ box {{ 0, 2 }} box {{
         "scenes/atmosphere/background.scene --antialias off --region 3,4,20,10".to_owned(),
         "scenes/seed/mirror.scene --precision single".to_owned(),
         "tests/cases/glass.scene".to_owned(),
+        "scenes/gallery/still_life.scene --size 32x24".to_owned(),
         "scenes/shapes/torus.scene --root-tolerance 1e-4".to_owned(),
         "scenes/shapes/julia_fractal.scene --julia-iterations 2 --size 16x12".to_owned(),
         format!("{hard} --precision single --size 640x480"),
@@ -352,4 +356,36 @@ fn what_is_flat_by_its_nature_is_not_degenerate_and_what_is_a_line_is() {
     for ((shape, wanted), found) in THIN.iter().zip(found) {
         assert_eq!(found, *wanted, "{shape}");
     }
+}
+
+#[test]
+fn each_kind_of_pattern_normal_and_layers_has_a_line_with_its_places_and_no_other() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = folder.path().join("surfaces.scene");
+    let text = "#declare Unused = pigment { agate }
+camera { location <0, 1, 9> look_at 0 } light_source { <5, 9, 9>, rgb 1 }
+sphere { 0, 1 pigment { wood } normal { bumps 0.2 } }
+sphere { 2*x, 1 pigment { wood turbulence 0.1 } }
+sphere { 4*x, 1 pigment { granite color_map { [0 rgb 1] [1 rgb 1] } } }
+plane { y, -1 texture { gradient x texture_map { [0 pigment { rgb 1 }] [1 pigment { bozo }] } } }
+box { 5, 6 texture { pigment { rgb 1 } } texture { pigment { marble } } }
+";
+    std::fs::write(&scene, text).expect("written");
+    let words = format!("{} --json --size 16x12", scene.display());
+    let plan: Value = serde_json::from_str(&plan(&words)).expect("JSON");
+    let lines = list(&plan["surfaces"]).iter().map(|kind| {
+        let lines = list(&kind["places"]).iter().map(|place| place["line"].to_string());
+        format!("{} {}", self::text(&kind["part"]), lines.collect::<Vec<_>>().join(" "))
+    });
+    assert_eq!(
+        lines.collect::<Vec<_>>(),
+        [
+            "bozo 6",
+            "marble 7",
+            "wood 3 4",
+            "normal of bumps 3",
+            "texture of gradient 6",
+            "layers 7"
+        ]
+    );
 }

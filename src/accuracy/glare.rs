@@ -16,9 +16,10 @@ pub fn glare(world: &World) -> Option<f64> {
         .iter()
         .filter(|light| light.attenuation.is_none_or(|less| less.fade.is_none()))
         .map(|light| light.color.largest());
-    let emissions = world.materials.iter().flat_map(|material| {
-        let emission = material.finish.emission;
-        material.pigment.colors().map(move |color| (color.rgb * emission).largest())
+    let plains = world.textures.iter().flat_map(|texture| texture.plains());
+    let emissions = plains.flat_map(|plain| {
+        let emission = plain.finish.emission;
+        plain.pigment.colors().into_iter().map(move |color| (color.rgb * emission).largest())
     });
     let brightest = lights.chain(emissions).fold(0.0, f64::max);
     (brightest >= GLARING).then_some(brightest)

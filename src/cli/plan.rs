@@ -66,6 +66,7 @@ struct Report<'a> {
     effects: Vec<Row<'a>>,
     dropped: Vec<Part<'a>>,
     shapes: Vec<Shapes<'a>>,
+    surfaces: Vec<Parts<'a>>,
     numerics: Numbers<'a>,
     rays: Option<Rays>,
 }
@@ -102,6 +103,14 @@ struct Part<'a> {
     place: Place<'a>,
     /// Macro calls that lead to this location.
     calls: Vec<Place<'a>>,
+}
+
+#[derive(Serialize)]
+struct Parts<'a> {
+    part: &'a str,
+    count: usize,
+    cost: &'a str,
+    places: Vec<Place<'a>>,
 }
 
 #[derive(Serialize)]
@@ -244,7 +253,17 @@ impl<'a> Report<'a> {
                 .kinds
                 .iter()
                 .map(|kind| Shapes {
-                    shape: kind.word,
+                    shape: &kind.word,
+                    count: kind.count,
+                    cost: kind.cost,
+                    places: kind.by.iter().copied().map(place).collect(),
+                })
+                .collect(),
+            surfaces: plan
+                .surfaces
+                .iter()
+                .map(|kind| Parts {
+                    part: &kind.word,
                     count: kind.count,
                     cost: kind.cost,
                     places: kind.by.iter().copied().map(place).collect(),

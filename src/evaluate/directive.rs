@@ -142,6 +142,7 @@ impl Evaluator<'_> {
                 self.has_version = true;
                 self.says_version |= self.in_main();
                 self.version = self.number(here, *version)?;
+                self.default_noise();
                 self.end_of_version(here, *version);
                 self.check_version(here, here.unit.expression(*version).span)
             }

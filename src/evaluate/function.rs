@@ -5,6 +5,8 @@
 //!
 //! **Source:** manual, section 3.3.1.8 ("User-Defined Functions").
 
+use std::sync::Arc;
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::function::{Binary, Builder, Function, Outside, TooLong};
 use crate::lower::alone;
@@ -183,13 +185,13 @@ impl Evaluator<'_> {
                 (pattern, None) => pattern?,
             };
             let pattern = alone::pigment(&self.scene, id, self.diagnostics).ok_or(Reported)?;
-            return Ok(Ok(AuthorFunction::Pattern(Box::new(pattern))));
+            return Ok(Ok(AuthorFunction::Pattern(Arc::new(pattern))));
         }
         Ok(Ok(match self.value_of(first)? {
             Value::Spline(spline) => AuthorFunction::Spline(spline),
             Value::Pigment(id) => {
                 let pigment = alone::pigment(&self.scene, id, self.diagnostics).ok_or(Reported)?;
-                AuthorFunction::Pigment(Box::new(pigment))
+                AuthorFunction::Pigment(Arc::new(pigment))
             }
             Value::Transform(id) => {
                 let functions = self.transform_functions(id, first.here.site(first.span))?;

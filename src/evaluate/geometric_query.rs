@@ -4,6 +4,7 @@
 //! alone, once, and queried by the same code as the tracer's.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::geometry::{self, Extent, Geometry};
@@ -11,11 +12,12 @@ use crate::lower::{self, LowerOptions};
 use crate::math::transform::Step;
 use crate::math::{UnitVector, Vector};
 use crate::scene::{
-    ModifierKind, Object, ObjectId, ObjectKind, Root, Scene, TextureId, TransformId,
+    ModifierKind, Object, ObjectId, ObjectKind, Root, Scene, Solid, TextureId, TransformId,
 };
 use crate::shape::{Bounds, Ray, Rounding, Shape};
 use crate::source::Span;
 use crate::syntax::ast::{Argument, ExpressionKind};
+use crate::texture::region::{Contains, Region};
 use crate::vocabulary::Word;
 use crate::world::World;
 
@@ -28,7 +30,7 @@ const UNBOUNDED: f64 = 1e10;
 /// A single lowered object.
 #[derive(Debug)]
 pub(super) struct Probe {
-    world: World,
+    world: Arc<World>,
     geometry: Geometry,
     /// Its bounding box, as POV-Ray reports it.
     extent: (Vector, Vector),
@@ -141,6 +143,11 @@ impl Evaluator<'_> {
         Err(self.report(here, diagnostic))
     }
 
+    /// Returns the region inside a declared object.
+    pub(super) fn region(&mut self, here: &Here, span: Span, object: ObjectId) -> Outcome<Region> {
+        Ok(Region(self.probed(here, span, object)?.world.clone()))
+    }
+
     fn probed(&mut self, here: &Here, span: Span, object: ObjectId) -> Outcome<Rc<Probe>> {
         if let Some(probe) = self.probes.get(&object) {
             return Ok(probe.clone());
@@ -159,7 +166,7 @@ impl Evaluator<'_> {
             return Err(self.halt(here.expansion, diagnostic));
         }
         let geometry = Geometry::build(&world);
-        let probe = Rc::new(Probe { extent: extent(&world), world, geometry });
+        let probe = Rc::new(Probe { extent: extent(&world), world: Arc::new(world), geometry });
         self.probes.insert(object, probe.clone());
         Ok(probe)
     }
@@ -167,7 +174,7 @@ impl Evaluator<'_> {
 
 impl Probe {
     fn contains(&self, point: Vector) -> bool {
-        self.world.solids().any(|i| self.world.csg_contains(&self.world.objects[i as usize], point))
+        Contains::contains(&*self.world, point)
     }
 
     /// Returns the first surface from `origin` on and its normal, oriented as in POV-Ray: outward, except for
@@ -234,10 +241,16 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
     let renamed: std::collections::BTreeMap<ObjectId, ObjectId> =
         wanted.iter().enumerate().map(|(new, &old)| (old, ObjectId(new as u32))).collect();
     let moves = |id: &ObjectId| {
-        scene.objects[id.index()].modifiers.iter().filter_map(|modifier| match modifier.kind {
+        let object = &scene.objects[id.index()];
+        let own = object.modifiers.iter().filter_map(|modifier| match modifier.kind {
             ModifierKind::Transform(id) => Some(id),
             _ => None,
-        })
+        });
+        let components = match &object.kind {
+            ObjectKind::Solid(Solid::Blob(blob)) => &blob.components[..],
+            _ => &[],
+        };
+        own.chain(components.iter().flat_map(|component| &component.transforms).copied())
     };
     let transforms = lists(scene, wanted.iter().flat_map(moves));
     let renamed_list: std::collections::BTreeMap<TransformId, TransformId> =
@@ -271,6 +284,20 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
                 children.iter_mut().for_each(|child| *child = renamed[child]);
             }
             ObjectKind::Use(child) => *child = renamed[child],
+            ObjectKind::Solid(Solid::Blob(blob)) => {
+                let components = Arc::make_mut(blob).components.iter_mut();
+                let transforms = components.flat_map(|component| &mut component.transforms);
+                transforms.for_each(|id| *id = renamed_list[id]);
+            }
+            // How its faces look does not matter.
+            ObjectKind::Solid(Solid::Triangles { triangles, .. })
+                if !triangles.textures.is_empty() =>
+            {
+                let mut bare = triangles.as_ref().clone();
+                bare.textures.clear();
+                bare.faces.iter_mut().for_each(|face| face.paint = None);
+                *triangles = bare.into();
+            }
             ObjectKind::Solid(_) | ObjectKind::LightSource(_) => {}
         }
         small.objects.push(copy);

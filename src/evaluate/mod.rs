@@ -124,6 +124,12 @@ struct Evaluator<'a> {
     internals: Vec<Option<function::FunctionId>>,
     /// The generator behind noise functions.
     noise: NoiseGenerator,
+    /// `noise_generator` is written.
+    says_noise: bool,
+    /// The number of centres of `waves` and `ripples`.
+    waves: usize,
+    /// Pictures that were read.
+    pictures: block::Pictures,
     streams: RandomStreams,
     /// Files that `#fopen` has opened.
     opened: Vec<file::Opened>,
@@ -247,17 +253,13 @@ impl<'a> Evaluator<'a> {
             dialect: options.dialect,
             pigments: vec![Pigment {
                 kind: PigmentKind::Color(Color::BLACK),
-                transforms: Vec::new(),
+                steps: Vec::new(),
                 site: nowhere,
-                clear: vec![],
-                pattern: Vec::new(),
+                clear: None,
+                has_own_colors: false,
             }],
             finishes: vec![Finish::Classic(ClassicFinish::default())],
-            textures: vec![Texture {
-                pigment: PigmentId(0),
-                finish: FinishId(0),
-                transforms: Vec::new(),
-            }],
+            textures: vec![Texture::plain(PigmentId(0), FinishId(0))],
             ..Scene::default()
         };
         let mut scopes = Scopes::default();
@@ -295,6 +297,9 @@ impl<'a> Evaluator<'a> {
             wrong_calls: Vec::new(),
             internals: Vec::new(),
             noise: NoiseGenerator::default(),
+            says_noise: false,
+            waves: 10,
+            pictures: block::Pictures::default(),
             streams: RandomStreams::default(),
             opened: Vec::new(),
             unwritten: BTreeSet::new(),

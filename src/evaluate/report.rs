@@ -391,17 +391,8 @@ pub(super) fn count(range: &RangeInclusive<usize>, what: &str) -> String {
 fn what_is_not_built(word: Word) -> String {
     let name = word.name();
     match word {
-        Word::Texture => "layered textures are".to_owned(),
-        Word::Component => "textures of their own for parts of a blob are".to_owned(),
-        Word::Diffuse => "light that a surface scatters from behind is".to_owned(),
         Word::Emission => "the `emission` of a sky is".to_owned(),
-        Word::Pigment => "patterns in a pattern are".to_owned(),
-        Word::Object => "the pattern `object` is".to_owned(),
         Word::Macro => "a macro whose parentheses do not pair is".to_owned(),
-        Word::FadeDistance | Word::FadePower => format!("`{name}` of an interior is"),
-        _ if word.family() == Family::Pattern && word.is_built() => {
-            format!("a `{name}` of textures is")
-        }
         _ => format!("`{name}` is"),
     }
 }
@@ -409,8 +400,9 @@ fn what_is_not_built(word: Word) -> String {
 /// Returns the supported words of a word's family that may replace it.
 fn built_beside(word: Word) -> Vec<String> {
     let beside = |other: Word| match other {
-        // Supported in lights, but not in interiors.
-        Word::FadeDistance | Word::FadePower => word.family() == Family::Light,
+        Word::FadeDistance | Word::FadePower => {
+            matches!(word.family(), Family::Light | Family::Interior)
+        }
         // What the parts of a light stand in, and no part.
         Word::LightSource if word != Word::LightGroup => false,
         Word::Difference | Word::Intersection | Word::Merge | Word::Union => {

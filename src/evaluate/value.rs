@@ -9,13 +9,13 @@ use std::sync::Arc;
 
 use crate::color::{Color, Rgb};
 use crate::math::Vector;
-use crate::scene::{FinishId, InteriorId, ObjectId, PigmentId, TextureId, TransformId};
+use crate::scene::{FinishId, InteriorId, NormalId, ObjectId, PigmentId, TextureId, TransformId};
 use crate::source::Site;
 use crate::syntax::ast::{BinaryOperator, UnaryOperator};
 use crate::vocabulary::Word;
 
 use super::array::Array;
-use super::block::WrittenMap;
+use super::block::{BlendMap, WrittenMap};
 use super::comparison::Comparison;
 use super::file::FileHandle;
 use super::function::FunctionId;
@@ -90,10 +90,13 @@ pub enum Value {
     Transform(TransformId),
     Texture(TextureId),
     Pigment(PigmentId),
+    Normal(NormalId),
     Finish(FinishId),
     Interior(InteriorId),
     Material(Material),
     ColorMap(Arc<WrittenMap>),
+    /// A `pigment_map` and the like.
+    BlendMap(BlendMap),
     Object(ObjectId),
     Camera(Arc<crate::scene::Camera>),
     Array(Arc<Array>),
@@ -113,6 +116,7 @@ pub enum Value {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Material {
     pub texture: Option<TextureId>,
+    pub interior_texture: Option<TextureId>,
     pub interior: Option<InteriorId>,
 }
 
@@ -149,6 +153,7 @@ impl Value {
         match self {
             Self::String(text) => text.len() as u64,
             Self::ColorMap(map) => size_of_val(&map.map.0[..]) as u64,
+            Self::BlendMap(map) => size_of_val(&map.entries[..]) as u64,
             Self::Array(array) => size_of_val(array.elements()) as u64,
             Self::Spline(spline) => size_of_val(spline.spline.knots()) as u64,
             _ => 0,
@@ -165,10 +170,17 @@ impl Value {
             Self::Transform(_) => "a transform",
             Self::Texture(_) => "a texture",
             Self::Pigment(_) => "a pigment",
+            Self::Normal(_) => "a normal",
             Self::Finish(_) => "a finish",
             Self::Interior(_) => "an interior",
             Self::Material(_) => "a material",
             Self::ColorMap(_) => "a color_map",
+            Self::BlendMap(map) => match map.word {
+                Word::PigmentMap => "a pigment_map",
+                Word::NormalMap => "a normal_map",
+                Word::SlopeMap => "a slope_map",
+                _ => "a texture_map",
+            },
             Self::Object(_) => "an object",
             Self::Camera(_) => "a camera",
             Self::Array(_) => "an array",

@@ -1,49 +1,34 @@
 //! Closed functions: a function together with everything it calls, independent of its environment.
 
 use super::domain::{Needed, needed};
-use super::noise::NoiseFunction;
 use super::slope::Sloped;
 use super::tape::{Function, Step};
 use super::{Outside, OutsideId};
-use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::math::placement::Map;
-use crate::noise::NoiseGenerator;
-use crate::pattern::Pattern;
-use crate::spline::Spline;
 
 /// Something that a function calls, in self-contained form.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Asked {
-    Noise {
-        function: NoiseFunction,
-        /// The generator of the scene.
-        generator: NoiseGenerator,
-    },
-    /// One component of a spline's value.
-    Spline {
-        spline: Spline,
-        component: usize,
-    },
-    /// A pattern at a point, with its values mapped.
-    Pattern {
-        pattern: Pattern,
-        pattern_from_point: Map,
-        /// Sorted by value, linear between entries, constant outside; at least one entry.
-        map: Vec<(f64, f64)>,
-    },
-    Constant(f64),
+pub trait Ask: Clone + PartialEq + std::fmt::Debug {
+    fn value(&self, arguments: &[f64]) -> f64;
+
+    /// Returns an interval that contains the value for all arguments in these intervals.
+    fn bounds(&self, arguments: &[Interval]) -> Interval;
+
+    /// Returns the bounds with bounds on the slopes, as [`Outside::sloped`] does.
+    fn sloped<const N: usize>(&self, arguments: &[Sloped<N>]) -> Sloped<N> {
+        let values: Vec<_> = arguments.iter().map(|argument| argument.value).collect();
+        Sloped::anyhow(self.bounds(&values), arguments.iter().all(Sloped::is_level))
+    }
 }
 
 /// A function that contains everything it calls.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Closed {
+pub struct Closed<A> {
     function: Function,
-    asked: Vec<Asked>,
+    asked: Vec<A>,
     needed: Vec<Needed>,
 }
 
-impl Closed {
+impl<A: Ask> Closed<A> {
     /// Returns the number of operations; those inside a loop count once.
     pub fn operations(&self) -> usize {
         self.function.operations()
@@ -52,9 +37,9 @@ impl Closed {
     /// Closes a function; `None` if `asked` does not know something that the function calls.
     pub fn new(
         mut function: Function,
-        mut asked: impl FnMut(OutsideId) -> Option<Asked>,
+        mut asked: impl FnMut(OutsideId) -> Option<A>,
     ) -> Option<Self> {
-        let mut all: Vec<(OutsideId, Asked)> = Vec::new();
+        let mut all: Vec<(OutsideId, A)> = Vec::new();
         for step in &mut function.steps {
             if let Step::Ask { id, .. } = step {
                 let known = all.iter().position(|(other, _)| other == id);
@@ -80,75 +65,14 @@ impl Closed {
     pub fn function(&self) -> &Function {
         &self.function
     }
-}
 
-impl Asked {
-    fn value(&self, arguments: &[f64]) -> f64 {
-        let argument = |at: usize| arguments.get(at).copied().unwrap_or(0.0);
-        match self {
-            Self::Noise { function, generator } => function.value(*generator, arguments),
-            Self::Spline { spline, component } => {
-                spline.at(argument(0)).get(*component).copied().unwrap_or(f64::NAN)
-            }
-            Self::Pattern { pattern, pattern_from_point, map } => {
-                let point = Vector::new(argument(0), argument(1), argument(2));
-                let place = pattern_from_point.point(point);
-                look_up(map, pattern.value(place, Vector::ZERO).value)
-            }
-            Self::Constant(value) => *value,
-        }
-    }
-
-    fn bounds(&self, arguments: &[Interval]) -> Interval {
-        match self {
-            Self::Noise { function, generator } => function.bounds(*generator, arguments),
-            Self::Spline { spline, component } => {
-                let over = arguments.first().copied().unwrap_or(Interval::EVERYTHING);
-                spline.bounds(*component, over)
-            }
-            Self::Pattern { pattern, pattern_from_point, map } => {
-                let side = |at: usize| arguments.get(at).copied().unwrap_or(Interval::point(0.0));
-                let half = |side: Interval| (0.5 * (side.high - side.low)).next_up();
-                let sides = [side(0), side(1), side(2)];
-                let middle = Vector::from_array(sides.map(|s| s.low + 0.5 * (s.high - s.low)));
-                let reach =
-                    pattern_from_point.point_error(middle, Vector::from_array(sides.map(half)));
-                let values = match middle.is_finite() && reach.is_finite() {
-                    true => pattern.bounds(pattern_from_point.point(middle), reach),
-                    false => Interval { low: 0.0, high: 1.0 },
-                };
-                look_up_all(map, values)
-            }
-            Self::Constant(value) => Interval::point(*value),
-        }
+    /// Returns the value for the arguments; missing ones are 0.
+    pub fn at(&self, arguments: &[f64]) -> f64 {
+        self.function.run().at(arguments, self)
     }
 }
 
-/// Looks up a value in a map. **Source:** like a pigment's map (`world::pigment`).
-fn look_up(map: &[(f64, f64)], value: f64) -> f64 {
-    let (Some(first), Some(last)) = (map.first(), map.last()) else { return f64::NAN };
-    if value >= last.0 {
-        return last.1;
-    }
-    let above = map.partition_point(|entry| entry.0 < value);
-    match map.get(above.wrapping_sub(1)..=above) {
-        Some([low, high]) => low.1 + (high.1 - low.1) * ((value - low.0) / (high.0 - low.0)),
-        _ => first.1,
-    }
-}
-
-/// Range of a map over an interval of values.
-fn look_up_all(map: &[(f64, f64)], values: Interval) -> Interval {
-    let entries = map.iter().filter(|entry| values.contains(entry.0)).map(|entry| entry.1);
-    let ends = [look_up(map, values.low), look_up(map, values.high)];
-    let all = entries.chain(ends).map(Interval::point);
-    let Interval { low, high } = all.reduce(Interval::hull).unwrap_or(Interval::EVERYTHING);
-    // Between two entries the value is rounded.
-    let off = 4.0 * f64::EPSILON * map.iter().fold(0.0_f64, |most, entry| most.max(entry.1.abs()));
-    Interval { low: low - off, high: high + off }
-}
-
-impl Outside for Closed {
+impl<A: Ask> Outside for Closed<A> {
     fn value(&self, id: OutsideId, arguments: &[f64]) -> f64 {
         self.asked.get(id.0 as usize).map_or(f64::NAN, |asked| asked.value(arguments))
     }
@@ -160,11 +84,7 @@ impl Outside for Closed {
 
     fn sloped<const N: usize>(&self, id: OutsideId, arguments: &[Sloped<N>]) -> Sloped<N> {
         match self.asked.get(id.0 as usize) {
-            Some(Asked::Noise { function, generator }) => function.sloped(*generator, arguments),
-            Some(asked) => {
-                let values: Vec<_> = arguments.iter().map(|argument| argument.value).collect();
-                Sloped::anyhow(asked.bounds(&values), arguments.iter().all(Sloped::is_level))
-            }
+            Some(asked) => asked.sloped(arguments),
             None => Sloped::anyhow(Interval::EVERYTHING, false),
         }
     }

@@ -4,7 +4,7 @@
 //! **Invariant:** only operands that the result always depends on; those that a choice, a comparison, a
 //! minimum or a maximum may discard are excluded.
 
-use super::Closed;
+use super::Outside;
 use super::operation::{Binary, Unary};
 use super::tape::{Function, Register, Step};
 use crate::math::interval::Interval;
@@ -18,8 +18,8 @@ pub(super) struct Needed {
 
 impl Needed {
     /// Returns whether the operand is certainly out of range for all arguments in these intervals.
-    pub fn is_missed(&self, arguments: &[Interval], closed: &Closed) -> bool {
-        let Interval { low, high } = self.operand.run().at(arguments, closed);
+    pub fn is_missed(&self, arguments: &[Interval], outside: &impl Outside) -> bool {
+        let Interval { low, high } = self.operand.run().at(arguments, outside);
         high < self.within.low || self.within.high < low
     }
 }
@@ -114,10 +114,24 @@ fn domain(operation: Unary) -> Option<Interval> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::function::Builder;
+    use crate::function::{Ask, Builder, Closed, Node};
+
+    /// What a function calls that calls nothing.
+    #[derive(Debug, Clone, PartialEq)]
+    enum Nothing {}
+
+    impl Ask for Nothing {
+        fn value(&self, _: &[f64]) -> f64 {
+            match *self {}
+        }
+
+        fn bounds(&self, _: &[Interval]) -> Interval {
+            match *self {}
+        }
+    }
 
     /// A function of x.
-    fn closed(make: impl FnOnce(&mut Builder) -> super::super::Node) -> Closed {
+    fn closed(make: impl FnOnce(&mut Builder) -> Node) -> Closed<Nothing> {
         let mut builder = Builder::new(1).expect("few arguments");
         let result = make(&mut builder);
         Closed::new(builder.finish(result), |_| None).expect("nothing is asked")

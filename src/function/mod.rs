@@ -21,7 +21,7 @@ mod tape;
 use crate::math::interval::Interval;
 
 pub use build::{Builder, DEEPEST_LOOP, Loop, MOST_ARGUMENTS, MOST_OPERATIONS, Node, TooLong};
-pub use closed::{Asked, Closed};
+pub use closed::{Ask, Closed};
 pub use noise::NoiseFunction;
 pub use number::{Batch, LANES, Number};
 pub use operation::{Binary, Unary};

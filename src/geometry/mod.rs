@@ -273,14 +273,14 @@ impl Geometry {
             | Solid::Ellipsoid(_)
             | Solid::Whole(_) => false,
         };
-        let sides = if is_sheet || !world.materials[object.material as usize].finish.seed {
+        let sides = if is_sheet || !world.textures_of(object).all(|texture| texture.is_seed()) {
             Sides::Both
         } else if object.inverse {
             Sides::Inside
         } else {
             Sides::Outside
         };
-        let clear = world.materials[object.material as usize].pigment.is_clear();
+        let clear = world.is_clear(object);
         let (blocks, filters) = (object.casts_shadow && !clear, object.casts_shadow && clear);
         Entry { solid, object: number, sides, blocks, filters, clear }
     }

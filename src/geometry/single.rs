@@ -160,7 +160,7 @@ mod tests {
     use super::*;
     use crate::math::random::{Random, tries};
     use crate::shape::{Box_, Plane, Shape, Sphere};
-    use crate::world::{Finish, Material, Object, Pigment, World};
+    use crate::world::{Finish, Object, Pigment, Plain, Texture, World};
 
     /// One shape of each kind, far from the origin.
     fn world(random: &mut Random, far: f64) -> World {
@@ -172,9 +172,11 @@ mod tests {
             lobes: Vec::new(),
             reflection: None,
             seed: false,
+            extras: None,
         };
-        let material = Material { pigment: Pigment::Color(crate::color::Color::WHITE), finish };
-        let mut world = World { materials: vec![material], ..World::default() };
+        let pigment = Pigment::Color(crate::color::Color::WHITE);
+        let texture = Texture::Plain(Plain { pigment, normal: None, finish });
+        let mut world = World { textures: vec![texture], ..World::default() };
         let centre = random.point(far);
         world.spheres.push(Sphere { centre, radius: random.number(0.1, 2.0) });
         let normal = random.direction();

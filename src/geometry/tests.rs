@@ -8,12 +8,11 @@ use crate::color::{Color, Rgb};
 use crate::math::placement::Placement;
 use crate::math::random::{Random, tries, tries_in};
 use crate::math::{Matrix, UnitVector, Vector};
-use crate::world::{Finish, Material, Object, Pigment};
+use crate::world::{Finish, Object, Pigment, Plain, Texture};
 
 fn empty() -> World {
-    let material = |seed| Material {
-        pigment: Pigment::Color(Color::default()),
-        finish: Finish {
+    let texture = |seed| {
+        let finish = Finish {
             conserve_energy: false,
             emission: Rgb::default(),
             diffuse: 0.6,
@@ -21,9 +20,12 @@ fn empty() -> World {
             lobes: Vec::new(),
             reflection: None,
             seed,
-        },
+            extras: None,
+        };
+        let pigment = Pigment::Color(Color::default());
+        Texture::Plain(Plain { pigment, normal: None, finish })
     };
-    World { materials: vec![material(false), material(true)], ..World::default() }
+    World { textures: vec![texture(false), texture(true)], ..World::default() }
 }
 
 fn add(world: &mut World, shape: Shape) {
@@ -85,7 +87,7 @@ fn random_world(random: &mut Random, count: usize, reach: f64) -> World {
         }
     }
     for object in &mut world.objects {
-        object.material = random.below(2) as u32;
+        object.texture = random.below(2) as u32;
         object.inverse = random.below(3) == 0;
         object.casts_shadow = random.below(4) != 0;
     }
@@ -317,9 +319,9 @@ fn of_coinciding_faces_the_first_declared_wins_everywhere() {
 fn a_surface_with_the_seeds_finish_is_seen_from_outside_only() {
     let mut world = empty();
     add_sphere(&mut world, Vector::ZERO, 1.0);
-    let hits = |material, inverse| {
+    let hits = |texture, inverse| {
         let mut world = world.clone();
-        (world.objects[0].material, world.objects[0].inverse) = (material, inverse);
+        (world.objects[0].texture, world.objects[0].inverse) = (texture, inverse);
         let geometry = Geometry::build(&world);
         [-3.0, 0.0].map(|x| {
             let ray = Ray { origin: Vector::X * x, direction: Vector::X };

@@ -2,23 +2,22 @@
 //!
 //! **Out:** the same as in a World, or a diagnostic if the part cannot be built.
 
-use super::texture::{inverse_map, lower_pigment};
+use super::pigment::{Nodes, Pigments};
 use super::transform::Transforms;
 use super::{Fault, Reporter};
 use crate::diagnostic::Diagnostics;
 use crate::math::Vector;
 use crate::scene::{PigmentId, Scene, TransformId};
 use crate::source::Site;
-use crate::world::Pigment;
+use crate::texture::Pigment;
+use crate::texture::space::Start;
 
 /// Returns a pigment in its World form; reports what is wrong with it.
 pub fn pigment(scene: &Scene, id: PigmentId, diagnostics: &mut Diagnostics) -> Option<Pigment> {
-    let written = &scene.pigments[id.index()];
-    let mut transforms = Transforms::new(&scene.transforms);
-    let lowered = transforms
-        .product(&written.transforms)
-        .and_then(|place| lower_pigment(&written.kind, inverse_map(&place)?));
-    Reporter::new(scene, diagnostics).made(lowered, written.site)
+    let transforms = &mut Transforms::new(&scene.transforms);
+    let pigments = &mut Pigments::default();
+    let lowered = Nodes { scene, transforms, pigments }.pigment(id, Start::Outer, &[], 0);
+    Reporter::new(scene, diagnostics).made(lowered, scene.pigments[id.index()].site)
 }
 
 /// An affine map: the three rows of its matrix, and its translation.

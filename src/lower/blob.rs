@@ -64,7 +64,12 @@ pub fn blob(blob: &Blob, transforms: &mut Transforms) -> Result<Option<(Body, Af
         return Err(Fault::not_finite("a component of this blob"));
     }
     let frame = Affine::from_columns(scale(2.0 * size), exact(middle));
-    Ok(shape::Blob::new(components).map(|blob| (Body::Blob(blob), frame)))
+    let paint = |one: &Component| one.paint.unwrap_or(blob.textures.len() as u32);
+    let paints: Vec<u32> = match blob.textures.is_empty() {
+        true => Vec::new(),
+        false => blob.components.iter().map(paint).collect(),
+    };
+    Ok(shape::Blob::painted(components, &paints).map(|blob| (Body::Blob(blob), frame)))
 }
 
 fn spent(

@@ -9,7 +9,6 @@ use super::Fault;
 use super::quadric;
 use super::shape::{FLAT, no_size, traceable};
 use super::transform::{Affine, exact};
-use crate::function::Closed;
 use crate::math::double::{Double, DoubleVector, exact_middle, power_of_two};
 use crate::math::placement::{ExactPlacement, Placement};
 use crate::math::terms::exponents;
@@ -23,6 +22,7 @@ use crate::shape::{
     Algebraic, Body, Cone, Cylinder, Disc, Isosurface, JuliaFractal, Memory, Mesh, Ovus,
     Parametric, Placed, Superellipsoid, Torus,
 };
+use crate::texture::Closed;
 use crate::vocabulary::Word;
 
 /// Returns the cylinder of radius 1 from z = −1 to z = 1, between the centres of the ends.

@@ -18,8 +18,7 @@ impl Lowering<'_, '_> {
             return;
         }
         let world = &self.world;
-        let is_clear =
-            |object: &Object| world.materials[object.material as usize].pigment.is_clear();
+        let is_clear = |object: &Object| world.is_clear(object);
         let clear: Vec<u32> =
             world.solids().filter(|&solid| world.parts(solid).iter().any(is_clear)).collect();
         let object = |solid: u32| &world.objects[solid as usize];

@@ -1,80 +1,142 @@
-//! Lowers textures of single faces of a mesh: the colours of one material, by corner.
+//! Lowers textures of single faces of a mesh, by corner, and of components of a blob: several textures, or the
+//! colours of one.
 
 use std::sync::Arc;
 
 use super::finish::lower_finish;
 use super::object::Inherited;
-use super::texture::{Surface, lower_pigment, material};
+use super::pigment::faces;
+use super::surface::{Parts, Slot, Surface, add_slots};
+use super::texture::{Written, plain};
+use super::transform::Affine;
 use super::{Fault, Lowering};
-use crate::diagnostic::Code;
-use crate::math::placement::Map;
-use crate::scene::mesh::Triangles;
-use crate::scene::{self, FinishId, PigmentId, PigmentKind};
-use crate::world::Pigment;
+use crate::color::Color;
+use crate::scene::{self, FinishId, PigmentId, PigmentKind, TextureId, TextureKind};
+use crate::source::Site;
+use crate::world::{Finish, Texture};
 
 impl Surface {
-    /// Returns the surface for a mesh; it is visible where a face has no texture of its own.
-    fn of_faces(&self, scene: &scene::Scene, triangles: &Arc<Triangles>) -> Self {
-        let Some(first) = triangles.textures.first() else { return self.clone() };
-        if triangles.faces.iter().all(|face| face.paint.is_none()) {
+    /// Returns the surface for a solid; it is visible where a part has no texture of its own.
+    fn of_parts(&self, parts: Parts) -> Self {
+        let Some(first) = parts.textures().first().copied().filter(|_| parts.is_painted()) else {
             return self.clone();
+        };
+        if parts.is_seen_bare() {
+            return Self { faces: Some(parts), ..self.clone() };
         }
-        let faces = Some(triangles.clone());
-        if triangles.faces.iter().any(|face| face.paint.is_none()) {
-            return Self { faces, ..self.clone() };
-        }
-        let scene::Texture { pigment, finish, .. } = scene.textures[first.index()];
-        Self { pigment, finish, faces, ..self.clone() }
+        let faces = Some(parts);
+        Self { texture: first, pigment: None, normal: None, finish: None, faces, ..self.clone() }
     }
 
-    /// Returns all textures that may be visible: those of faces, in their order, and then its own.
-    pub fn all(&self, scene: &scene::Scene) -> impl Iterator<Item = (PigmentId, FinishId)> {
-        let textures = self.faces.iter().flat_map(|triangles| &triangles.textures);
-        let of_faces = textures.map(|id| &scene.textures[id.index()]);
-        let of_faces = of_faces.map(|texture| (texture.pigment, texture.finish));
-        of_faces.chain([(self.pigment, self.finish)])
+    /// Returns the pigments and finishes of all textures that may be visible: those of faces, in their order,
+    /// and then its own.
+    pub fn all(&self, scene: &scene::Scene) -> Vec<(PigmentId, FinishId)> {
+        let mut all = Vec::new();
+        let textures = self.faces.iter().flat_map(|parts| parts.textures());
+        textures.for_each(|id| add_plains(scene, *id, &mut all));
+        add_plains(scene, self.texture, &mut all);
+        if let Some(own) = all.last_mut() {
+            *own = (self.pigment.unwrap_or(own.0), self.finish.unwrap_or(own.1));
+        }
+        all
     }
 }
 
-impl Inherited {
-    /// Returns what a mesh inherits whose faces may have textures of their own.
-    pub fn of_faces(&self, scene: &scene::Scene, triangles: &Arc<Triangles>) -> Self {
-        Self { surface: self.surface.of_faces(scene, triangles), ..self.clone() }
+/// Adds the pigment and the finish of each part of a texture.
+fn add_plains(scene: &scene::Scene, id: TextureId, all: &mut Vec<(PigmentId, FinishId)>) {
+    match &scene.textures[id.index()].kind {
+        TextureKind::Plain { pigment, finish, .. } => all.push((*pigment, *finish)),
+        TextureKind::Blend { entries, .. } => {
+            entries.iter().for_each(|(_, id)| add_plains(scene, *id, all));
+        }
+        TextureKind::Layers(layers) => layers.iter().for_each(|id| add_plains(scene, *id, all)),
     }
 }
 
 impl Lowering<'_, '_> {
-    /// Returns the World's index of the material of a mesh whose faces have textures of their own.
-    pub(super) fn material_of_faces(&mut self, surface: &Surface) -> Result<u32, Fault> {
+    /// Returns what a solid inherits whose parts may have textures of their own, which move with it.
+    pub(super) fn of_parts(&mut self, here: &Inherited, parts: Parts) -> Result<Inherited, Fault> {
+        let mut surface = here.surface.of_parts(parts.clone());
+        if surface.faces.is_some() && self.colors_of_faces(&surface)?.is_none() {
+            let mut places = smallvec::SmallVec::new();
+            for &id in parts.textures() {
+                let added = add_slots(self.scene, &mut self.transforms, id, &[], &mut |own| {
+                    let place = here.world_from_here.after(&own);
+                    let set_from_solid = Affine::IDENTITY;
+                    places.push(Slot { place, set_place: own, set_from_solid });
+                });
+                added.map_err(|(fault, _)| fault)?;
+            }
+            if parts.is_seen_bare() {
+                places.extend(surface.places.iter().cloned());
+            }
+            surface.places = std::rc::Rc::new(places);
+        }
+        Ok(Inherited { surface, ..here.clone() })
+    }
+
+    /// Returns the colours of a solid whose parts have textures of their own, and their finish, if each is of
+    /// one colour and all have the same finish.
+    fn colors_of_faces(&self, surface: &Surface) -> Result<Option<(Vec<Color>, Finish)>, Fault> {
         let scene = self.scene;
-        let all: Vec<_> = surface.all(scene).collect();
-        let (mut colors, mut finishes) = (Vec::new(), Vec::new());
-        for &(pigment, finish) in &all {
-            match lower_pigment(&scene.pigments[pigment.index()].kind, Map::IDENTITY)? {
-                Pigment::Color(color) => colors.push(color),
-                Pigment::Patterned { .. } | Pigment::Faces(_) => return Err(unlike_faces()),
+        let (mut colors, mut shared) = (Vec::new(), None);
+        let textures = surface.faces.iter().flat_map(|parts| parts.textures());
+        let textures = textures.map(|id| (*id, None, None, None));
+        let own = (surface.texture, surface.pigment, surface.normal, surface.finish);
+        for (id, own_pigment, own_normal, own_finish) in textures.chain([own]) {
+            let TextureKind::Plain { pigment, normal, finish } = scene.textures[id.index()].kind
+            else {
+                return Ok(None);
+            };
+            let pigment = &scene.pigments[own_pigment.unwrap_or(pigment).index()];
+            let PigmentKind::Color(color) = pigment.kind else { return Ok(None) };
+            if own_normal.or(normal).is_some() {
+                return Ok(None);
             }
-            let lowered =
-                lower_finish(&scene.finishes[finish.index()], scene.settings.ambient_light)?;
-            if finishes.first().is_some_and(|first| *first != lowered) {
-                return Err(unlike_faces());
+            let finish = own_finish.unwrap_or(finish);
+            match &shared {
+                Some((known, _)) if *known == finish => {}
+                _ => {
+                    let lowered = lower_finish(&scene.finishes[finish.index()], &scene.settings)?;
+                    if shared.as_ref().is_some_and(|(_, first)| *first != lowered) {
+                        return Ok(None);
+                    }
+                    shared = Some((finish, lowered));
+                }
             }
-            finishes.push(lowered);
+            colors.push(color);
         }
-        let finish = finishes.swap_remove(0);
-        let pigment = lower_pigment(&PigmentKind::Faces(colors.into()), Map::IDENTITY)?;
-        let origin = self.origin(surface.pigment, surface.finish);
-        let index = self.index(material(pigment, finish), origin);
-        for (pigment, finish) in all {
-            self.note_material(index, &scene.pigments[pigment.index()], finish);
+        Ok(shared.map(|(_, finish)| (colors, finish)))
+    }
+
+    /// Returns the World's index of the texture of a solid whose parts have textures of their own.
+    pub(super) fn texture_of_faces(&mut self, surface: &Surface, site: Site) -> Result<u32, Fault> {
+        let Some(parts) = &surface.faces else { return Ok(self.texture(surface, site)) };
+        let key = (parts.key(), Written::of(surface));
+        if let Some(&known) = self.textures.of_faces.get(&key) {
+            return Ok(known);
         }
+        let lowered = match self.colors_of_faces(surface)? {
+            Some((colors, finish)) => Texture::Plain(plain(faces(&colors)?, finish)),
+            None => {
+                let mut slot = 0;
+                let own = parts.is_seen_bare().then(|| Written::of(surface));
+                let all = parts.textures().iter().map(|id| Written::own(*id)).chain(own);
+                let mut textures = Vec::new();
+                for written in all {
+                    let texture = self.node(written, &[], Some(&mut slot), 1);
+                    textures.push(Arc::new(texture.map_err(|(fault, _)| fault)?));
+                }
+                Texture::Faces(textures)
+            }
+        };
+        let (pigment, polish) = surface.plain(self.scene);
+        let origin = self.origin(pigment, polish);
+        let index = self.index(lowered, origin);
+        for (pigment, finish) in surface.all(self.scene) {
+            self.note_plain(index, pigment, finish);
+        }
+        self.textures.of_faces.insert(key, index);
         Ok(index)
     }
-}
-
-fn unlike_faces() -> Fault {
-    let message =
-        "faces of one mesh with patterns, or with more than one finish, are not supported yet";
-    Fault::new(Code::NotSupportedYet, message)
-        .label("its textures are not each of one colour, all with the same finish")
 }

@@ -12,7 +12,7 @@ use crate::math::Vector;
 use crate::shape::csg::Node;
 use crate::shape::{Body, Shape};
 use crate::source::Site;
-use crate::world::{CameraKind, Light, LightKind, Object};
+use crate::world::{CameraKind, Light, LightKind, Object, Plain};
 
 /// The most lights that are checked.
 const MOST_LIGHTS: usize = 1000;
@@ -29,8 +29,8 @@ impl Lowering<'_, '_> {
         let world = &self.world;
         let is_starless = world.sky.is_none() && world.background.is_black();
         let is_dim = |object: &Object| {
-            let material = world.materials.get(object.material as usize);
-            material.is_some_and(|m| m.finish.emission.largest() <= DEFAULT_AMBIENT)
+            let is_bright = |plain: &Plain| plain.finish.emission.largest() > DEFAULT_AMBIENT;
+            world.textures_of(object).all(|texture| !texture.any(is_bright))
         };
         // Below a ground plane it is as dark as in a closed room, because no sky is visible.
         let is_plane = |solid: u32| self.is_plane(solid);
@@ -123,8 +123,7 @@ impl Lowering<'_, '_> {
     fn is_shut(&self, solid: u32) -> bool {
         let world = &self.world;
         let is_wall = |object: &Object| {
-            let material = world.materials.get(object.material as usize);
-            material.is_some_and(|m| !m.pigment.is_clear())
+            !world.is_clear(object)
                 && object.in_image
                 && object.casts_shadow
                 && !object.double_illuminate

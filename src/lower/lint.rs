@@ -13,6 +13,7 @@ use crate::scene::{CameraItemKind, Object, ObjectKind, Root};
 use crate::shape::Body;
 use crate::shape::isosurface::Nowhere;
 use crate::source::{Site, Span};
+use crate::world::Plain;
 
 /// The default ambient of a white surface: enough to distinguish shapes from black, and no more.
 pub(super) const DEFAULT_AMBIENT: f64 = 0.1;
@@ -276,11 +277,11 @@ impl Lowering<'_, '_> {
     /// Lints colours that let through more light than enters, and `fresnel` without an index of refraction.
     fn lint_clear(&mut self) {
         let (world, origins) = (&self.world, &self.origins);
-        let origin = |i: usize| origins.materials.get(i);
+        let origin = |i: usize| origins.textures.get(i);
         let mut lints: Vec<(Site, Diagnostic)> = Vec::new();
-        for (i, material) in world.materials.iter().enumerate() {
+        for (i, texture) in world.textures.iter().enumerate() {
             let Some(site) = origin(i).and_then(|origin| origin.pigment) else { continue };
-            let sums = material.pigment.colors().map(|color| color.filter + color.transmit);
+            let sums = texture.colors().into_iter().map(|color| color.filter + color.transmit);
             let most = sums.fold(0.0, f64::max);
             if most > 1.0 + ROUNDING && !self.is_percentage(site) {
                 let message = format!("`filter` and `transmit` of this pigment come to {most:.3}");
@@ -291,9 +292,10 @@ impl Lowering<'_, '_> {
             }
         }
         for (object, site) in world.objects.iter().zip(&origins.objects) {
-            let index = object.material as usize;
-            let reflection = &world.materials[index].finish.reflection;
-            if object.interior.is_none() && reflection.as_ref().is_some_and(|r| r.fresnel) {
+            let index = object.texture as usize;
+            let fresnel =
+                |plain: &Plain| plain.finish.reflection.as_ref().is_some_and(|r| r.fresnel);
+            if object.interior.is_none() && world.textures[index].any(fresnel) {
                 let site = origin(index).and_then(|origin| origin.finish).unwrap_or(*site);
                 let message =
                     "`fresnel` goes by the `ior` of an interior, and this object has none";
@@ -316,7 +318,7 @@ impl Lowering<'_, '_> {
         let told = told.filter(|one| one.code == Code::SuspiciousUnit);
         let mut places = told.filter_map(|one| Some(one.primary()?.span));
         let pigments = self.scene.pigments.iter().filter(|pigment| pigment.site == site);
-        let clear: Vec<Site> = pigments.flat_map(|pigment| pigment.clear.clone()).collect();
+        let clear: Vec<Site> = pigments.filter_map(|pigment| pigment.clear).collect();
         places.any(|span| {
             clear.iter().any(|piece| {
                 piece.span.file == span.file
@@ -328,10 +330,9 @@ impl Lowering<'_, '_> {
 
     /// Returns whether any surface emits more than the default ambient without a light.
     pub(super) fn glows(&self) -> bool {
-        self.world.materials.iter().any(|material| {
-            let bright =
-                |color: Rgb| (color * material.finish.emission).largest() > DEFAULT_AMBIENT;
-            material.pigment.colors().any(|color| bright(color.rgb))
+        self.world.textures.iter().flat_map(|texture| texture.plains()).any(|plain| {
+            let bright = |color: Rgb| (color * plain.finish.emission).largest() > DEFAULT_AMBIENT;
+            plain.pigment.colors().into_iter().any(|color| bright(color.rgb))
         })
     }
 }

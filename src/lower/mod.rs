@@ -17,19 +17,24 @@ mod finish;
 mod inside;
 mod interior;
 mod light;
+mod lining;
 mod lint;
 mod modifier;
+mod normal;
 mod object;
 mod outline;
+mod pigment;
 mod place;
 mod points;
 mod quadric;
 mod shape;
+mod surface;
 mod sweep;
 mod texture;
 mod transform;
 pub mod unlit;
 mod unseen;
+mod uv;
 mod view;
 
 use std::collections::{BTreeMap, HashMap};
@@ -41,7 +46,7 @@ use crate::scene::mesh::Triangles;
 use crate::scene::{Dialect, ObjectId, Scene, TextureId, TransformId, Unused};
 use crate::shape::Body;
 use crate::source::{Expansions, Site, Span};
-use crate::world::{Dropped, NearSingular, Origins, Pigment, Settings, World};
+use crate::world::{Dropped, NearSingular, Origins, Pigment, Settings, Texture, World};
 
 /// Options of [`lower`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,7 +81,8 @@ pub fn lower(
         world: World::default(),
         origins: Origins::default(),
         reporter: Reporter::new(&scene, diagnostics),
-        materials: texture::Materials::default(),
+        textures: texture::Textures::default(),
+        pigments: pigment::Pigments::default(),
         transforms: transform::Transforms::new(&scene.transforms),
         last_surface: None,
         dropped: HashMap::new(),
@@ -107,7 +113,8 @@ pub fn lower(
     lowering.doubled();
     lowering.lint();
     lowering.prune_interiors();
-    let Lowering { world, mut origins, .. } = lowering;
+    let Lowering { world, mut origins, pigments, .. } = lowering;
+    origins.surfaces = pigments.parts;
     origins.expansions = scene.expansions;
     (world, origins)
 }
@@ -125,17 +132,18 @@ struct Lowering<'s, 'd> {
     world: World,
     origins: Origins,
     reporter: Reporter<'s, 'd>,
-    materials: texture::Materials,
+    textures: texture::Textures,
+    pigments: pigment::Pigments,
     transforms: transform::Transforms<'s>,
     /// The last texture that was set without a transform.
-    last_surface: Option<(TextureId, texture::Surface)>,
+    last_surface: Option<(TextureId, surface::Surface)>,
     /// Parts left out so far, and the index of each in the origins: a source location is listed once, however
     /// often it is visited.
     dropped: HashMap<(&'static str, String, Span), usize>,
     /// Interior and finish of each object that has an interior, in order.
     fillings: Vec<interior::Filling>,
-    /// The World's index of each index of refraction, keyed by its bits.
-    known_interiors: HashMap<u64, u32>,
+    /// The World's index of each interior, keyed by the bits of its numbers.
+    known_interiors: HashMap<[u64; 8], u32>,
     /// Sites of solids that have no pigment and do not reflect.
     unpainted: Vec<Site>,
     /// The site of each light's keyword.
@@ -207,6 +215,7 @@ impl Lowering<'_, '_> {
             adc_bailout: settings.adc_bailout,
             assumed_gamma: settings.assumed_gamma,
             clearness: Clearness::Current,
+            untinted_layers: false,
         };
         self.origins.max_trace_level = settings.max_trace_level_site;
         if let Some(background) = &self.scene.background {
@@ -221,17 +230,23 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// Keeps the scene's rule for clear colours only if it changes the picture: if a colour has a `filter`,
-    /// or one part of the sky is seen through another.
+    /// Keeps the scene's rules for clear colours only if they change the picture: if a colour has a
+    /// `filter`, or one part of the sky is seen through another.
     fn clearness(&mut self) {
         let world = &self.world;
-        let filters = world.materials.iter().flat_map(|material| material.pigment.colors());
+        let filters = |color: Color| color.filter != 0.0;
+        let is_tinted =
+            |texture: &Texture| texture.has_layers() && texture.colors().into_iter().any(filters);
+        let untinted = self.scene.settings.untinted_layers;
+        let untinted = untinted && world.textures.iter().any(is_tinted);
+        let filters = world.textures.iter().flat_map(|texture| texture.colors());
         let sky = world.sky.iter().flat_map(|sky| sky.pigments.iter().skip(1));
         if filters.into_iter().any(|color| color.filter != 0.0)
             || sky.into_iter().any(Pigment::is_clear)
         {
             self.world.settings.clearness = self.scene.settings.clearness;
         }
+        self.world.settings.untinted_layers = untinted;
     }
 }
 

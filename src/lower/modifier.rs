@@ -4,7 +4,7 @@
 //! objects.
 
 use super::Lowering;
-use super::texture::Surface;
+use super::surface::Surface;
 use super::transform::Affine;
 use crate::scene::{InteriorId, ModifierKind, ObjectId, TextureId};
 use crate::source::Site;
@@ -17,6 +17,8 @@ pub(super) struct Modified {
     pub map: Option<Affine>,
     /// Placed in the parent's space.
     pub surface: Option<Surface>,
+    /// The surface of the inner side, likewise.
+    pub lining: Option<Surface>,
     pub interior: Option<InteriorId>,
     pub flags: Flags,
     /// The use whose flags, with those of the object it uses, hide it from every ray.
@@ -104,6 +106,7 @@ impl Lowering<'_, '_> {
                     modified.strained |= self.transforms.near_singular(id).is_some();
                     modified.map = Some(step.after(&map));
                     modified.surface = modified.surface.take().map(|surface| surface.within(&step));
+                    modified.lining = modified.lining.take().map(|lining| lining.within(&step));
                     for (_, parent_from_region) in &mut modified.clips {
                         *parent_from_region = step.after(parent_from_region);
                     }
@@ -111,11 +114,21 @@ impl Lowering<'_, '_> {
                 ModifierKind::Texture(id) => {
                     modified.surface = Some(self.set_surface(id, map)?);
                 }
+                ModifierKind::InteriorTexture(id) => {
+                    modified.lining = Some(self.set_surface(id, map)?);
+                }
                 ModifierKind::Pigment(id) => {
                     let mut surface =
                         self.textured(modified.surface.take(), default_texture, map)?;
                     let painted = surface.repaint(scene, &mut self.transforms, id, map);
                     self.reporter.made_there(painted)?;
+                    modified.surface = Some(surface);
+                }
+                ModifierKind::Normal(id) => {
+                    let mut surface =
+                        self.textured(modified.surface.take(), default_texture, map)?;
+                    let bumped = surface.bumped(scene, &mut self.transforms, id, map);
+                    self.reporter.made_there(bumped)?;
                     modified.surface = Some(surface);
                 }
                 ModifierKind::Finish(id) => {

@@ -8,7 +8,7 @@ use super::csg::{Making, Open};
 use super::modifier::{Calls, Flags, Modified};
 use super::place::next;
 use super::shape::{Round, no_size};
-use super::texture::Surface;
+use super::surface::{Parts, Surface};
 use super::transform::Affine;
 use super::{Fault, Lowering, NO_SIZE, blob, body, outline, points, shape, sweep};
 use crate::diagnostic::Code;
@@ -23,6 +23,8 @@ pub(super) struct Inherited {
     pub world_from_here: Affine,
     /// The texture of objects that have none; its placement is in world space.
     pub surface: Surface,
+    /// The texture of the inner side of objects that have none, likewise.
+    pub lining: Option<Surface>,
     /// The interior of objects that have none.
     pub interior: Option<InteriorId>,
     pub flags: Flags,
@@ -42,6 +44,7 @@ impl Inherited {
         Self {
             world_from_here: Affine::IDENTITY,
             surface,
+            lining: None,
             interior: None,
             flags: Flags::default(),
             hidden_by: None,
@@ -170,6 +173,11 @@ impl<'s> Lowering<'s, '_> {
                 (None, Some(map)) => inherited.surface.clone().under(map),
                 (None, None) => inherited.surface.clone(),
             },
+            lining: match (modified.lining.take(), &modified.map) {
+                (Some(own), _) => Some(own.within(above)),
+                (None, Some(map)) => inherited.lining.clone().map(|lining| lining.under(map)),
+                (None, None) => inherited.lining.clone(),
+            },
             interior: modified.interior.or(inherited.interior),
             flags,
             hidden_by: inherited.hidden_by.or(modified.hidden_by).or(by_both),
@@ -233,7 +241,11 @@ impl<'s> Lowering<'s, '_> {
     }
 
     fn spend(&mut self, id: ObjectId, solid: &Solid, here: &Inherited, site: Site) {
+        let before = self.world.objects.len();
         let spent = self.solid(id, solid, here, site);
+        if spent.is_ok() && self.world.objects.len() > before {
+            self.map_surface(solid, &here.world_from_here);
+        }
         if matches!(&spent, Err(fault) if fault.code == Code::ZeroSize) {
             self.drop_part(site, self.word(id), NO_SIZE);
         }
@@ -258,6 +270,8 @@ impl<'s> Lowering<'s, '_> {
         here: &Inherited,
         site: Site,
     ) -> Result<(), Fault> {
+        let turned = here.turned(solid);
+        let here = turned.as_ref().unwrap_or(here);
         let map = &here.world_from_here;
         if !map.is_finite() {
             return Err(Fault::not_finite("this solid's place"));
@@ -304,10 +318,11 @@ impl<'s> Lowering<'s, '_> {
             Solid::Triangles { ref triangles, .. } => {
                 // Triangles of one file may be used in many objects.
                 let id = *self.meshes.entry(Arc::as_ptr(triangles)).or_insert(id);
-                let here = &here.of_faces(self.scene, triangles);
+                let here = &self.of_parts(here, Parts::Mesh(triangles.clone()))?;
                 self.place_stored(id, || body::mesh(triangles), here, site)
             }
             Solid::Blob(ref written) => {
+                let here = &self.of_parts(here, Parts::Blob(written.clone()))?;
                 let made =
                     self.shared(id, |lowering| blob::blob(written, &mut lowering.transforms))?;
                 match made {
@@ -320,7 +335,7 @@ impl<'s> Lowering<'s, '_> {
                 }
             }
             Solid::Text { ref text } => self.place_stored(id, || points::text(text), here, site),
-            Solid::BicubicPatch { points: ref net } => {
+            Solid::BicubicPatch { points: ref net, .. } => {
                 self.place_stored(id, || points::bicubic_patch(net).map(Some), here, site)
             }
             Solid::HeightField { ref field } => {

@@ -46,7 +46,7 @@ fn middle((low, high): (f64, f64)) -> f64 {
 /// Returns the pieces of a curve through points, some of which only define slopes.
 ///
 /// **Source:** manual, section 3.4.5.1.8 ("Lathe"); the slopes are POV-Ray 3.7's, measured with `trace`.
-fn pieces(spline: Spline, points: &[Point]) -> Vec<Piece> {
+pub fn pieces(spline: Spline, points: &[Point]) -> Vec<Piece> {
     let toward = |from: Point, [a, b]: [Point; 2], share: f64| {
         [0, 1].map(|axis| from[axis] + share * (b[axis] - a[axis]))
     };

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use super::modifier::{Calls, Flags, Modified};
 use super::object::Inherited;
 use super::shape::LocalFace;
-use super::texture::Surface;
+use super::surface::Surface;
 use super::transform::Affine;
 use super::{Fault, Lowering, body};
 use crate::scene::ObjectId;
 use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::vocabulary::Word;
-use crate::world::{NearSingular, Object};
+use crate::world::{NearSingular, Object, Plain};
 
 impl Lowering<'_, '_> {
     /// Drops a solid that is empty, for the reason given.
@@ -120,24 +120,36 @@ impl Lowering<'_, '_> {
             return Ok(());
         }
         let surface = &here.surface;
-        let material = match here.hidden_by {
-            Some(_) => self.bare_material(),
-            None => self.seen_material(surface, site)?,
+        let texture = match here.hidden_by {
+            Some(_) => self.bare_texture(),
+            None => self.seen_texture(surface, site)?,
         };
-        let texture_from_world = self.texture_map(surface, material)?;
+        let places = self.places(surface, texture)?;
+        let written = faces;
         let faces = match faces {
             [] => None,
-            faces => self.faces(surface, material, faces)?,
+            faces => self.faces(surface, texture, faces)?,
+        };
+        let lining = match (&here.lining, here.hidden_by) {
+            (Some(lining), None) => {
+                Some(self.lining(lining, written, object.casts_shadow, site)?)
+            }
+            (Some(_), Some(_)) | (None, _) => None,
         };
         self.note_near_singular(here, site);
         if object.casts_shadow {
             for (pigment, _) in surface.all(self.scene) {
-                self.note_filter(material, pigment);
+                self.note_filter(texture, pigment);
             }
         }
-        let interior = self.interior(here.interior, surface.finish, site);
+        let interior = self.interior(here.interior, surface.medium(self.scene), site);
         let csg_solid = self.leaf(inverse);
-        let object = Object { material, texture_from_world, faces, interior, csg_solid, ..object };
+        let object = Object { texture, places, faces, lining, interior, csg_solid, ..object };
+        let caustics = self.caustics(here.interior, surface.medium(self.scene));
+        if caustics != 0.0 {
+            self.world.caustics.resize(self.world.objects.len(), 0.0);
+            self.world.caustics.push(caustics);
+        }
         self.world.objects.push(object);
         self.origins.objects.push(site);
         if csg_solid.is_some() {
@@ -146,20 +158,22 @@ impl Lowering<'_, '_> {
         Ok(())
     }
 
-    /// Returns the material of an object that may be visible.
-    pub(super) fn seen_material(&mut self, surface: &Surface, site: Site) -> Result<u32, Fault> {
-        let material = match &surface.faces {
-            None => self.material(surface.pigment, surface.finish, site),
-            Some(_) => self.material_of_faces(surface)?,
+    /// Returns the texture of an object that may be visible.
+    pub(super) fn seen_texture(&mut self, surface: &Surface, site: Site) -> Result<u32, Fault> {
+        let texture = match &surface.faces {
+            None => self.texture(surface, site),
+            Some(_) => self.texture_of_faces(surface, site)?,
         };
-        let unpainted = self.scene.pigments[surface.pigment.index()].written().is_none();
+        let (pigment, _) = surface.plain(self.scene);
+        let unpainted = self.scene.pigments[pigment.index()].written().is_none();
         // A mirror is visible by its reflections.
-        if unpainted && self.world.materials[material as usize].finish.reflection.is_none() {
+        let mirrors = |plain: &Plain| plain.finish.reflection.is_some();
+        if unpainted && !self.world.textures[texture as usize].any(mirrors) {
             // A loop visits the same site repeatedly.
             let known = self.unpainted.last().is_some_and(|last| last.span == site.span);
             self.unpainted.extend((!known).then_some(site));
         }
-        Ok(material)
+        Ok(texture)
     }
 
     /// Drops the visibility flags of a part: it is visible and casts shadows as its CSG solid does.

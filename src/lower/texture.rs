@@ -1,323 +1,386 @@
-//! Lowers textures: turns pigments and finishes with transforms into shared materials and maps.
+//! Lowers textures: turns pigments, finishes and maps into shared trees, and transforms into places.
 //!
-//! **In:** a pigment, a finish and the placement of the pattern. **Out:** indices into the World's lists.
-//! **Invariant:** equal materials, and equal maps, share one entry, in the order of first use. An object's
-//! texture space is the space of its pattern, so that all transforms of a pigment are in the object's map,
-//! and a coordinate that is constant over a flat face is one of the pattern's own.
+//! **In:** a surface: a texture with the placement of its slots. **Out:** indices into the World's lists.
+//! **Invariant:** equal textures, and equal lists of places, share one entry, in the order of first use.
 
-use std::rc::Rc;
 use std::sync::Arc;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
 use super::finish::{BARE, lower_finish};
+use super::pigment::{Nodes, entry, inverse_map, mean, too_deep};
 use super::shape::LocalFace;
-use super::transform::{Affine, Transforms};
+use super::surface::{Slot, Surface};
+use super::transform::Affine;
 use super::{Fault, Lowering};
 use crate::color::Color;
-use crate::math::UnitVector;
-use crate::math::double::Double;
-use crate::math::placement::Map;
-use crate::pattern::Pattern;
-use crate::scene::mesh::Triangles;
-use crate::scene::{self, FinishId, PigmentId, PigmentKind, TextureId};
+use crate::scene::{
+    self, Colors, FinishId, NormalId, PigmentId, PigmentKind, TextureId, TextureKind,
+};
 use crate::source::{Site, Span};
+use crate::texture::space::Start;
+use crate::texture::{Blend, DEEPEST};
 use crate::world::{
-    FaceCoordinates, Finish, Material, MaterialOrigin, Pigment, Sky, SkyOrigin, World,
+    Extras, FaceCoordinates, Finish, Pigment, Plain, Sky, SkyOrigin, SurfacePart, Texture,
+    TextureOrigin, World,
 };
 
-/// The entries of the World's lists of materials and maps so far.
+/// The entries of the World's lists of textures and places so far.
 #[derive(Default)]
-pub struct Materials {
-    /// For each pigment, the finish that it had last, and the material of both.
-    of_pigments: Vec<Option<(FinishId, u32)>>,
-    /// Materials that share the numbers in which most differ, to be compared for equality.
+pub struct Textures {
+    /// The texture of each combination of what is written.
+    known: FxHashMap<Written, u32>,
+    /// The texture of each solid whose parts have their own, by the solid and its own.
+    pub(super) of_faces: FxHashMap<(*const (), Written), u32>,
+    /// Textures that share the numbers in which most differ, to be compared for equality.
     alike: FxHashMap<[u64; 6], SmallVec<[u32; 1]>>,
-    maps: FxHashMap<[u64; 12], u32>,
-    /// The sites already listed in each material's origin.
+    maps: FxHashMap<Vec<u64>, u32>,
+    /// The sites already listed in each texture's origin.
     noted: FxHashSet<(u32, Part, Span)>,
 }
 
-/// A part of a material whose sites are listed.
+/// A texture, with the pigment, the normal and the finish that replace its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct Written {
+    texture: TextureId,
+    pigment: Option<PigmentId>,
+    normal: Option<NormalId>,
+    finish: Option<FinishId>,
+}
+
+impl Written {
+    pub(super) fn of(surface: &Surface) -> Self {
+        let &Surface { texture, pigment, normal, finish, .. } = surface;
+        Self { texture, pigment, normal, finish }
+    }
+
+    /// A texture as it is.
+    pub(super) const fn own(texture: TextureId) -> Self {
+        Self { texture, pigment: None, normal: None, finish: None }
+    }
+}
+
+/// A part of a texture whose sites are listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Part {
     Pattern,
     Highlights,
     Reflection,
+    Behind,
     Clear,
     Filter,
 }
 
-/// A texture that is inherited down the object tree.
-///
-/// In POV-Ray (measured) a pigment that replaces another keeps the other's placement: its own transforms come
-/// after all those that moved the pigment before it.
-#[derive(Debug, Clone)]
-pub struct Surface {
-    pub pigment: PigmentId,
-    pub finish: FinishId,
-    /// Shared by all objects that inherit the surface unchanged.
-    pub(super) places: Rc<Places>,
-    /// The mesh whose faces have textures of their own.
-    pub faces: Option<Arc<Triangles>>,
-}
-
-#[derive(Debug, Clone)]
-pub(super) struct Places {
-    /// The pattern's placement, in the space of the surface's current holder.
-    place: Affine,
-    /// The pattern's placement when the pigment was set, and the map there from the solid's space: the
-    /// shortest chain from solid to pattern, without the transforms that moved both.
-    set_place: Affine,
-    set_from_solid: Affine,
-}
-
-impl Surface {
-    /// Returns the texture `id`, set in the space that `set_from_solid` maps to.
-    pub fn set(
-        scene: &scene::Scene,
-        transforms: &mut Transforms,
-        id: TextureId,
-        set_from_solid: Affine,
-    ) -> Result<Self, (Fault, Site)> {
-        let texture = &scene.textures[id.index()];
-        let pigment = &scene.pigments[texture.pigment.index()];
-        let place = || {
-            let inner = transforms.product(&pigment.transforms)?;
-            Ok(transforms.product(&texture.transforms)?.after(&inner))
+impl<'s> Lowering<'s, '_> {
+    /// Returns the World's index of a surface's texture; `site` is the object's, for faults of its finish.
+    pub(super) fn texture(&mut self, surface: &Surface, site: Site) -> u32 {
+        let written = Written::of(surface);
+        if let Some(&known) = self.textures.known.get(&written) {
+            return known;
+        }
+        let mut slot = 0;
+        let lowered = self.node(written, &[], Some(&mut slot), 0);
+        let lowered = match lowered {
+            Ok(texture) => texture,
+            Err((fault, at)) => {
+                self.reporter.fault(fault, at.unwrap_or(site));
+                bare()
+            }
         };
-        let place: Affine = { place }().map_err(|fault| (fault, pigment.site))?;
-        let places = Rc::new(Places { place, set_place: place, set_from_solid });
-        Ok(Self { pigment: texture.pigment, finish: texture.finish, places, faces: None })
-    }
-
-    /// Replaces the pigment.
-    pub fn repaint(
-        &mut self,
-        scene: &scene::Scene,
-        transforms: &mut Transforms,
-        id: PigmentId,
-        set_from_solid: Affine,
-    ) -> Result<(), (Fault, Site)> {
-        let pigment = &scene.pigments[id.index()];
-        let own = transforms.product(&pigment.transforms).map_err(|f| (f, pigment.site))?;
-        self.pigment = id;
-        let Places { place, set_place, set_from_solid: before } = &*self.places;
-        let same = |a: &Affine, b: &Affine| a.moves_nothing() && b.moves_nothing() || a == b;
-        if own.moves_nothing() && same(place, set_place) && same(before, &set_from_solid) {
-            return Ok(());
-        }
-        let place = own.after(place);
-        self.places = Rc::new(Places { place, set_place: place, set_from_solid });
-        Ok(())
-    }
-
-    /// Replaces the finish.
-    pub fn polished(self, finish: FinishId) -> Self {
-        Self { finish, ..self }
-    }
-
-    /// Returns the same surface for a child whose own transforms compose to `child`.
-    pub fn under(mut self, child: &Affine) -> Self {
-        let places = Rc::make_mut(&mut self.places);
-        places.set_from_solid = places.set_from_solid.after(child);
-        self
-    }
-
-    /// Returns the same surface in the space outside `outer`.
-    pub fn within(mut self, outer: &Affine) -> Self {
-        if !outer.moves_nothing() {
-            let places = Rc::make_mut(&mut self.places);
-            places.place = outer.after(&places.place);
-        }
-        self
-    }
-}
-
-impl Lowering<'_, '_> {
-    /// Returns the World's index of a material; `site` is the object's, for faults of its finish.
-    pub(super) fn material(&mut self, pigment: PigmentId, finish: FinishId, site: Site) -> u32 {
-        if let Some(&Some((last, index))) = self.materials.of_pigments.get(pigment.index())
-            && last == finish
-        {
-            return index;
-        }
-        let scene = self.scene;
-        let written = &scene.pigments[pigment.index()];
-        let lowered = lower_pigment(&written.kind, Map::IDENTITY);
-        let paint = self.reporter.made(lowered, written.site);
-        self.note_folded(written);
-        let lowered = lower_finish(&scene.finishes[finish.index()], scene.settings.ambient_light);
-        let finish_lowered = self.reporter.made(lowered, site);
-        let paint = paint.unwrap_or(Pigment::Color(Color::BLACK));
-        let material = material(paint, finish_lowered.unwrap_or(BARE));
-        let index = self.index(material, self.origin(pigment, finish));
-        self.note_material(index, written, finish);
-        let known = &mut self.materials.of_pigments;
-        known.resize(scene.pigments.len(), None);
-        known[pigment.index()] = Some((finish, index));
+        let (pigment, finish) = surface.plain(self.scene);
+        let index = self.index(lowered, self.origin(pigment, finish));
+        self.note_texture(index, surface);
+        self.textures.known.insert(written, index);
         index
     }
 
-    /// Returns the origin of a material with this pigment and finish.
-    pub(super) fn origin(&self, pigment: PigmentId, finish: FinishId) -> MaterialOrigin {
+    /// Returns a texture that `outer` moves; with the number of the next slot, if its nodes have slots.
+    pub(super) fn node(
+        &mut self,
+        of: Written,
+        outer: &[scene::TransformId],
+        mut slot: Option<&mut u32>,
+        depth: usize,
+    ) -> Result<Texture, (Fault, Option<Site>)> {
+        let scene = self.scene;
+        let written = &scene.textures[of.texture.index()];
+        if depth > DEEPEST {
+            return Err((too_deep(), None));
+        }
+        let outer = [&written.transforms, outer].concat();
+        let mut start = || {
+            let slot = slot.as_mut().map(|slot| {
+                **slot += 1;
+                **slot - 1
+            });
+            match slot {
+                Some(slot) if written.uv_mapping => Start::UvTurned(slot),
+                None if written.uv_mapping => Start::Uv,
+                Some(slot) => Start::Slot(slot),
+                None => Start::Outer,
+            }
+        };
+        match &written.kind {
+            TextureKind::Plain { pigment, normal, finish } => {
+                let pigment = of.pigment.unwrap_or(*pigment);
+                let finish = of.finish.unwrap_or(*finish);
+                let pigment_start = start();
+                let site = Some(scene.pigments[pigment.index()].site);
+                let paint = self.nodes().pigment(pigment, pigment_start, &outer, depth);
+                let paint = paint.map_err(|fault| (fault, site))?;
+                let normal = match of.normal.or(*normal) {
+                    Some(id) => {
+                        let site = Some(scene.normals[id.index()].site);
+                        let normal = self.nodes().normal(id, start(), &outer, depth);
+                        normal.map_err(|fault| (fault, site))?
+                    }
+                    None => None,
+                };
+                self.note_folded(pigment);
+                let finish = lower_finish(&scene.finishes[finish.index()], &scene.settings);
+                let finish = finish.map_err(|fault| (fault, None))?;
+                Ok(Texture::Plain(Plain { normal, ..plain(paint, finish) }))
+            }
+            TextureKind::Blend { pattern, steps, entries } => {
+                let (start, site) = (start(), Some(pattern.site));
+                let space = self.nodes().space(start, steps, &outer, Some(pattern));
+                let mut space = space.map_err(|fault| (fault, site))?;
+                if let (Start::Uv, Start::Slot(slot) | Start::UvTurned(slot)) = (space.start, start)
+                {
+                    space.start = Start::UvTurned(slot);
+                }
+                let entries = entries.iter().map(|&(value, id)| {
+                    let texture = self.node(Written::own(id), &[], None, depth + 1)?;
+                    entry(value, Arc::new(texture)).map_err(|fault| (fault, site))
+                });
+                let mut entries = entries.collect::<Result<Vec<_>, _>>()?;
+                let word = pattern.source.word();
+                self.pigments.note(SurfacePart::Texture, word, Some(pattern.site));
+                if pattern.source == scene::Source::Average {
+                    mean(&mut entries).map_err(|fault| (fault, site))?;
+                    return Ok(Texture::Average { space, entries });
+                }
+                let pattern = self.nodes().pattern(pattern, entries.len(), depth);
+                let pattern = pattern.map_err(|fault| (fault, site))?;
+                Ok(Texture::Blend(Blend { space, pattern, entries }))
+            }
+            TextureKind::Layers(layers) => {
+                let last = layers.len() - 1;
+                let first =
+                    layers.first().map(|id| scene.textures[id.index()].kind.first_pigment());
+                let site = first.and_then(|id| scene.pigments[id.index()].written());
+                self.pigments.note(SurfacePart::Layers, "layers", site);
+                let mut lowered = Vec::with_capacity(layers.len());
+                for (place, id) in layers.iter().enumerate() {
+                    let layer = Written::own(*id);
+                    let layer = if place == last { Written { texture: *id, ..of } } else { layer };
+                    let slot = slot.as_deref_mut();
+                    let layer = self.node(layer, &outer, slot, depth + 1)?;
+                    lowered.push(Arc::new(layer));
+                }
+                Ok(Texture::Layers(lowered))
+            }
+        }
+    }
+
+    fn nodes(&mut self) -> Nodes<'_, 's> {
+        Nodes { scene: self.scene, transforms: &mut self.transforms, pigments: &mut self.pigments }
+    }
+
+    /// Returns the origin of a texture with this pigment and finish.
+    pub(super) fn origin(&self, pigment: PigmentId, finish: FinishId) -> TextureOrigin {
         let pigment = self.scene.pigments[pigment.index()].written();
         let finish = self.scene.finish_origins.get(finish.index()).and_then(|origin| origin.site);
-        MaterialOrigin { pigment, finish, ..Default::default() }
+        TextureOrigin { pigment, finish, ..Default::default() }
     }
 
-    /// Returns the material of an object that no ray hits.
-    pub(super) fn bare_material(&mut self) -> u32 {
-        let material = Material { pigment: Pigment::Color(Color::BLACK), finish: BARE };
-        self.index(material, MaterialOrigin::default())
+    /// Returns the texture of an object that no ray hits.
+    pub(super) fn bare_texture(&mut self) -> u32 {
+        self.index(bare(), TextureOrigin::default())
     }
 
-    /// Returns the World's index of a material; `origin` is recorded with a new one.
-    pub(super) fn index(&mut self, material: Material, origin: MaterialOrigin) -> u32 {
-        let materials = &mut self.world.materials;
-        let alike = self.materials.alike.entry(telling_numbers(&material)).or_default();
-        let known = alike.iter().copied().find(|&i| materials[i as usize] == material);
+    /// Returns the World's index of a texture; `origin` is recorded with a new one.
+    pub(super) fn index(&mut self, texture: Texture, origin: TextureOrigin) -> u32 {
+        let textures = &mut self.world.textures;
+        let alike = self.textures.alike.entry(telling_numbers(&texture)).or_default();
+        let known = alike.iter().copied().find(|&i| textures[i as usize] == texture);
         known.unwrap_or_else(|| {
-            let index = materials.len() as u32;
-            materials.push(material);
-            self.origins.materials.push(origin);
+            let index = textures.len() as u32;
+            textures.push(texture);
+            self.origins.textures.push(origin);
             alike.push(index);
             index
         })
     }
 
-    /// Records another pigment and finish that lower to the material `index`: each site is listed once,
-    /// however many loops and macros visit it.
-    pub(super) fn note_material(&mut self, index: u32, pigment: &scene::Pigment, finish: FinishId) {
-        let origin = &mut self.origins.materials[index as usize];
-        let noted = &mut self.materials.noted;
+    /// Records another surface that lowers to the texture `index`: each site is listed once, however many
+    /// loops and macros visit it.
+    fn note_texture(&mut self, index: u32, surface: &Surface) {
+        for (pigment, finish) in surface.all(self.scene) {
+            self.note_plain(index, pigment, finish);
+        }
+    }
+
+    pub(super) fn note_plain(&mut self, index: u32, pigment: PigmentId, finish: FinishId) {
+        let pigments = pigments_in(self.scene, pigment);
+        let origin = &mut self.origins.textures[index as usize];
+        let noted = &mut self.textures.noted;
         let mut note = |part: Part, list: &mut Vec<Site>, sites: &mut dyn Iterator<Item = Site>| {
             list.extend(sites.filter(|site| noted.insert((index, part, site.span))));
         };
-        note(Part::Pattern, &mut origin.pattern, &mut pigment.pattern.iter().copied());
-        note(Part::Clear, &mut origin.clear, &mut pigment.clear.iter().copied());
+        for id in pigments {
+            let pigment = &self.scene.pigments[id.index()];
+            note(Part::Pattern, &mut origin.pattern, &mut pattern_site(pigment).into_iter());
+            note(Part::Clear, &mut origin.clear, &mut pigment.clear.into_iter());
+        }
         let Some(finish) = self.scene.finish_origins.get(finish.index()) else { return };
         let mut highlights = finish.highlights.iter().map(|(_, site)| *site);
         note(Part::Highlights, &mut origin.highlights, &mut highlights);
         note(Part::Reflection, &mut origin.reflection, &mut finish.reflection.iter().copied());
+        note(Part::Behind, &mut origin.behind, &mut finish.behind.iter().copied());
         for &(word, site) in &finish.zeros {
             self.drop_part(site, word.name(), "its weight is zero");
         }
     }
 
-    /// Records that an object of the material `index` casts a shadow into which its `pigment` may let light.
+    /// Records that an object of the texture `index` casts a shadow into which `pigment` may let light.
     pub(super) fn note_filter(&mut self, index: u32, pigment: PigmentId) {
-        let noted = &mut self.materials.noted;
-        let clear = self.scene.pigments[pigment.index()].clear.iter();
-        let new = clear.filter(|site| noted.insert((index, Part::Filter, site.span)));
-        self.origins.materials[index as usize].filter.extend(new);
+        let noted = &mut self.textures.noted;
+        for id in pigments_in(self.scene, pigment) {
+            let clear = self.scene.pigments[id.index()].clear;
+            let new =
+                clear.into_iter().filter(|site| noted.insert((index, Part::Filter, site.span)));
+            self.origins.textures[index as usize].filter.extend(new);
+        }
     }
 
     /// Records that a pattern whose colours are all the same is dropped.
-    fn note_folded(&mut self, pigment: &scene::Pigment) {
-        let PigmentKind::Patterned { pattern, map } = &pigment.kind else { return };
-        if map.lone_color().is_none() {
+    fn note_folded(&mut self, id: PigmentId) {
+        let PigmentKind::Patterned { pattern, colors } = &self.scene.pigments[id.index()].kind
+        else {
             return;
-        }
-        let what = match pattern {
-            Pattern::Checker => "checker",
-            Pattern::Gradient { .. } => "gradient",
         };
-        let site = pigment.pattern.last().copied().unwrap_or(pigment.site);
-        self.drop_part(site, what, "its colours are all the same");
+        if colors.lone_color().is_some() {
+            self.drop_part(pattern.site, pattern.source.word(), "its colours are all the same");
+        }
     }
 
-    /// Returns the World's index of the map into a surface's pattern; `None` if there is no pattern or the
-    /// map is the identity.
-    pub(super) fn texture_map(
-        &mut self,
-        surface: &Surface,
-        material: u32,
-    ) -> Result<Option<u32>, Fault> {
-        if !is_patterned(&self.world, material) || surface.places.place.is_identity() {
+    /// Returns the World's index of the maps into the slots of a surface's texture; `None` if there is no
+    /// pattern or all maps are the identity.
+    pub(super) fn places(&mut self, surface: &Surface, texture: u32) -> Result<Option<u32>, Fault> {
+        let slots = &surface.places;
+        if !is_patterned(&self.world, texture) || slots.iter().all(|slot| slot.place.is_identity())
+        {
             return Ok(None);
         }
-        let map = inverse_map(&surface.places.place)?;
-        let numbers = map.matrix.to_cols_array().into_iter().chain(map.centre.to_array());
-        let mut key = [0; 12];
-        for (slot, number) in key.iter_mut().zip(numbers) {
-            *slot = bits(number);
-        }
+        let maps = slots.iter().map(|slot| inverse_map(&slot.place));
+        let all = maps.collect::<Result<Vec<_>, Fault>>()?;
+        let numbers = all
+            .iter()
+            .flat_map(|map| map.matrix.to_cols_array().into_iter().chain(map.centre.to_array()));
+        let key: Vec<u64> = numbers.map(bits).collect();
         let maps = &mut self.world.texture_maps;
-        Ok(Some(*self.materials.maps.entry(key).or_insert_with(|| {
-            maps.push(map);
-            maps.len() as u32 - 1
+        Ok(Some(*self.textures.maps.entry(key).or_insert_with(|| {
+            maps.extend(&all);
+            (maps.len() - all.len()) as u32
         })))
     }
 
     /// Returns the World's index of the first entry of the pattern coordinates that are constant over each of
-    /// a solid's flat faces.
+    /// a solid's flat faces, slot by slot.
     pub(super) fn faces(
         &mut self,
         surface: &Surface,
-        material: u32,
+        texture: u32,
         faces: &[LocalFace],
     ) -> Result<Option<u32>, Fault> {
-        if !is_patterned(&self.world, material) {
+        if !is_patterned(&self.world, texture) {
             return Ok(None);
         }
-        let places = &surface.places;
-        let pattern_from_solid = places.set_place.checked()?.after(&places.set_from_solid);
         let start = self.world.faces.len() as u32;
-        self.world.faces.extend(faces.iter().map(|face| coordinates(face, &pattern_from_solid)));
+        for Slot { set_place, set_from_solid, .. } in &*surface.places {
+            let pattern_from_solid = set_place.checked()?.after(set_from_solid);
+            self.world
+                .faces
+                .extend(faces.iter().map(|face| coordinates(face, &pattern_from_solid)));
+        }
         Ok(Some(start))
     }
 
     pub(super) fn sky(&mut self) {
         let scene = self.scene;
         let Some(sky) = &scene.sky_sphere else { return };
-        for id in &sky.pigments {
-            self.note_folded(&scene.pigments[id.index()]);
+        let mut pigments = Vec::new();
+        for &id in &sky.pigments {
+            self.note_folded(id);
+            let lowered = self.nodes().pigment(id, Start::Outer, &sky.transforms, 0);
+            let site = scene.pigments[id.index()].site;
+            pigments.extend(self.reporter.made(lowered, site));
         }
-        let transforms = &mut self.transforms;
-        let pigments = sky.pigments.iter().filter_map(|id| {
-            let written = &scene.pigments[id.index()];
-            let map = transforms
-                .product(&written.transforms)
-                .and_then(|inner| inverse_map(&transforms.product(&sky.transforms)?.after(&inner)));
-            let pigment = map.and_then(|map| lower_pigment(&written.kind, map));
-            self.reporter.made(pigment, written.site)
-        });
-        let pigments: Vec<_> = pigments.collect();
         self.world.sky = (!pigments.is_empty()).then_some(Sky { pigments });
-        let written = sky.pigments.iter().map(|id| &scene.pigments[id.index()]);
-        let pattern = written.filter(|written| is_pattern(&written.kind)).flat_map(|p| &p.pattern);
-        let (site, items, pattern) = (sky.site, sky.items.clone(), pattern.copied().collect());
+        let written = sky.pigments.iter().flat_map(|id| pigments_in(scene, *id));
+        let pattern = written.filter_map(|id| pattern_site(&scene.pigments[id.index()]));
+        let (site, items, pattern) = (sky.site, sky.items.clone(), pattern.collect());
         self.origins.sky = Some(SkyOrigin { site, items, pattern });
     }
 }
 
-/// Returns a material without the settings that have no effect in it.
-pub(super) fn material(pigment: Pigment, mut finish: Finish) -> Material {
+/// Returns a texture without the settings that have no effect in it.
+pub(super) fn plain(pigment: Pigment, mut finish: Finish) -> Plain {
     if !pigment.is_clear() || finish.reflection.is_none() {
         finish.conserve_energy = false;
     }
-    Material { pigment, finish }
-}
-
-/// Returns whether the pigment has more than one colour.
-fn is_pattern(kind: &PigmentKind) -> bool {
-    matches!(kind, PigmentKind::Patterned { map, .. } if map.lone_color().is_none())
-}
-
-fn is_patterned(world: &World, material: u32) -> bool {
-    matches!(world.materials[material as usize].pigment, Pigment::Patterned { .. })
-}
-
-/// Returns the map from the world back to a pattern placed by `place`.
-pub(super) fn inverse_map(place: &Affine) -> Result<Map, Fault> {
-    let map = Map { centre: place.offset().round(), matrix: place.checked()?.matrix(Double::ONE) };
-    if map.centre.is_finite() && map.matrix.is_finite() {
-        Ok(map)
-    } else {
-        Err(Fault::not_finite("this texture's place"))
+    if !pigment.is_clear()
+        && let Some(extras) = finish.extras
+    {
+        finish.extras = Extras { passed: 1.0, ..*extras }.kept();
     }
+    Plain { pigment, normal: None, finish }
+}
+
+/// Returns a black texture.
+fn bare() -> Texture {
+    Texture::Plain(plain(Pigment::Color(Color::BLACK), BARE))
+}
+
+/// Returns a pigment and all pigments inside it.
+fn pigments_in(scene: &scene::Scene, id: PigmentId) -> Vec<PigmentId> {
+    let mut all = vec![id];
+    let mut at = 0;
+    while let Some(id) = all.get(at) {
+        at += 1;
+        let PigmentKind::Patterned { pattern, colors } = &scene.pigments[id.index()].kind else {
+            continue;
+        };
+        let mut inner = Vec::new();
+        if let scene::Source::Pigment(id) = pattern.source {
+            inner.push(id);
+        }
+        if let Colors::Pigments(pigments) = colors {
+            inner.extend(pigments.iter().map(|(_, id)| *id));
+        }
+        let new: Vec<_> = inner.into_iter().filter(|id| !all.contains(id)).collect();
+        all.extend(new);
+    }
+    all
+}
+
+/// Returns the site of a pigment's pattern, if it has more than one colour.
+fn pattern_site(pigment: &scene::Pigment) -> Option<Site> {
+    match &pigment.kind {
+        PigmentKind::Patterned { pattern, colors } if colors.lone_color().is_none() => {
+            Some(pattern.site)
+        }
+        _ => None,
+    }
+}
+
+/// Returns whether any node of a texture is evaluated at a point of its object.
+fn is_patterned(world: &World, texture: u32) -> bool {
+    let mut found = false;
+    world.textures[texture as usize].for_each_space(&mut |_, _| found = true);
+    found
 }
 
 /// A coordinate is constant over a face exactly if its row is parallel to the face's normal, here within the
@@ -333,64 +396,22 @@ fn coordinates(face: &LocalFace, pattern_from_solid: &Affine) -> FaceCoordinates
     }))
 }
 
-/// Only the direction of a gradient matters, not its length (checked on POV-Ray 3.7: `gradient 2*x` is
-/// `gradient x`).
-fn lower_pattern(pattern: Pattern) -> Pattern {
-    match pattern {
-        Pattern::Checker => Pattern::Checker,
-        Pattern::Gradient { direction } => Pattern::Gradient {
-            direction: UnitVector::from_direction(direction).map_or(direction, UnitVector::get),
-        },
-    }
-}
-
-/// Returns the pigment; one of a single colour has no pattern.
-pub(super) fn lower_pigment(kind: &PigmentKind, map: Map) -> Result<Pigment, Fault> {
-    let pigment = match kind {
-        PigmentKind::Color(color) => Pigment::Color(color.of_numbers()),
-        PigmentKind::Faces(colors) => match &colors[..] {
-            [] => Pigment::Color(Color::BLACK),
-            [color, others @ ..] if others.iter().all(|other| other == color) => {
-                Pigment::Color(color.of_numbers())
-            }
-            _ => Pigment::Faces(colors.iter().map(|color| color.of_numbers()).collect()),
-        },
-        PigmentKind::Patterned { pattern, map: colors } => match colors.lone_color() {
-            Some(color) => Pigment::Color(color.of_numbers()),
-            None => Pigment::Patterned {
-                pattern: lower_pattern(*pattern),
-                pattern_from_texture: map,
-                map: colors.0.iter().map(|&(value, color)| (value, color.of_numbers())).collect(),
-            },
-        },
-    };
-    let places = match &pigment {
-        Pigment::Patterned { map, .. } => map.as_slice(),
-        Pigment::Color(_) | Pigment::Faces(_) => &[],
-    };
-    let is_finite = |color: Color| {
-        color.rgb.is_finite() && color.filter.is_finite() && color.transmit.is_finite()
-    };
-    if !pigment.colors().all(is_finite) || places.iter().any(|(value, _)| !value.is_finite()) {
-        return Err(Fault::not_finite("this pigment"));
-    }
-    Ok(pigment)
-}
-
 /// Returns bits that are the same for equal numbers: both zeros give the same.
 fn bits(number: f64) -> u64 {
     (number + 0.0).to_bits()
 }
 
-/// Returns the numbers in which most materials differ.
-fn telling_numbers(material: &Material) -> [u64; 6] {
-    let color = match &material.pigment {
+/// Returns the numbers in which most textures differ.
+fn telling_numbers(texture: &Texture) -> [u64; 6] {
+    let Texture::Plain(Plain { pigment, finish, .. }) = texture else { return [0; 6] };
+    let color = match pigment {
         Pigment::Color(color) => *color,
-        Pigment::Patterned { map, .. } => map.first().map_or(Color::BLACK, |(_, color)| *color),
+        Pigment::Ramp(blend) => blend.entries.first().map_or(Color::BLACK, |(_, color)| *color),
         Pigment::Faces(colors) => colors.first().copied().unwrap_or(Color::BLACK),
+        Pigment::Blend(_) | Pigment::Average { .. } | Pigment::Image { .. } => Color::BLACK,
     };
     let [red, green, blue] = color.rgb.components();
-    let Finish { emission, diffuse, ref lobes, .. } = material.finish;
+    let Finish { emission, diffuse, ref lobes, .. } = *finish;
     [red, green, blue, emission.red, diffuse, lobes.first().map_or(0.0, |lobe| lobe.weight)]
         .map(bits)
 }

@@ -9,7 +9,7 @@
 //! measured on POV-Ray 3.7.
 
 use super::Lowering;
-use crate::scene::{Finish, ObjectId, ObjectKind, Scene};
+use crate::scene::{Finish, Interior, ObjectId, ObjectKind, Scene};
 use crate::shape::Shape;
 use crate::world::{CameraKind, Object};
 
@@ -42,7 +42,7 @@ impl Lowering<'_, '_> {
         self.drop_part(self.scene.objects[by.index()].site, self.word(by), why);
     }
 
-    /// Returns whether anything in the Scene, placed or not, has an index of refraction.
+    /// Returns whether anything in the Scene, placed or not, refracts or absorbs light.
     pub(super) fn bends_light(&self) -> bool {
         bends_light(self.scene)
     }
@@ -69,5 +69,8 @@ fn bends_light(scene: &Scene) -> bool {
         Finish::Classic(classic) => classic.ior.is_some_and(|ior| ior != 1.0),
         Finish::Seed { .. } => false,
     };
-    scene.interiors.iter().any(|interior| interior.ior != 1.0) || scene.finishes.iter().any(old)
+    let is_active = |interior: &Interior| {
+        interior.ior != 1.0 || interior.fade_distance != 0.0 || interior.dispersion != 1.0
+    };
+    scene.interiors.iter().any(is_active) || scene.finishes.iter().any(old)
 }

@@ -174,7 +174,18 @@ impl UnitVector {
     ///
     /// `v` is first scaled by a power of two, so that no square overflows or underflows. Multiplying `v` by a
     /// power of two therefore changes no bit of the result, and a vector along an axis stays exact.
+    #[inline]
     pub fn from_direction(v: Vector) -> Option<Self> {
+        // No square that counts overflows or underflows: the scaling would change no bit.
+        let squared = v.length_squared();
+        if (1e-30..1e30).contains(&squared) {
+            return Some(Self(v / squared.sqrt()));
+        }
+        Self::from_direction_of_any_size(v)
+    }
+
+    #[cold]
+    fn from_direction_of_any_size(v: Vector) -> Option<Self> {
         let largest = v.abs().max_element();
         if largest == 0.0 || !v.is_finite() {
             return None;
@@ -216,6 +227,7 @@ pub(crate) fn reciprocal_power_of_two(largest: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::random::{Random, tries};
 
     #[test]
     fn a_direction_is_normalised_at_any_size() {
@@ -228,6 +240,17 @@ mod tests {
         }
         assert_eq!(UnitVector::from_direction(Vector::ZERO), None);
         assert_eq!(UnitVector::from_direction(Vector::new(f64::NAN, 0.0, 0.0)), None);
+    }
+
+    #[test]
+    fn scaling_changes_no_bit_of_a_direction() {
+        let mut random = Random(8);
+        for _ in 0..tries() {
+            let v = random.point(1.0) * random.size(-14.0, 14.0);
+            let bits = |unit: Option<UnitVector>| unit.map(|u| u.0.to_array().map(f64::to_bits));
+            let scaled = UnitVector::from_direction_of_any_size(v);
+            assert_eq!(bits(UnitVector::from_direction(v)), bits(scaled), "{v}");
+        }
     }
 
     #[test]

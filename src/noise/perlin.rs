@@ -4,9 +4,12 @@
 //! POV-Ray 3.7: its values at lattice points are all 0.4925, and its gradients there are 2048 vectors of
 //! length 0.795, each in a ratio of three integers.
 
+#![expect(clippy::needless_range_loop, reason = "one form for all loops over lanes")]
+
 use std::sync::LazyLock;
 
 use super::cells;
+use super::lattice::{Axis, Lanes, are_near};
 use super::range::Linear;
 use super::table::Stream;
 use crate::math::Vector;
@@ -18,9 +21,51 @@ const SIZE: usize = 2048;
 const ORIGIN: f64 = 10_000_000.023_157_213;
 
 /// Noise around 0.4925.
-pub(super) fn noise(point: Vector) -> f64 {
+#[inline(never)]
+pub(super) fn noise<const L: usize>(points: Lanes<L>) -> [f64; L] {
+    let mut shifted = points;
+    for along in &mut shifted {
+        for c in along {
+            *c += ORIGIN;
+        }
+    }
+    if !are_near(&shifted) {
+        return far(shifted);
+    }
     let lattice = &*LATTICE;
-    let [x, y, z] = cells(point + Vector::splat(ORIGIN), 0);
+    let [x, y, z] = shifted;
+    let (x, y, z) = (Axis::new(x, 0.0), Axis::new(y, 0.0), Axis::new(z, 0.0));
+    let mut sum = [0.0; L];
+    for i in 0..2 {
+        for j in 0..2 {
+            for k in 0..2 {
+                for l in 0..L {
+                    let row = lattice.step(x.low[l].wrapping_add(i));
+                    let column = lattice.step(row.wrapping_add(y.low[l].wrapping_add(j)));
+                    let place = column.wrapping_add(z.low[l].wrapping_add(k)) % SIZE;
+                    let offset = Vector::new(x.offset[i][l], y.offset[j][l], z.offset[k][l]);
+                    let weight = x.weight[i][l] * y.weight[j][l] * z.weight[k][l];
+                    sum[l] += weight * lattice.gradients[place].dot(offset);
+                }
+            }
+        }
+    }
+    for sum in &mut sum {
+        *sum = 0.4925 + 0.795 * *sum;
+    }
+    sum
+}
+
+/// [`noise`], for coordinates of any size, already shifted.
+#[cold]
+#[inline(never)]
+fn far<const L: usize>([x, y, z]: Lanes<L>) -> [f64; L] {
+    std::array::from_fn(|l| noise_far(Vector::new(x[l], y[l], z[l])))
+}
+
+fn noise_far(shifted: Vector) -> f64 {
+    let lattice = &*LATTICE;
+    let [x, y, z] = cells(shifted, 0);
     let mut sum = 0.0;
     for (i, x) in x.corners() {
         let row = lattice.step(i);
@@ -104,7 +149,8 @@ mod tests {
     fn every_lattice_point_has_the_mean_value() {
         for x in -40..40 {
             let lattice = Vector::new(f64::from(x), 7.0, -3.0) - Vector::splat(ORIGIN.fract());
-            assert!((noise(lattice) - 0.4925).abs() < 1e-8);
+            let [value] = noise(lattice.to_array().map(|c| [c]));
+            assert!((value - 0.4925).abs() < 1e-8);
         }
     }
 

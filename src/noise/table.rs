@@ -38,6 +38,50 @@ const fn shuffled() -> [u16; 4096] {
     numbers
 }
 
+/// The first component's data at a lattice point, by hash: its value, then its gradient.
+pub(super) static ROWS: [Row; 256] = rows();
+
+#[derive(Clone, Copy)]
+#[repr(align(32))]
+pub(super) struct Row(pub [f64; 4]);
+
+const fn rows() -> [Row; 256] {
+    let mut rows = [Row([0.0; 4]); 256];
+    let mut i = 0;
+    while i < 256 {
+        rows[i] = Row([0.5 * NUMBERS[i], NUMBERS[i + 1], NUMBERS[i + 2], NUMBERS[i + 3]]);
+        i += 1;
+    }
+    rows
+}
+
+/// The data of all three components at a lattice point, by hash: their values, then the components of their
+/// gradients; the fourth of each is room.
+pub(super) static TRIPLES: [Triple; 256] = triples();
+
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+pub(super) struct Triple(pub [[f64; 4]; 4]);
+
+const fn triples() -> [Triple; 256] {
+    let mut triples = [Triple([[0.0; 4]; 4]); 256];
+    let mut i = 0;
+    while i < 256 {
+        let mut c = 0;
+        while c < 3 {
+            let at = i + STRIDE * c;
+            let triple = &mut triples[i].0;
+            triple[0][c] = 0.5 * NUMBERS[at];
+            triple[1][c] = NUMBERS[at + 1];
+            triple[2][c] = NUMBERS[at + 2];
+            triple[3][c] = NUMBERS[at + 3];
+            c += 1;
+        }
+        i += 1;
+    }
+    triples
+}
+
 /// Number of table entries for one component of noise at a lattice point: twice its value, then its gradient.
 pub(super) const STRIDE: usize = 4;
 

@@ -45,6 +45,53 @@ fn turbulence_as_a_number_is_that_inside_agate() {
     }
 }
 
+/// Points where a path could differ: any, on lattice planes, next to them, and nearly too far for the near path.
+fn point_of_any_kind(random: &mut Random) -> Vector {
+    Vector::from_array([(); 3].map(|()| {
+        let near = random.number(-1.0, 1.0) * [1.0, 50.0, 1e6, 1e15][random.below(4)];
+        [near, near.round(), near.round().next_down(), near.round().next_up(), -0.0]
+            [random.below(5)]
+    }))
+}
+
+#[test]
+fn near_points_have_the_bits_of_the_path_for_far_ones() {
+    let mut random = Random(4);
+    for _ in 0..tries() {
+        let point = point_of_any_kind(&mut random);
+        let far: [f64; 3] = blend_far(point);
+        assert_eq!(vector_noise(point).to_array().map(f64::to_bits), far.map(f64::to_bits));
+        assert_eq!(planar_noise(point).map(f64::to_bits), [far[0], far[1]].map(f64::to_bits));
+        let [plain] = plain(point.to_array().map(|c| [c]));
+        assert_eq!(plain.to_bits(), (far[0] + 0.5).to_bits(), "{point}");
+    }
+}
+
+#[test]
+fn two_points_at_once_have_the_bits_of_each_alone() {
+    let mut random = Random(5);
+    for _ in 0..tries() {
+        let [a, b] = [(); 2].map(|()| point_of_any_kind(&mut random));
+        for generator in GENERATORS {
+            let both = noises(generator, [[a.x, b.x], [a.y, b.y], [a.z, b.z]]);
+            let alone = [noise(generator, a), noise(generator, b)];
+            assert_eq!(both.map(f64::to_bits), alone.map(f64::to_bits), "{generator:?} {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn the_plane_of_turbulence_has_the_bits_of_its_vector() {
+    let mut random = Random(6);
+    for _ in 0..tries() {
+        let octaves = random.number(1.0, 11.0);
+        let turbulence = Turbulence::new(random.number(0.5, 3.0), random.number(0.1, 1.0), octaves);
+        let point = point_of_any_kind(&mut random);
+        let Vector { x, y, .. } = turbulence.vector(point);
+        assert_eq!(turbulence.planar(point).map(f64::to_bits), [x, y].map(f64::to_bits));
+    }
+}
+
 #[test]
 fn noise_repeats_every_4096_units_along_each_axis() {
     let mut random = Random(1);

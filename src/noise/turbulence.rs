@@ -3,7 +3,7 @@
 //! **Invariant:** layer i has weight ωⁱ and is noise at λⁱ times the point. λ and ω are in single precision
 //! (`f32`), their powers in double precision, as found in POV-Ray 3.7.
 
-use super::{NoiseGenerator, noise, vector_noise};
+use super::{NoiseGenerator, noise, noises, planar_noise, vector_noise};
 use crate::math::Vector;
 
 /// The parameters of turbulence.
@@ -32,7 +32,16 @@ impl Turbulence {
 
     /// Returns the displacement of `point`. Finite if `omega` to the power of the octaves is.
     pub fn vector(&self, point: Vector) -> Vector {
-        self.layers(point).fold(Vector::ZERO, |sum, (weight, p)| sum + vector_noise(p) * weight)
+        self.layers()
+            .fold(Vector::ZERO, |sum, (finer, weight)| sum + vector_noise(point * finer) * weight)
+    }
+
+    /// Returns x and y of [`vector`](Self::vector).
+    pub fn planar(&self, point: Vector) -> [f64; 2] {
+        self.layers().fold([0.0; 2], |[x, y], (finer, weight)| {
+            let noise = planar_noise(point * finer);
+            [x + noise[0] * weight, y + noise[1] * weight]
+        })
     }
 
     /// Returns a number without a fixed range; finite like [`vector`](Self::vector).
@@ -40,27 +49,37 @@ impl Turbulence {
     /// The noise of all generators but the first is scaled to twice its range, and then only the first layer
     /// is clamped to 0 … 1.
     pub fn number(&self, generator: NoiseGenerator, point: Vector) -> f64 {
-        let stretched = |p| 2.0 * noise(generator, p) - 0.5;
-        let layers = self.layers(point).enumerate();
-        layers.fold(0.0, |sum, (i, (weight, p))| {
-            let layer = match generator {
-                NoiseGenerator::Plateaus => noise(generator, p),
-                NoiseGenerator::RangeCorrected | NoiseGenerator::Perlin if i == 0 => {
-                    stretched(p).clamp(0.0, 1.0)
-                }
-                NoiseGenerator::RangeCorrected | NoiseGenerator::Perlin => stretched(p),
+        let layer = |noise: f64, is_first: bool| {
+            let stretched = 2.0 * noise - 0.5;
+            match generator {
+                NoiseGenerator::Plateaus => noise,
+                _ if is_first => stretched.clamp(0.0, 1.0),
+                _ => stretched,
+            }
+        };
+        let mut layers = self.layers();
+        let (mut sum, mut is_first) = (0.0, true);
+        while let Some((finer, weight)) = layers.next() {
+            let scaled = point * finer;
+            let Some((finer, fainter)) = layers.next() else {
+                sum += weight * layer(noise(generator, scaled), is_first);
+                break;
             };
-            sum + weight * layer
-        })
+            let next = point * finer;
+            let points = [[scaled.x, next.x], [scaled.y, next.y], [scaled.z, next.z]];
+            let [one, other] = noises(generator, points);
+            sum += weight * layer(one, is_first);
+            sum += fainter * layer(other, false);
+            is_first = false;
+        }
+        sum
     }
 
-    /// Returns the weight of each layer, and the point at which it is evaluated.
-    fn layers(&self, point: Vector) -> impl Iterator<Item = (f64, Vector)> {
+    /// Returns the frequency and the weight of each layer.
+    fn layers(&self) -> impl Iterator<Item = (f64, f64)> {
         let Self { lambda, omega, octaves } = *self;
         let next = move |(finer, fainter): &(f64, f64)| Some((finer * lambda, fainter * omega));
-        std::iter::successors(Some((1.0, 1.0)), next)
-            .take(usize::from(octaves))
-            .map(move |(finer, fainter)| (fainter, point * finer))
+        std::iter::successors(Some((1.0, 1.0)), next).take(usize::from(octaves))
     }
 }
 

@@ -2,45 +2,57 @@
 //!
 //! A cell is half-open: a point on a lattice plane belongs to the cell on its positive side.
 
-use super::{NEAR, settled};
+use super::parameter::parameters;
+use super::{Measured, NEAR, Pattern, Sample, Setting, settled};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
-/// Returns 0 in the cell that starts at the origin, 1 in its six neighbours, and so on.
-///
-/// Exact for coordinates up to 2⁵³; beyond, every number is even and the value is constant.
-#[inline]
-pub fn value(point: Vector, error: Vector) -> f64 {
-    // Parities are added, not indices: the sum of three large indices would round.
-    let parity = |coordinate: f64, error: f64| {
-        let half = settled(coordinate, error).floor() * 0.5;
-        half != half.floor()
-    };
-    let [x, y, z] = [(point.x, error.x), (point.y, error.y), (point.z, error.z)];
-    f64::from(parity(x.0, x.1) ^ parity(y.0, y.1) ^ parity(z.0, z.1))
+parameters! {
+    /// 0 in the cell that starts at the origin, 1 in its six neighbours, and so on.
+    pub struct Checker {}
 }
 
-/// Returns the range of values within `reach` of `point` along each axis.
-pub fn bounds(point: Vector, reach: Vector) -> Interval {
-    let (low, high) = ((point - reach).floor(), (point + reach).floor());
-    match low == high {
-        true => Interval::point(value(point, Vector::ZERO)),
-        false => Interval { low: 0.0, high: 1.0 },
+impl Pattern for Checker {
+    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [0.0, 0.0, 1.0]), (1.0, [0.0, 1.0, 0.0])];
+    const LIST: Option<usize> = Some(2);
+    const HAS_SEAMS: bool = true;
+
+    /// Exact for coordinates up to 2⁵³; beyond, every number is even and the value is constant.
+    #[inline]
+    fn value(&self, sample: &Sample) -> f64 {
+        // Parities are added, not indices: the sum of three large indices would round.
+        let parity = |coordinate: f64, error: f64| {
+            let half = settled(coordinate, error).floor() * 0.5;
+            half != half.floor()
+        };
+        let Sample { point, error, .. } = *sample;
+        let [x, y, z] = [(point.x, error.x), (point.y, error.y), (point.z, error.z)];
+        f64::from(parity(x.0, x.1) ^ parity(y.0, y.1) ^ parity(z.0, z.1))
     }
-}
 
-/// Returns the value if each coordinate is either an integer or not within [`NEAR`] of one: then no smaller
-/// error changes it.
-#[inline]
-pub fn value_off_seams(point: Vector) -> Option<f64> {
-    // The sum is rounded to a whole number; its last bit says whether that is odd.
-    let parity = |coordinate: f64| {
-        let sum = coordinate + WHOLE;
-        let off = coordinate - (sum - WHOLE);
-        let is_told = off == 0.0 || off.abs() > NEAR;
-        is_told.then_some((sum.to_bits() & 1 == 1) ^ (off < 0.0))
-    };
-    Some(f64::from(parity(point.x)? ^ parity(point.y)? ^ parity(point.z)?))
+    /// Returns the value if each coordinate is either an integer or not within [`NEAR`] of one: then no
+    /// smaller error changes it.
+    #[inline]
+    fn value_off_seams(&self, sample: &Sample) -> Option<Measured> {
+        // The sum is rounded to a whole number; its last bit says whether that is odd.
+        let parity = |coordinate: f64| {
+            let sum = coordinate + WHOLE;
+            let off = coordinate - (sum - WHOLE);
+            let is_told = off == 0.0 || off.abs() > NEAR;
+            is_told.then_some((sum.to_bits() & 1 == 1) ^ (off < 0.0))
+        };
+        let point = sample.point;
+        let value = f64::from(parity(point.x)? ^ parity(point.y)? ^ parity(point.z)?);
+        Some(Measured { value, error: 0.0 })
+    }
+
+    fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
+        let (low, high) = ((point - reach).floor(), (point + reach).floor());
+        match low == high {
+            true => Interval::point(self.value(&Sample { point, error: Vector::ZERO, setting })),
+            false => Self::RANGE,
+        }
+    }
 }
 
 /// 3·2⁵¹: numbers near it are integers.
@@ -50,8 +62,12 @@ const WHOLE: f64 = 1.5 / f64::EPSILON;
 mod tests {
     use super::*;
 
+    fn value_within(point: Vector, error: Vector) -> f64 {
+        Checker {}.value(&Sample { point, error, setting: &Setting::default() })
+    }
+
     fn value(point: Vector) -> f64 {
-        super::value(point, Vector::ZERO)
+        value_within(point, Vector::ZERO)
     }
 
     #[test]
@@ -73,10 +89,10 @@ mod tests {
     fn a_point_that_may_be_on_a_seam_is_in_the_cell_on_its_positive_side() {
         let error = Vector::splat(1e-12);
         for off in [-9e-13, 0.0, 9e-13] {
-            assert_eq!(super::value(Vector::new(2.0 + off, 0.5, 0.5), error), 0.0, "{off}");
-            assert_eq!(super::value(Vector::new(0.5, 0.5, -3.0 + off), error), 1.0, "{off}");
+            assert_eq!(value_within(Vector::new(2.0 + off, 0.5, 0.5), error), 0.0, "{off}");
+            assert_eq!(value_within(Vector::new(0.5, 0.5, -3.0 + off), error), 1.0, "{off}");
         }
         // Farther off it is where it is.
-        assert_eq!(super::value(Vector::new(2.0 - 2e-12, 0.5, 0.5), error), 1.0);
+        assert_eq!(value_within(Vector::new(2.0 - 2e-12, 0.5, 0.5), error), 1.0);
     }
 }

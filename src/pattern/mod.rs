@@ -1,23 +1,280 @@
 //! Patterns, which map a point to a number; one file for each pattern.
 //!
-//! **Invariant:** depends only on `math`; the enum is closed and matched exhaustively. A point that its error
-//! cannot separate from a seam is on the seam: so a seam that coincides with a row of pixels has one colour
-//! throughout, however the points of the row are rounded.
+//! **Invariant:** depends only on `math` and `noise`; the enum is closed and matched exhaustively. A value is
+//! finite for every finite point and parameter. A point that its error cannot separate from a seam is on the
+//! seam: so a seam that coincides with a row of pixels has one colour throughout, however the points of the
+//! row are rounded.
 
-pub mod checker;
-pub mod gradient;
+mod centres;
+mod finite;
+mod lattice;
+#[cfg(test)]
+mod laws;
+mod layers;
+#[cfg(test)]
+mod measured;
+mod orbit;
+mod parameter;
+mod scatter;
+mod spiral;
+mod tile;
+mod triangle;
+mod turbulent;
+pub mod warp;
+mod wave;
+
+use parameter::Parameters;
+pub use parameter::{Argument, Parameter};
+pub use warp::Warp;
+pub use wave::{Wave, WaveKind};
+
+use std::fmt;
 
 use crate::math::Vector;
 use crate::math::interval::Interval;
+use crate::noise::{NoiseGenerator, Turbulence};
 
-/// A function that maps every point of space to a number.
+/// Declares the modules and the closed set of patterns. A line is the module, which is the pattern's word, and
+/// its struct.
+macro_rules! patterns {
+    ($($file:ident $kind:ident)*) => {
+        $(pub mod $file;)*
+
+        $(pub use $file::$kind;)*
+
+        /// A pattern with its parameters.
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub enum Kind {
+            $($kind($kind),)*
+        }
+
+        impl Kind {
+            /// All patterns, with their default parameters.
+            pub fn all() -> Vec<Self> {
+                vec![$(Self::$kind($kind::default())),*]
+            }
+
+            /// Returns the pattern of a word, with its default parameters.
+            pub fn of_word(word: &str) -> Option<Self> {
+                match word {
+                    $(stringify!($file) => Some(Self::$kind($kind::default())),)*
+                    _ => None,
+                }
+            }
+
+            /// Returns its word in the language.
+            pub fn word(&self) -> &'static str {
+                match self {
+                    $(Self::$kind(_) => stringify!($file),)*
+                }
+            }
+
+            pub fn parameters(&self) -> &'static [Parameter] {
+                match self {
+                    $(Self::$kind(_) => $kind::PARAMETERS,)*
+                }
+            }
+
+            /// Returns the value of a parameter by its place in [`Kind::parameters`].
+            pub fn get(&self, place: usize) -> Option<Argument> {
+                match self {
+                    $(Self::$kind(kind) => kind.get(place),)*
+                }
+            }
+
+            /// Sets a parameter by its place in [`Kind::parameters`]; its argument must have the default's type.
+            pub fn set(&mut self, place: usize, argument: Argument) {
+                match self {
+                    $(Self::$kind(kind) => kind.set(place, argument),)*
+                }
+            }
+
+            /// Returns the number of its values, if they are the whole numbers from 0 on and take a list of as
+            /// many colours.
+            pub fn list(&self) -> Option<usize> {
+                match self {
+                    $(Self::$kind(_) => $kind::LIST,)*
+                }
+            }
+
+            /// Returns whether its values jump, so that the error of a point may matter.
+            pub fn has_seams(&self) -> bool {
+                match self {
+                    $(Self::$kind(_) => $kind::HAS_SEAMS,)*
+                }
+            }
+
+            /// Returns whether it applies the turbulence of its block to its value; the points are not displaced
+            /// then.
+            pub fn applies_turbulence(&self) -> bool {
+                match self {
+                    $(Self::$kind(_) => $kind::APPLIES_TURBULENCE,)*
+                }
+            }
+
+            /// Returns the same pattern with parameters in canonical form, as values need them.
+            pub fn canonical(self) -> Self {
+                match self {
+                    $(Self::$kind(kind) => Self::$kind(kind.canonical()),)*
+                }
+            }
+
+            /// Returns its value with an error bound.
+            #[inline]
+            pub fn measured(&self, sample: &Sample) -> Measured {
+                match self {
+                    $(Self::$kind(kind) => kind.measured(sample),)*
+                }
+            }
+
+            /// Returns the value for any error less than [`NEAR`] / 4 along each axis; `None` if the error may
+            /// matter. The returned error is an upper bound. Coordinates must be below 2⁴⁰.
+            #[inline]
+            pub fn value_off_seams(&self, sample: &Sample) -> Option<Measured> {
+                match self {
+                    $(Self::$kind(kind) => kind.value_off_seams(sample),)*
+                }
+            }
+
+            /// Returns the wave of its values, unless its block names another.
+            pub fn wave(&self) -> WaveKind {
+                match self {
+                    $(Self::$kind(_) => $kind::WAVE,)*
+                }
+            }
+
+            /// Returns the frequency of its wave, unless its block names another.
+            pub fn frequency(&self) -> f64 {
+                match self {
+                    $(Self::$kind(_) => $kind::FREQUENCY,)*
+                }
+            }
+
+            /// Returns its colours as a pigment without a map: positions with red, green and blue; of a pattern
+            /// that takes a list, its colours where none are written.
+            pub fn colors(&self) -> &'static [(f64, [f64; 3])] {
+                match self {
+                    $(Self::$kind(_) => $kind::COLORS,)*
+                }
+            }
+
+            /// Returns an interval that contains all values.
+            pub fn range(&self) -> Interval {
+                match self {
+                    $(Self::$kind(_) => $kind::RANGE,)*
+                }
+            }
+
+            /// Returns the vector to add to a normal of length 1 in the pattern's space, for an amount of 1; `None`
+            /// if that follows from the values around the point.
+            pub fn displacement(&self, normal: Vector, sample: &Sample) -> Option<Vector> {
+                match self {
+                    $(Self::$kind(kind) => kind.displacement(normal, sample),)*
+                }
+            }
+
+            /// Writes the value at each of `points`.
+            pub fn values(&self, points: &[Vector], setting: &Setting, values: &mut [f64]) {
+                match self {
+                    $(Self::$kind(kind) => kind.values(points, setting, values),)*
+                }
+            }
+
+            /// Returns an interval that contains the value at each point within `reach` of `point` along each
+            /// axis.
+            pub fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
+                match self {
+                    $(Self::$kind(kind) => kind.bounds(point, reach, setting),)*
+                }
+            }
+        }
+    };
+}
+
+patterns! {
+    agate Agate
+    bozo Bozo
+    boxed Boxed
+    brick Brick
+    bumps Bumps
+    cells Cells
+    checker Checker
+    crackle Crackle
+    cubic Cubic
+    cylindrical Cylindrical
+    dents Dents
+    facets Facets
+    gradient Gradient
+    granite Granite
+    hexagon Hexagon
+    julia Julia
+    leopard Leopard
+    magnet_julia MagnetJulia
+    magnet_mandel MagnetMandel
+    mandel Mandel
+    marble Marble
+    onion Onion
+    pavement Pavement
+    planar Planar
+    quilted Quilted
+    radial Radial
+    ripples Ripples
+    spherical Spherical
+    spiral1 Spiral1
+    spiral2 Spiral2
+    spotted Spotted
+    square Square
+    tiling Tiling
+    triangular Triangular
+    waves Waves
+    wood Wood
+    wrinkles Wrinkles
+}
+
+/// Writes the word and the values of parameters that are not the default's, as in the language.
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())?;
+        parameter::write(f, self.parameters(), |place| self.get(place))
+    }
+}
+
+/// The parts of a block that several patterns use.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Pattern {
-    Checker,
-    /// `direction`: as written in a `Scene` (any length but zero), of length 1 in a `World`.
-    Gradient {
-        direction: Vector,
-    },
+pub struct Setting {
+    pub noise: NoiseGenerator,
+    /// `octaves`, `lambda` and `omega`.
+    pub turbulence: Turbulence,
+    /// `turbulence`, by axis; zero without it. Only patterns that add turbulence to their values use it.
+    pub amount: Vector,
+    /// `frequency`, which also acts inside `ripples` and `waves`.
+    pub frequency: f64,
+    /// `phase`, which also acts inside `ripples` and `waves`.
+    pub phase: f64,
+    /// The scene's `number_of_waves`: the number of centres in `ripples` and `waves`.
+    pub waves: usize,
+}
+
+impl Default for Setting {
+    fn default() -> Self {
+        Self {
+            noise: NoiseGenerator::default(),
+            turbulence: Turbulence::default(),
+            amount: Vector::ZERO,
+            frequency: 1.0,
+            phase: 0.0,
+            waves: 10,
+        }
+    }
+}
+
+/// A point in a pattern's own space.
+#[derive(Debug, Clone, Copy)]
+pub struct Sample<'a> {
+    pub point: Vector,
+    /// By how much the point may be off along each axis; 0 where that is not known.
+    pub error: Vector,
+    pub setting: &'a Setting,
 }
 
 /// A number with its error bound.
@@ -31,35 +288,59 @@ pub struct Measured {
 /// less than a quarter of this.
 pub const NEAR: f64 = 1.0 / 256.0;
 
-impl Pattern {
-    /// Returns the pattern's value, 0 … 1, at `point` (in texture space), whose error along each axis is
-    /// `error`.
+/// What a pattern implements; its parameters are declared by `parameters!`.
+trait Pattern: Parameters + Copy {
+    /// The number of values, if they are the whole numbers from 0 on and take a list of as many colours.
+    const LIST: Option<usize> = None;
+    /// Whether values jump anywhere: then `value` treats a point as being on a seam if it may be there.
+    const HAS_SEAMS: bool = false;
+    /// Whether `value` applies [`Setting::amount`] itself.
+    const APPLIES_TURBULENCE: bool = false;
+    /// The wave that its values run through its map by, unless its block names another.
+    const WAVE: WaveKind = WaveKind::Ramp;
+    /// The frequency of its wave, unless its block names another; with 0, values go to the map as they are.
+    const FREQUENCY: f64 = if Self::LIST.is_some() { 0.0 } else { 1.0 };
+    /// Its colours as a pigment without a map: positions with red, green and blue.
+    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [0.0; 3]), (1.0, [1.0; 3])];
+    /// The least and the greatest value.
+    const RANGE: Interval = Interval { low: 0.0, high: 1.0 };
+
+    /// Returns the same pattern with parameters in canonical form, for example of length 1, or within the range
+    /// that makes a difference. Values are defined for canonical parameters only.
+    fn canonical(self) -> Self {
+        self
+    }
+
+    /// Returns the value at a point.
+    fn value(&self, sample: &Sample) -> f64;
+
+    /// Returns the value with its error bound: 0 where maps need not know it.
     #[inline]
-    pub fn value(&self, point: Vector, error: Vector) -> Measured {
-        match self {
-            Self::Checker => Measured { value: checker::value(point, error), error: 0.0 },
-            Self::Gradient { direction } => gradient::value(*direction, point, error),
+    fn measured(&self, sample: &Sample) -> Measured {
+        Measured { value: self.value(sample), error: 0.0 }
+    }
+
+    /// Returns the value if the point's error does not matter; see [`Kind::value_off_seams`].
+    #[inline]
+    fn value_off_seams(&self, sample: &Sample) -> Option<Measured> {
+        (!Self::HAS_SEAMS).then(|| self.measured(sample))
+    }
+
+    /// Returns the vector to add to a normal; see [`Kind::displacement`].
+    fn displacement(&self, _normal: Vector, _sample: &Sample) -> Option<Vector> {
+        None
+    }
+
+    /// Writes the value at each of `points`.
+    fn values(&self, points: &[Vector], setting: &Setting, values: &mut [f64]) {
+        for (value, &point) in values.iter_mut().zip(points) {
+            *value = self.value(&Sample { point, error: Vector::ZERO, setting });
         }
     }
 
-    /// Returns the range of values within `reach` of `point` along each axis.
-    pub fn bounds(&self, point: Vector, reach: Vector) -> Interval {
-        match self {
-            Self::Checker => checker::bounds(point, reach),
-            Self::Gradient { direction } => gradient::bounds(*direction, point, reach),
-        }
-    }
-
-    /// Returns [`Pattern::value`] for any error less than [`NEAR`] / 4 along each axis; `None` if the error
-    /// may matter. The returned error is an upper bound. Coordinates must be below 2⁴⁰.
-    #[inline]
-    pub fn value_off_seams(&self, point: Vector) -> Option<Measured> {
-        match self {
-            Self::Checker => Some(Measured { value: checker::value_off_seams(point)?, error: 0.0 }),
-            Self::Gradient { direction } => {
-                Some(Measured { value: gradient::value_off_seams(*direction, point)?, error: NEAR })
-            }
-        }
+    /// Returns an interval that contains the value at each point within `reach` of `point` along each axis.
+    fn bounds(&self, _point: Vector, _reach: Vector, _setting: &Setting) -> Interval {
+        Self::RANGE
     }
 }
 
@@ -71,56 +352,4 @@ fn settled(coordinate: f64, error: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::math::random::{Random, tries};
-
-    #[test]
-    fn what_an_error_cannot_tell_from_a_seam_is_on_it() {
-        for (coordinate, error, seen) in [
-            (1.999_999, 0.0, 1.999_999),
-            (1.999_999, 1e-7, 1.999_999),
-            (1.999_999, 1e-5, 2.0),
-            (2.000_001, 1e-5, 2.0),
-            (-3.000_001, 1e-5, -3.0),
-            (2.0, 0.0, 2.0),
-            (0.4, f64::INFINITY, 0.0),
-        ] {
-            assert_eq!(settled(coordinate, error), seen, "{coordinate} {error}");
-        }
-        assert!(settled(f64::NAN, 1.0).is_nan());
-    }
-
-    #[test]
-    fn off_the_seams_no_small_error_changes_a_value() {
-        let mut random = Random(5);
-        let mut seen = [0; 2];
-        for _ in 0..tries() {
-            let reach = [1.0, 3.0, 1e6][random.below(3)];
-            let mut point = random.point(reach);
-            for axis in 0..3 {
-                let whole = point[axis].round();
-                point[axis] = match random.below(4) {
-                    0 => whole,
-                    1 => whole + random.number(-2.0, 2.0) * NEAR,
-                    _ => point[axis],
-                };
-            }
-            let direction = [random.direction(), random.structured_direction()][random.below(2)];
-            let gradient = Pattern::Gradient { direction: direction.get() };
-            for (kind, pattern) in [Pattern::Checker, gradient].into_iter().enumerate() {
-                let Some(told) = pattern.value_off_seams(point) else { continue };
-                seen[kind] += 1;
-                for error in [0.0, 1e-12, NEAR * 0.249] {
-                    let measured = pattern.value(point, Vector::splat(error));
-                    assert_eq!(measured.value, told.value, "{pattern:?} {point} {error}");
-                    assert!(measured.error <= told.error, "{pattern:?} {point} {measured:?}");
-                }
-            }
-        }
-        assert!(seen.iter().all(|&seen| seen > tries() / 2), "{seen:?}");
-        for odd in [f64::NAN, f64::INFINITY] {
-            assert_eq!(Pattern::Checker.value_off_seams(Vector::X * odd), None);
-        }
-    }
-}
+mod tests;

@@ -8,9 +8,12 @@ use super::dropped::dropped;
 use super::kinds::kinds;
 use super::numerics::numerics;
 use super::print::count;
+use super::surfaces::surfaces;
 use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions};
 use crate::source::Site;
-use crate::world::{Light, Material, MaterialOrigin, Object, Origins, Pigment, World};
+use crate::world::{
+    Interior, InteriorOrigin, Light, Object, Origins, Pigment, Plain, Texture, TextureOrigin, World,
+};
 
 /// Lists every effect the picture needs with what requires it, and every effect it does not need with the
 /// reason.
@@ -32,6 +35,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         dropped: dropped(world, origins, options.precision),
         numerics: numerics(world, origins),
         kinds: kinds(world, origins),
+        surfaces: surfaces(origins),
         pilot: None,
     };
     for effect in Effect::ALL {
@@ -84,6 +88,8 @@ impl Census<'_> {
             Effect::Reflection => self.reflection(),
             Effect::Transparency => self.transparency(),
             Effect::Refraction => self.refraction(),
+            Effect::Absorption => self.absorption(),
+            Effect::Dispersion => self.dispersion(),
             Effect::ColoredShadows => self.colored_shadows(),
             Effect::Patterns => self.patterns(),
             Effect::Hiding => self.hiding(),
@@ -96,25 +102,25 @@ impl Census<'_> {
         if self.world.lights.is_empty() {
             return because("no light", None);
         }
-        if !self.world.materials.iter().any(scatters) {
+        if !self.any(scatters) {
             return because("no surface scatters light", None);
         }
         Ok((self.lights(|_| true), "one cosine a light and hit".to_owned()))
     }
 
     fn highlights(&self) -> Decision {
-        if !self.world.materials.iter().any(shines) {
+        if !self.any(shines) {
             return because("no surface has a highlight", None);
         }
         if self.world.lights.is_empty() {
             return because("no light", None);
         }
         let casting = self.world.lights.iter().any(|light| light.casts_shadows);
-        let lit = |m: &Material| shines(m) && (m.finish.seed || casting);
-        if !self.world.materials.iter().any(lit) {
+        let lit = |plain: &Plain| shines(plain) && (plain.finish.seed || casting);
+        if !self.any(lit) {
             return because("shadowless lights make no highlight", None);
         }
-        let by = self.materials(lit, |origin| &origin.highlights);
+        let by = self.textures(|texture| texture.any(lit), |origin| &origin.highlights);
         Ok((by, "one power a lobe, light and hit".to_owned()))
     }
 
@@ -122,7 +128,7 @@ impl Census<'_> {
         if !self.world.lights.iter().any(|light| light.casts_shadows) {
             return because("no light casts shadows", None);
         }
-        if !self.world.materials.iter().any(|m| scatters(m) || shines(m)) {
+        if !self.any(|plain| scatters(plain) || shines(plain)) {
             return because("no surface answers a light", None);
         }
         if !self.world.objects.iter().any(|object| object.casts_shadow) {
@@ -137,20 +143,22 @@ impl Census<'_> {
         if !self.world.lights.iter().any(attenuated) {
             return because("every light shines everywhere in its colour", None);
         }
-        if !self.world.materials.iter().any(|m| scatters(m) || shines(m)) {
+        if !self.any(|plain| scatters(plain) || shines(plain)) {
             return because("no surface answers a light", None);
         }
         Ok((self.origins.attenuation.clone(), "up to three powers a light and hit".to_owned()))
     }
 
     fn double_illumination(&self) -> Decision {
-        if !self.world.objects.iter().any(|object| object.double_illuminate) {
+        let is_lit = self.world.objects.iter().any(|object| object.double_illuminate);
+        if !is_lit && !self.any(scatters_behind) {
             return because("no object is lit from behind", None);
         }
         if self.world.lights.is_empty() {
             return because("no light", None);
         }
-        let by = self.origins.double_illuminate.clone();
+        let mut by = self.origins.double_illuminate.clone();
+        by.extend(self.textures(|texture| texture.any(scatters_behind), |origin| &origin.behind));
         Ok((by, "light for hits that face away from it".to_owned()))
     }
 
@@ -169,23 +177,23 @@ impl Census<'_> {
 
     fn reflection(&self) -> Decision {
         self.goes_on()?;
-        if !self.world.materials.iter().any(reflects) {
+        if !self.any(reflects) {
             return because("no surface reflects", None);
         }
         // If paths fork at transparent surfaces, there are more rays than the depth.
-        let forks = self.world.materials.iter().any(is_clear);
+        let forks = self.world.textures.iter().any(Texture::is_clear);
         let what = if forks { "surfaces deep" } else { "rays a camera ray" };
         let cost = format!("up to {} {what}", self.max_trace_level - 1);
-        Ok((self.materials(reflects, |origin| &origin.reflection), cost))
+        Ok((self.textures(|texture| texture.any(reflects), |origin| &origin.reflection), cost))
     }
 
     fn transparency(&self) -> Decision {
         self.goes_on()?;
-        if !self.world.materials.iter().any(is_clear) {
+        if !self.world.textures.iter().any(Texture::is_clear) {
             return because("no surface is clear", None);
         }
         let cost = "a ray behind each clear surface, and a path of its own where that mirrors, too";
-        Ok((self.materials(is_clear, |origin| &origin.clear), cost.to_owned()))
+        Ok((self.textures(Texture::is_clear, |origin| &origin.clear), cost.to_owned()))
     }
 
     fn refraction(&self) -> Decision {
@@ -194,22 +202,48 @@ impl Census<'_> {
             return because("every object is filled with air", None);
         }
         // An interior with the index of air only matters next to another index.
-        let interiors = self.world.interiors.iter().zip(&self.origins.interiors);
-        let bending = interiors.filter(|(interior, _)| interior.ior != 1.0);
-        let by = bending.flat_map(|(_, sites)| sites).copied().collect();
+        let bends = |interior: &Interior| interior.ior != 1.0 || interior.dispersion.is_some();
+        if !self.world.interiors.iter().any(bends) {
+            return because("no interior has an `ior` other than 1", None);
+        }
+        let by = self.interiors(bends, |origin| &origin.ior);
         Ok((by, "one root a clear surface, a list of what a ray is in, and a ray where all light is thrown back".to_owned()))
+    }
+
+    fn absorption(&self) -> Decision {
+        let absorbs = |interior: &Interior| interior.absorption.is_some();
+        if !self.world.interiors.iter().any(absorbs) {
+            return because("no light fades in an interior", None);
+        }
+        if self.transparency().is_err() {
+            self.colored_shadows()?;
+        }
+        let by = self.interiors(absorbs, |origin| &origin.absorption);
+        Ok((by, "three powers a surface through which a ray leaves".to_owned()))
+    }
+
+    fn dispersion(&self) -> Decision {
+        let disperses = |interior: &Interior| interior.dispersion.is_some();
+        if !self.world.interiors.iter().any(disperses) {
+            return because("every interior bends all colours alike", None);
+        }
+        self.transparency()?;
+        let by = self.interiors(disperses, |origin| &origin.dispersion);
+        Ok((by, "a ray for each colour".to_owned()))
     }
 
     fn colored_shadows(&self) -> Decision {
         if !self.world.lights.iter().any(|light| light.casts_shadows) {
             return because("no light casts shadows", None);
         }
-        let mut filters = vec![false; self.world.materials.len()];
+        let mut filters = vec![false; self.world.textures.len()];
         for object in self.world.objects.iter().filter(|object| object.casts_shadow) {
-            let material = object.material as usize;
-            filters[material] = is_clear(&self.world.materials[material]);
+            let lining = object.lining.map(|lining| self.world.linings[lining as usize].texture);
+            for texture in [Some(object.texture), lining].into_iter().flatten() {
+                filters[texture as usize] = self.world.textures[texture as usize].is_clear();
+            }
         }
-        let calling = self.origins.materials.iter().zip(&filters).filter(|(_, filters)| **filters);
+        let calling = self.origins.textures.iter().zip(&filters).filter(|(_, filters)| **filters);
         let by: Vec<Site> = calling.flat_map(|(origin, _)| &origin.filter).copied().collect();
         if !filters.contains(&true) {
             return because("no clear object casts a shadow", None);
@@ -228,12 +262,12 @@ impl Census<'_> {
     }
 
     fn patterns(&self) -> Decision {
-        let patterned = |pigment: &Pigment| matches!(pigment, Pigment::Patterned { .. });
-        let in_sky = self.world.sky.iter().any(|sky| sky.pigments.iter().any(patterned));
-        if !in_sky && !self.world.materials.iter().any(|m| patterned(&m.pigment)) {
+        let in_sky =
+            self.world.sky.iter().any(|sky| sky.pigments.iter().any(Pigment::is_patterned));
+        if !in_sky && !self.world.textures.iter().any(Texture::is_patterned) {
             return because("every colour is constant", None);
         }
-        let mut by = self.materials(|m| patterned(&m.pigment), |origin| &origin.pattern);
+        let mut by = self.textures(Texture::is_patterned, |origin| &origin.pattern);
         let sky = self.origins.sky.iter().filter(|_| in_sky);
         by.extend(sky.flat_map(|sky| &sky.pattern));
         Ok((by, "one pattern and one map entry a hit".to_owned()))
@@ -260,14 +294,30 @@ impl Census<'_> {
         calling.flat_map(|(_, pieces)| pieces).copied().collect()
     }
 
-    /// Returns the locations that gave the selected materials one of their parts.
-    fn materials(
+    /// Returns whether any part of a texture is as `suits` tests.
+    fn any(&self, suits: impl Fn(&Plain) -> bool) -> bool {
+        self.world.textures.iter().any(|texture| texture.any(&suits))
+    }
+
+    /// Returns the locations that gave the selected interiors one of their parts.
+    fn interiors(
         &self,
-        calls: impl Fn(&Material) -> bool,
-        part: impl Fn(&MaterialOrigin) -> &Vec<Site>,
+        calls: impl Fn(&Interior) -> bool,
+        part: impl Fn(&InteriorOrigin) -> &Vec<Site>,
     ) -> Vec<Site> {
-        let materials = self.world.materials.iter().zip(&self.origins.materials);
-        let calling = materials.filter(|(material, _)| calls(material));
+        let interiors = self.world.interiors.iter().zip(&self.origins.interiors);
+        let calling = interiors.filter(|(interior, _)| calls(interior));
+        calling.flat_map(|(_, origin)| part(origin)).copied().collect()
+    }
+
+    /// Returns the locations that gave the selected textures one of their parts.
+    fn textures(
+        &self,
+        calls: impl Fn(&Texture) -> bool,
+        part: impl Fn(&TextureOrigin) -> &Vec<Site>,
+    ) -> Vec<Site> {
+        let textures = self.world.textures.iter().zip(&self.origins.textures);
+        let calling = textures.filter(|(texture, _)| calls(texture));
         calling.flat_map(|(_, origin)| part(origin)).copied().collect()
     }
 }
@@ -281,20 +331,20 @@ fn antialiasing(antialias: Antialias) -> Decision {
     Ok((Vec::new(), cost))
 }
 
-fn scatters(material: &Material) -> bool {
-    material.finish.diffuse != 0.0
+fn scatters(plain: &Plain) -> bool {
+    plain.finish.diffuse != 0.0 || scatters_behind(plain)
 }
 
-fn shines(material: &Material) -> bool {
-    !material.finish.lobes.is_empty()
+fn scatters_behind(plain: &Plain) -> bool {
+    plain.finish.extras.as_ref().is_some_and(|extras| extras.behind != 0.0)
 }
 
-fn reflects(material: &Material) -> bool {
-    material.finish.reflection.is_some()
+fn shines(plain: &Plain) -> bool {
+    !plain.finish.lobes.is_empty()
 }
 
-fn is_clear(material: &Material) -> bool {
-    material.pigment.is_clear()
+fn reflects(plain: &Plain) -> bool {
+    plain.finish.reflection.is_some()
 }
 
 #[cfg(test)]

@@ -10,17 +10,24 @@ use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{Object, Origins, World};
 
-/// Kind of shape, or operation on shapes, that occurs in the World.
+/// Kind of shape, operation on shapes, or part of surfaces that occurs in the World.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kind {
-    /// Name in the language: `sphere`, `difference`.
-    pub word: &'static str,
-    /// Number of shapes to intersect; for an operation, the number of occurrences in the scene.
+    /// Name in the language: `sphere`, `difference`, `wood`.
+    pub word: String,
+    /// Number of shapes to intersect; for anything else, the number of occurrences in the scene.
     pub count: usize,
     /// Source locations in text order, without duplicates.
     pub by: Vec<Site>,
-    /// Cost of intersecting one shape with a ray.
+    /// Cost of intersecting one shape with a ray, or of evaluating the part once.
     pub cost: &'static str,
+}
+
+impl Kind {
+    pub(super) fn sort_places(&mut self) {
+        self.by.sort_by_key(|site| (site.span, site.expansion));
+        self.by.dedup_by_key(|site| site.span);
+    }
 }
 
 /// Returns the name of an object's shape, and its cost per ray.
@@ -74,8 +81,8 @@ pub(super) fn word_and_cost(world: &World, shape: Shape) -> (&'static str, &'sta
 
 pub(super) fn kinds(world: &World, origins: &Origins) -> Vec<Kind> {
     let mut found: BTreeMap<(u8, &'static str), Kind> = BTreeMap::new();
-    let mut note = |order: u8, word, cost, site: Option<Site>| {
-        let fresh = || Kind { word, count: 0, by: Vec::new(), cost };
+    let mut note = |order: u8, word: &'static str, cost, site: Option<Site>| {
+        let fresh = || Kind { word: word.to_owned(), count: 0, by: Vec::new(), cost };
         let kind = found.entry((order, word)).or_insert_with(fresh);
         kind.count += 1;
         kind.by.extend(site);
@@ -88,10 +95,7 @@ pub(super) fn kinds(world: &World, origins: &Origins) -> Vec<Kind> {
         note(1, operation.word, "the crossings of all its parts, in order", Some(operation.site));
     }
     let mut kinds: Vec<Kind> = found.into_values().collect();
-    for kind in &mut kinds {
-        kind.by.sort_by_key(|site| (site.span, site.expansion));
-        kind.by.dedup_by_key(|site| site.span);
-    }
+    kinds.iter_mut().for_each(Kind::sort_places);
     kinds
 }
 

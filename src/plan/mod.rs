@@ -13,6 +13,7 @@ mod kernel;
 mod kinds;
 mod numerics;
 pub mod print;
+mod surfaces;
 
 pub use effects::plan;
 pub use kernel::Kernel;
@@ -137,6 +138,10 @@ pub enum Effect {
     Transparency,
     /// Effects of the index of refraction: bent rays, and the fraction of light reflected.
     Refraction,
+    /// Light that fades on its way through an interior.
+    Absorption,
+    /// Light split into its colours where it is bent.
+    Dispersion,
     /// Light filtered by transparent surfaces.
     ColoredShadows,
     Patterns,
@@ -148,7 +153,7 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order in which the plan lists them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::Diffuse,
         Self::Highlights,
         Self::Shadows,
@@ -157,6 +162,8 @@ impl Effect {
         Self::Reflection,
         Self::Transparency,
         Self::Refraction,
+        Self::Absorption,
+        Self::Dispersion,
         Self::ColoredShadows,
         Self::Patterns,
         Self::Hiding,
@@ -175,6 +182,8 @@ impl Effect {
             Self::Reflection => "reflection",
             Self::Transparency => "transparency",
             Self::Refraction => "refraction",
+            Self::Absorption => "absorption",
+            Self::Dispersion => "dispersion",
             Self::ColoredShadows => "coloured shadows",
             Self::Patterns => "patterns",
             Self::Hiding => "hidden objects",
@@ -206,6 +215,8 @@ pub struct Plan {
     pub numerics: Numerics,
     /// Kinds of shapes that occur.
     pub kinds: Vec<Kind>,
+    /// Kinds of patterns, normals, patterned textures and layers that occur.
+    pub surfaces: Vec<Kind>,
     /// Statistics of the pilot, if one was traced.
     pub pilot: Option<Pilot>,
 }

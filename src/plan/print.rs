@@ -61,7 +61,8 @@ impl Printer<'_> {
                 writeln!(out)?;
             }
         }
-        self.kinds(out)?;
+        self.kinds(out, "shapes", &self.plan.kinds)?;
+        self.kinds(out, "surfaces", &self.plan.surfaces)?;
         self.numerics(out)?;
         self.rays(out)
     }
@@ -127,11 +128,11 @@ impl Printer<'_> {
         }
     }
 
-    fn kinds(&self, out: &mut String) -> fmt::Result {
-        if !self.plan.kinds.is_empty() {
-            writeln!(out, "shapes")?;
+    fn kinds(&self, out: &mut String, title: &str, kinds: &[Kind]) -> fmt::Result {
+        if !kinds.is_empty() {
+            writeln!(out, "{title}")?;
         }
-        for Kind { word, count, by, cost } in &self.plan.kinds {
+        for Kind { word, count, by, cost } in kinds {
             writeln!(out, "  {word}, {count}: {cost}")?;
             let places: Vec<Span> = by.iter().map(|site| site.span).collect();
             if !places.is_empty() {

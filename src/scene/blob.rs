@@ -1,7 +1,7 @@
 //! Blobs as written.
 
 use crate::math::Vector;
-use crate::scene::TransformId;
+use crate::scene::{TextureId, TransformId};
 
 /// The parts of a `blob`.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +9,8 @@ pub struct Blob {
     /// The field's threshold, more than 0.
     pub threshold: f64,
     pub components: Vec<Component>,
+    /// Textures of single components.
+    pub textures: Vec<TextureId>,
 }
 
 /// A `sphere` or a `cylinder` of a blob.
@@ -22,6 +24,8 @@ pub struct Component {
     pub strength: f64,
     /// In written order.
     pub transforms: Vec<TransformId>,
+    /// Its own texture: an index into the blob's.
+    pub paint: Option<u32>,
 }
 
 /// Above this many components, pairs are not compared.

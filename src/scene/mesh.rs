@@ -32,6 +32,19 @@ pub struct Face {
 }
 
 impl Triangles {
+    /// Returns whether the normals of the first face point against the turn of its corners.
+    pub fn is_turned(&self) -> bool {
+        let Some(Face { vertices, normals: Some(normals), .. }) = self.faces.first() else {
+            return false;
+        };
+        let [a, b, c] =
+            vertices.map(|i| self.vertices.get(i as usize).copied().unwrap_or_default());
+        let normals = normals.map(|i| self.normals.get(i as usize).copied().unwrap_or_default());
+        let sum = normals.into_iter().fold(Vector::ZERO, |sum, n| sum + n.normalize_or_zero());
+        // The corners of a face turn around the direction away from its outer side.
+        (b - a).cross(c - a).dot(sum) > 0.0
+    }
+
     /// Returns its size in bytes.
     pub fn bytes(&self) -> u64 {
         let Self { vertices, normals, uvs, faces, textures, .. } = self;

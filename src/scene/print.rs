@@ -4,16 +4,17 @@
 //! shared child is shown in full once and by name afterwards, so the text exceeds the Scene only by its
 //! indentation. The printer does not recurse: the nesting depth is unlimited.
 
+mod texture;
+
 use std::fmt::{self, Write};
 
 use super::{
-    Beam, CameraItemKind, CameraKind, Fade, Finish, LightKind, LightSource, Modifier, ModifierKind,
-    ObjectId, ObjectKind, PigmentId, PigmentKind, Scene, TextureId, TransformId,
+    Beam, CameraItemKind, CameraKind, Fade, Finish, Interior, Irid, LightKind, LightSource,
+    Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings, TextureId, TransformId,
 };
 use crate::color::Clearness;
-use crate::math::transform::Step;
+use crate::math::transform::Step as TransformStep;
 use crate::math::vector::written as vector;
-use crate::pattern::Pattern;
 use crate::source::Sources;
 
 /// Levels deeper than this are not indented further.
@@ -42,9 +43,15 @@ impl Printer<'_> {
         let settings = &self.scene.settings;
         writeln!(out, "global_settings")?;
         writeln!(out, "  ambient_light {}", settings.ambient_light)?;
+        if settings.irid_wavelength != Settings::default().irid_wavelength {
+            writeln!(out, "  irid_wavelength {}", settings.irid_wavelength)?;
+        }
         writeln!(out, "  assumed_gamma {}", settings.assumed_gamma)?;
         if settings.clearness == Clearness::Old {
             writeln!(out, "  clear colours of versions below 3.7")?;
+        }
+        if settings.untinted_layers {
+            writeln!(out, "  layers of versions up to 3.1")?;
         }
         writeln!(out, "  max_trace_level {}", settings.max_trace_level)?;
         writeln!(out, "  adc_bailout {}", settings.adc_bailout)?;
@@ -157,10 +164,32 @@ impl Printer<'_> {
                 writeln!(out, "{indent}texture {}", id.0)?;
                 self.texture(out, id, &format!("{indent}  "))
             }
+            ModifierKind::InteriorTexture(id) => {
+                writeln!(out, "{indent}interior_texture {}", id.0)?;
+                self.texture(out, id, &format!("{indent}  "))
+            }
             ModifierKind::Pigment(id) => self.pigment(out, id, indent),
+            ModifierKind::Normal(id) => self.normal(out, id, indent),
             ModifierKind::Finish(id) => self.finish(out, &self.scene.finishes[id.index()], indent),
             ModifierKind::Interior(id) => {
-                writeln!(out, "{indent}interior ior {}", self.scene.interiors[id.index()].ior)
+                let interior = &self.scene.interiors[id.index()];
+                write!(out, "{indent}interior ior {}", interior.ior)?;
+                if interior.fade_distance != 0.0 {
+                    let Interior { fade_distance, fade_power, fade_color, .. } = interior;
+                    write!(out, " fade_distance {fade_distance} fade_power {fade_power}")?;
+                    write!(out, " fade_color {fade_color}")?;
+                }
+                if interior.dispersion != 1.0 {
+                    let Interior { dispersion, dispersion_samples, .. } = interior;
+                    write!(
+                        out,
+                        " dispersion {dispersion} dispersion_samples {dispersion_samples}"
+                    )?;
+                }
+                if let Some(caustics) = interior.caustics {
+                    write!(out, " caustics {caustics}")?;
+                }
+                writeln!(out)
             }
             ModifierKind::NoShadow => writeln!(out, "{indent}no_shadow"),
             ModifierKind::NoImage(on) => writeln!(out, "{indent}no_image{}", off(on)),
@@ -173,40 +202,6 @@ impl Printer<'_> {
         }
     }
 
-    fn texture(&self, out: &mut String, id: TextureId, indent: &str) -> fmt::Result {
-        let texture = &self.scene.textures[id.index()];
-        self.pigment(out, texture.pigment, indent)?;
-        self.finish(out, &self.scene.finishes[texture.finish.index()], indent)?;
-        for &id in &texture.transforms {
-            self.transform(out, id, indent)?;
-        }
-        Ok(())
-    }
-
-    fn pigment(&self, out: &mut String, id: PigmentId, indent: &str) -> fmt::Result {
-        let pigment = &self.scene.pigments[id.index()];
-        match &pigment.kind {
-            PigmentKind::Color(c) => writeln!(out, "{indent}pigment color {}", c)?,
-            PigmentKind::Faces(colors) => {
-                writeln!(out, "{indent}pigment of {} colors by faces", colors.len())?;
-            }
-            PigmentKind::Patterned { pattern, map } => {
-                let name = match pattern {
-                    Pattern::Checker => "checker".to_owned(),
-                    Pattern::Gradient { direction } => format!("gradient {}", vector(*direction)),
-                };
-                writeln!(out, "{indent}pigment {name}")?;
-                for (value, c) in &map.0 {
-                    writeln!(out, "{indent}  {value} {}", c)?;
-                }
-            }
-        }
-        for &id in &pigment.transforms {
-            self.transform(out, id, &format!("{indent}  "))?;
-        }
-        Ok(())
-    }
-
     fn finish(&self, out: &mut String, finish: &Finish, indent: &str) -> fmt::Result {
         match finish {
             Finish::Seed { kd, ks, phong_exponent } => {
@@ -217,7 +212,11 @@ impl Printer<'_> {
                 if !f.emission.is_black() {
                     write!(out, " emission {}", f.emission)?;
                 }
-                write!(out, " diffuse {} brilliance {}", f.diffuse, f.brilliance)?;
+                write!(out, " diffuse {}", f.diffuse)?;
+                if f.behind != 0.0 {
+                    write!(out, ", {}", f.behind)?;
+                }
+                write!(out, " brilliance {}", f.brilliance)?;
                 write!(out, " phong {} phong_size {}", f.phong, f.phong_size)?;
                 write!(out, " specular {} roughness {}", f.specular, f.roughness)?;
                 write!(out, " metallic {}", f.metallic)?;
@@ -236,6 +235,18 @@ impl Printer<'_> {
                 if let Some(ior) = f.ior {
                     write!(out, " ior {ior}")?;
                 }
+                if let Some(caustics) = f.caustics {
+                    write!(out, " caustics {caustics}")?;
+                }
+                if f.crand != 0.0 {
+                    write!(out, " crand {}", f.crand)?;
+                }
+                if let Some(Irid { amount, thickness, turbulence, .. }) = f.irid {
+                    write!(out, " irid {amount} thickness {thickness} turbulence {turbulence}")?;
+                }
+                if f.refraction != 1.0 {
+                    write!(out, " refraction {}", f.refraction)?;
+                }
                 writeln!(out)
             }
         }
@@ -247,29 +258,29 @@ impl Printer<'_> {
         let steps = |id: TransformId, depth| {
             self.scene.transforms[id.index()].iter().rev().map(move |step| (Some(*step), depth))
         };
-        let mut stack: Vec<(Option<Step>, usize)> = steps(id, 0).collect();
+        let mut stack: Vec<(Option<TransformStep>, usize)> = steps(id, 0).collect();
         while let Some((step, depth)) = stack.pop() {
             if left == 0 {
                 return writeln!(out, "{indent}…");
             }
             left -= 1;
-            if let Some(Step::Transform(id)) = step {
+            if let Some(TransformStep::Transform(id)) = step {
                 stack.extend(steps(id, depth));
                 continue;
             }
             write!(out, "{indent}{}", "  ".repeat(depth.min(DEEPEST_INDENT)))?;
             match step {
                 None => writeln!(out, "nothing")?,
-                Some(Step::Translate(v)) => writeln!(out, "translate {}", vector(v))?,
-                Some(Step::Scale(v)) => writeln!(out, "scale {}", vector(v))?,
-                Some(Step::Rotate(v)) => writeln!(out, "rotate {}", vector(v))?,
-                Some(Step::Matrix(rows)) => {
+                Some(TransformStep::Translate(v)) => writeln!(out, "translate {}", vector(v))?,
+                Some(TransformStep::Scale(v)) => writeln!(out, "scale {}", vector(v))?,
+                Some(TransformStep::Rotate(v)) => writeln!(out, "rotate {}", vector(v))?,
+                Some(TransformStep::Matrix(rows)) => {
                     let numbers: Vec<String> =
                         rows.iter().flat_map(|v| [v.x, v.y, v.z]).map(|n| n.to_string()).collect();
                     writeln!(out, "matrix <{}>", numbers.join(", "))?;
                 }
-                Some(Step::Transform(_)) => {}
-                Some(Step::InverseOf(id)) => {
+                Some(TransformStep::Transform(_)) => {}
+                Some(TransformStep::InverseOf(id)) => {
                     writeln!(out, "inverse of")?;
                     if self.scene.transforms[id.index()].is_empty() {
                         stack.push((None, depth + 1));

@@ -11,9 +11,9 @@ use super::outline::{Point, Spline, are_in_line};
 use super::polygon::Polygon;
 use super::sweep::Sweep;
 use super::text::Text;
-use crate::function::Closed;
 use crate::math::Vector;
 use crate::math::vector::written;
+use crate::texture::Closed;
 use crate::vocabulary::Word;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +22,8 @@ pub enum Solid {
     BicubicPatch {
         /// Four rows of four.
         points: Box<[Vector; 16]>,
+        /// Texture coordinates of its corners.
+        uvs: Option<Box<[[f64; 2]; 4]>>,
     },
     /// Stored once, however often it is used.
     HeightField {
@@ -216,7 +218,7 @@ impl Solid {
     /// water.
     pub fn is_sizeless(&self) -> bool {
         match self {
-            Self::BicubicPatch { points } => {
+            Self::BicubicPatch { points, .. } => {
                 Polygon { lines: vec![points.to_vec()] }.plane().is_none()
             }
             Self::HeightField { field } => field.is_nothing(),
@@ -265,7 +267,7 @@ impl fmt::Display for Solid {
             Self::Plane { normal, distance } => write!(f, " {} {distance}", written(*normal)),
             Self::Box { corners: [a, b] } => write!(f, " {} {}", written(*a), written(*b)),
             Self::Blob(blob) => {
-                let Blob { threshold, components } = &**blob;
+                let Blob { threshold, components, .. } = &**blob;
                 write!(f, " of {} components, threshold {threshold}", components.len())
             }
             Self::Cylinder { ends: [a, b], radius, open: is_open } => {
@@ -317,7 +319,7 @@ impl fmt::Display for Solid {
                 write_points(f, points)?;
                 write!(f, "{}", open(*is_open))
             }
-            Self::BicubicPatch { points } => {
+            Self::BicubicPatch { points, .. } => {
                 points.iter().try_for_each(|point| write!(f, " {}", written(*point)))
             }
             Self::HeightField { field } => {

@@ -37,6 +37,7 @@ pub mod superellipsoid;
 pub mod text;
 pub mod torus;
 mod tree;
+pub mod uv;
 
 pub use algebraic::Algebraic;
 pub use bicubic_patch::BicubicPatch;
@@ -89,6 +90,8 @@ impl Shape {
         }
     }
 }
+
+pub use crate::texture::space::Paint;
 
 /// A half-line: `origin + t · direction`, t > 0.
 ///

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::algebraic::HalfSpace;
 use super::body::{Body, Crossings, Height, Local, Met, Seen};
-use super::{Bounds, Crossing, Plane, Ray, Rounding, SurfacePoint, U};
+use super::{Bounds, Crossing, Paint, Plane, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::{ExactPlacement, Placement};
 use crate::math::{UnitVector, Vector, Vector3};
 
@@ -234,10 +234,25 @@ impl Placed {
         matches!(*self.body, Body::Mesh(_)) && surface.face % 2 == 1
     }
 
-    /// Returns the paints of a painted mesh at a surface point, each with its weight.
-    pub fn paint(&self, surface: &SurfacePoint) -> Option<[(u32, f64); 3]> {
-        let Body::Mesh(mesh) = &*self.body else { return None };
-        mesh.paint(surface.face, self.placement.local_point(surface.point))
+    /// Returns the paints of a painted mesh or blob at a surface point, each with its weight.
+    pub fn paint(&self, surface: &SurfacePoint) -> Option<Paint> {
+        let local = self.placement.local_point(surface.point);
+        match &*self.body {
+            Body::Mesh(mesh) => mesh.paint(surface.face, local).map(Paint::from),
+            Body::Blob(blob) => blob.paint(local),
+            _ => None,
+        }
+    }
+
+    /// Returns the body's own coordinates of its surface at a point; see [`super::uv::Form::Body`].
+    pub fn uv(&self, surface: &SurfacePoint) -> Option<[f64; 2]> {
+        let local = self.placement.local_point(surface.point);
+        match &*self.body {
+            Body::Mesh(mesh) => mesh.uv(surface.face, local),
+            Body::BicubicPatch(patch) => Some(patch.uv(surface.face, local)),
+            Body::Parametric(parametric) => Some(parametric.uv(surface.face, local)),
+            _ => None,
+        }
     }
 
     /// Length of the local gradient that corresponds to this gradient in world space.

@@ -103,10 +103,15 @@ impl<'a> Nest<'a> {
         }
     }
 
-    /// `<0 2 -6>` in a scene for POV-Ray 1.0, which has sums in parentheses only: returns whether the sign
-    /// begins another number.
+    /// Returns whether a sign begins another number: in `<0 2 -6>` of a scene for POV-Ray 1.0, which has sums in
+    /// parentheses only, and after a string of a `.pov`, as in `density_file df3 "smoke.df3" -0.4`.
     fn parts_signed_numbers(&mut self) -> bool {
-        self.lacks_sums && !self.top().full
+        let kind =
+            |at: Option<usize>| at.and_then(|at| self.tokens.get(at)).map(|token| token.kind);
+        let is_after_string = self.dialect == Dialect::Pov
+            && kind(self.at.checked_sub(1)) == Some(TokenKind::String)
+            && kind(self.at.checked_add(1)) == Some(TokenKind::Number);
+        (self.lacks_sums || is_after_string) && !self.top().full
     }
 
     /// Parses an operator of a sum or product, or one that is valid in parentheses only.

@@ -59,6 +59,10 @@ pub struct Evaluations {
     pub from_behind: u64,
     /// Borders between media, asked where a ray goes on.
     pub refraction: u64,
+    /// Ways through an interior that dims light, up to where it is left.
+    pub absorption: u64,
+    /// Rays split into their colours.
+    pub dispersion: u64,
     /// Ways to a light, searched for what lets a part of it through.
     pub colored_shadows: u64,
     /// Patterns of surfaces and of the sky.
@@ -74,12 +78,11 @@ impl Evaluations {
     /// did not look at all there is.
     pub(super) fn count(&mut self, world: &World, found: Option<&Hit>, hidden: bool) {
         self.hiding += u64::from(hidden);
-        let patterned = |pigment: &&Pigment| matches!(pigment, Pigment::Patterned { .. });
+        let patterned = |pigment: &&Pigment| pigment.is_patterned();
         match found {
             Some(hit) => {
-                let material = world.objects[hit.object as usize].material;
-                let pigment = &world.materials[material as usize].pigment;
-                self.patterns += u64::from(patterned(&pigment));
+                let texture = world.coat(&world.objects[hit.object as usize], hit.leaving).texture;
+                self.patterns += u64::from(world.textures[texture as usize].is_patterned());
             }
             None => {
                 let pigments = || world.sky.iter().flat_map(|sky| &sky.pigments);
@@ -97,6 +100,8 @@ impl AddAssign for Evaluations {
         self.attenuation += other.attenuation;
         self.from_behind += other.from_behind;
         self.refraction += other.refraction;
+        self.absorption += other.absorption;
+        self.dispersion += other.dispersion;
         self.colored_shadows += other.colored_shadows;
         self.patterns += other.patterns;
         self.hiding += other.hiding;

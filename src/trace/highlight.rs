@@ -63,6 +63,7 @@ mod tests {
             lobes: vec![Lobe { kind, weight: 0.5, exponent, metallic: 0.0 }],
             reflection: None,
             seed: false,
+            extras: None,
         }
     }
 

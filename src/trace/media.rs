@@ -1,15 +1,17 @@
-//! Which solids a ray is in, and so which index of refraction is on either side of a surface.
+//! Which solids a ray is in, and so which interior is on either side of a surface.
 //!
-//! **In:** crossings, in the order of the ray. **Out:** indices of refraction. **Invariant:** of
-//! several solids that a point is in, the one entered last fills it; a solid that a ray leaves
-//! without having been seen to enter counts as one it was in.
+//! **In:** crossings, in the order of the ray. **Out:** indices of refraction, and how much light fades. **Invariant:** of
+//! several solids that a point is in, the one entered last fills it; a ray enters each solid that it is not
+//! known to be in, whichever side of the surface it meets.
 //!
 //! **Source:** POV-Ray 3.7's behaviour, measured with nested, overlapping and touching slabs and with
 //! the camera inside.
 
+use super::dispersion;
+use crate::color::Rgb;
 use crate::geometry::Hit;
 use crate::math::Vector;
-use crate::world::World;
+use crate::world::{Dispersion, Interior, World};
 
 /// The index of refraction of the air.
 const AIR: f64 = 1.0;
@@ -29,17 +31,50 @@ pub(super) struct Media {
     behind: Vec<u32>,
     /// The lists of rays that wait, one after the other.
     waiting: Vec<u32>,
+    /// What a ray to a light is in.
+    along: Vec<u32>,
 }
 
-/// The indices of refraction before a surface and behind it.
+/// The media before a surface and behind it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Border {
+    /// The indices of refraction.
     pub from: f64,
     pub to: f64,
+    /// The interiors; `None` for air.
+    sides: [Option<u32>; 2],
+    /// The interior of the solid that the ray is known to be in, and leaves.
+    left: Option<u32>,
+    /// The ray enters a solid, or leaves the last one that has an interior.
+    is_outer: bool,
 }
 
 impl Border {
-    pub const NONE: Self = Self { from: AIR, to: AIR };
+    pub const NONE: Self =
+        Self { from: AIR, to: AIR, sides: [None; 2], left: None, is_outer: false };
+
+    /// Returns the indices of refraction for a position in the spectrum, or for all colours.
+    pub fn indices(&self, world: &World, spectrum: Option<f64>) -> [f64; 2] {
+        self.sides.map(|side| index(world, side, spectrum))
+    }
+
+    /// Returns how many rays a ray of all colours becomes that goes through; `None` if it stays one.
+    ///
+    /// **Source:** POV-Ray 3.7's behaviour, measured.
+    pub fn samples(&self, world: &World) -> Option<u32> {
+        let [before, behind] =
+            self.sides.map(|side| side.and_then(|side| world.interiors[side as usize].dispersion));
+        let ratio = |side: Option<Dispersion>| side.map(|dispersion| dispersion.ratio);
+        let splits = self.is_outer && ratio(before) != ratio(behind);
+        behind.or(before).filter(|_| splits).map(|dispersion| dispersion.samples)
+    }
+
+    /// Returns the part of the light behind the surface, or mirrored there, that is left after the way to it.
+    pub fn left_after(&self, world: &World, depth: f64) -> Rgb {
+        let interior = self.left.map(|left| world.interiors[left as usize]);
+        let absorption = interior.and_then(|interior| interior.absorption);
+        absorption.map_or(Rgb::WHITE, |absorption| absorption.at(depth))
+    }
 }
 
 impl Media {
@@ -65,34 +100,53 @@ impl Media {
         self.inside.clone_from(&self.at_last_start);
     }
 
-    /// The border at `hit`, where the ray crosses `others`, too, that coincide with it.
-    pub fn border(&mut self, world: &World, hit: &Hit, others: &[Hit]) -> Border {
+    /// The border at `hit`, where the ray crosses `others`, too, that coincide with it. `spectrum` is the ray's
+    /// position in it.
+    pub fn border(
+        &mut self,
+        world: &World,
+        hit: &Hit,
+        others: &[Hit],
+        spectrum: Option<f64>,
+    ) -> Border {
         self.know(world);
+        let interior = |&object: &u32| world.objects[object as usize].interior;
         self.behind.clear();
         self.behind.extend_from_slice(&self.inside);
-        let mut from = self.inside.last().map_or(AIR, |&object| ior(world, object));
+        let before = self.inside.last().and_then(interior);
+        let (mut left, mut enters) = (None, false);
         for crossed in others.iter().chain([hit]) {
-            if world.is_flat_box(crossed.object) {
-                continue;
-            }
-            let known =
-                self.behind.iter().position(|&object| world.is_same_solid(object, crossed.object));
-            if let Some(place) = known {
-                self.behind.remove(place);
-            }
-            // A sheet has no sides: whoever is not in it goes in.
-            let enters = match world.is_sheet(crossed.object) {
-                true => known.is_none(),
-                false => crossed.leaving == world.objects[crossed.object as usize].inverse,
-            };
-            if enters {
-                self.behind.push(crossed.object);
-            } else if known.is_none() && self.inside.is_empty() {
-                from = ior(world, crossed.object);
+            let crossing = cross(world, &mut self.behind, crossed);
+            enters = matches!(crossing, Crossed::Entered);
+            if matches!(crossing, Crossed::Left) {
+                left = left.or(interior(&crossed.object));
             }
         }
-        let to = self.behind.last().map_or(AIR, |&object| ior(world, object));
-        Border { from, to }
+        let behind = self.behind.last().and_then(interior);
+        let [from, to] = [before, behind].map(|side| index(world, side, spectrum));
+        let is_outer = enters || self.behind.iter().all(|object| interior(object).is_none());
+        Border { from, to, sides: [before, behind], left, is_outer }
+    }
+
+    /// Returns the part of light that is left of what comes along a ray from where the current one ends, which
+    /// crosses `hits` on its way.
+    ///
+    /// **Source:** POV-Ray 3.7's behaviour, measured.
+    pub fn left_of_light(&mut self, world: &World, hits: &mut [Hit]) -> Rgb {
+        self.know(world);
+        self.along.clone_from(&self.inside);
+        hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.object.cmp(&b.object)));
+        let (mut light, mut start) = (Rgb::WHITE, 0.0);
+        for hit in hits {
+            if let Crossed::Left = cross(world, &mut self.along, hit)
+                && let Some(interior) = world.objects[hit.object as usize].interior
+                && let Some(absorption) = world.interiors[interior as usize].absorption
+            {
+                light = light * absorption.in_shadow(hit.t - start);
+            }
+            start = hit.t;
+        }
+        light
     }
 
     /// The ray goes through the border last asked for.
@@ -107,6 +161,13 @@ impl Media {
         kept
     }
 
+    /// A ray before that border waits; returns where its list is kept.
+    pub fn wait_here(&mut self) -> usize {
+        let kept = self.waiting.len();
+        self.waiting.extend_from_slice(&self.inside);
+        kept
+    }
+
     /// The ray whose list was kept there, the last of those that wait, goes on.
     pub fn go_on(&mut self, kept: usize) {
         self.inside.clear();
@@ -114,7 +175,36 @@ impl Media {
     }
 }
 
-fn ior(world: &World, object: u32) -> f64 {
-    let interior = world.objects[object as usize].interior;
-    interior.map_or(AIR, |i| world.interiors[i as usize].ior)
+/// How a ray crosses the surface of a solid.
+enum Crossed {
+    Entered,
+    Left,
+}
+
+/// Updates the list of what a ray is in.
+///
+/// **Source:** POV-Ray 3.7's behaviour, measured on open, clipped and flat solids, and on height fields, whose
+/// base is not there.
+fn cross(world: &World, inside: &mut Vec<u32>, hit: &Hit) -> Crossed {
+    let known = inside.iter().position(|&object| world.is_same_solid(object, hit.object));
+    if let Some(place) = known {
+        inside.remove(place);
+    }
+    // Not by the side that it meets: it may have come in, or gone out, where nothing of the solid is seen.
+    let enters = known.is_none();
+    if enters {
+        inside.push(hit.object);
+        return Crossed::Entered;
+    }
+    Crossed::Left
+}
+
+/// Returns an interior's index of refraction for a position in the spectrum.
+fn index(world: &World, interior: Option<u32>, spectrum: Option<f64>) -> f64 {
+    let Some(interior) = interior else { return AIR };
+    let Interior { ior, dispersion, .. } = world.interiors[interior as usize];
+    match (dispersion, spectrum) {
+        (Some(Dispersion { ratio, .. }), Some(position)) => dispersion::index(ior, ratio, position),
+        _ => ior,
+    }
 }

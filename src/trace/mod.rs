@@ -5,16 +5,23 @@
 //! instruction for a hot effect that the Plan leaves out, and for what is data (a material's lobes, a light's
 //! beam) asks where it stands.
 
+mod absorption;
 mod antialias;
 mod attenuation;
+mod bumpy;
 mod camera;
 mod counters;
+mod dispersion;
+mod extras;
+mod grain;
 mod highlight;
+mod irid;
 mod kernel;
+mod layers;
 mod media;
 mod metal;
+mod onward;
 mod path;
-mod pigment;
 mod pixels;
 mod reflection;
 mod refraction;
@@ -22,7 +29,10 @@ mod shade;
 mod shadow;
 mod sharpness;
 mod sky;
+mod split;
+mod texture;
 mod tiles;
+mod transmission;
 mod watch;
 mod way;
 
@@ -88,6 +98,11 @@ pub(crate) struct Walk {
     /// Surfaces that coincide with the one at hand.
     coinciding: Vec<Hit>,
     filters: Filters,
+    /// The place, in its texture, of the finish at hand; 0 if it is the only one.
+    part: u32,
+    /// What each light sends to the parts of the texture at hand, before the surface and behind it, once it is
+    /// known: the same for all parts.
+    arrived: Vec<[Option<Option<Rgb>>; 2]>,
     /// For each light what last stood before it, or nothing: a guess, worth no more than time, and
     /// forgotten at each tile, so that no count depends on who takes it.
     occluders: Vec<Occluder>,

@@ -8,17 +8,16 @@
 //! a kernel is said outright where it is written, so a kernel is the same machine code whichever
 //! others stand beside it.
 
-use super::media::Border;
 use super::shade::{Flat, Place};
 use super::sharpness::Sharpness;
 use super::way::{Inside, Way};
-use super::{Walk, Watch, pigment, reflection, refraction, shade, sky};
+use super::{Walk, Watch, extras, reflection, shade, sky, texture};
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, ANY, Geometry, Hit};
 use crate::math::Vector;
 use crate::plan::{Effect, Plan};
 use crate::shape::{Ray, SurfacePoint};
-use crate::world::{Finish, Material, Pigment, World};
+use crate::world::{Finish, Plain, Texture, World};
 
 /// A World to be traced: nothing in it is without weight, so nothing is asked twice.
 pub(super) struct Tracer<'a> {
@@ -32,8 +31,12 @@ pub(super) struct Tracer<'a> {
     pub sharpness: Sharpness,
     /// Rays go on behind clear surfaces.
     pub clear: bool,
-    /// Interiors have indices of refraction.
+    /// Of each texture with parts, whether light passes through it anywhere.
+    pub clear_composites: Vec<bool>,
+    /// Rays change in interiors: they are bent, split or dimmed.
     pub bends: bool,
+    /// Interiors dim light.
+    pub absorbs: bool,
     /// Light comes through clear surfaces.
     pub filters_shadows: bool,
     pub max_trace_level: u32,
@@ -46,24 +49,27 @@ pub(super) struct Tracer<'a> {
 #[derive(Debug)]
 pub(super) struct Link {
     /// Everything but that.
-    local: Rgb,
+    pub local: Rgb,
     /// The part of it that comes back.
-    factor: Rgb,
-    exponent: f64,
+    pub factor: Rgb,
+    pub exponent: f64,
     /// The seed's clamp applies.
-    seed: bool,
+    pub seed: bool,
     /// A second ray waits, the last of the walk's forks.
-    forks: bool,
+    pub forks: bool,
 }
 
 /// A ray that waits behind a surface until the mirrored one has come back.
 #[derive(Debug)]
 pub(super) struct Fork {
-    way: Way,
+    pub way: Way,
     /// The part of what it sees that comes back.
-    factor: Rgb,
+    pub factor: Rgb,
+    pub exponent: f64,
+    /// Another ray from the same surface waits.
+    pub more: bool,
     /// Where the solids it is in are kept.
-    media: usize,
+    pub media: usize,
 }
 
 /// Where a ray meets a surface.
@@ -74,14 +80,14 @@ struct Stand<'a> {
 }
 
 /// A surface that a ray has met.
-struct Met<'a> {
-    hit: Hit,
-    place: Place<'a>,
-    paint: Color,
+pub(super) struct Met<'a> {
+    pub hit: Hit,
+    pub place: Place<'a>,
+    pub paint: Color,
     /// Where rays start that go on behind it.
-    behind: Vector,
+    pub behind: Vector,
     /// What it shows by itself.
-    local: Rgb,
+    pub local: Rgb,
 }
 
 impl<'a> Tracer<'a> {
@@ -98,7 +104,15 @@ impl<'a> Tracer<'a> {
             in_reflections: geometry.in_reflections(),
             sharpness: Sharpness::of(world),
             clear: plan.simulates(Effect::Transparency),
-            bends: plan.simulates(Effect::Refraction),
+            clear_composites: world
+                .textures
+                .iter()
+                .map(|texture| !matches!(texture, Texture::Plain(_)) && texture.is_clear())
+                .collect(),
+            bends: [Effect::Refraction, Effect::Absorption, Effect::Dispersion]
+                .into_iter()
+                .any(|effect| plan.simulates(effect)),
+            absorbs: plan.simulates(Effect::Absorption),
             filters_shadows: plan.simulates(Effect::ColoredShadows),
             max_trace_level: plan.max_trace_level,
             adc_bailout: plan.adc_bailout,
@@ -126,7 +140,7 @@ impl<'a> Tracer<'a> {
         let mut way = Way::from_camera(ray);
         let mut met_by = self.in_image;
         walk.chain.clear();
-        if SECONDARY && self.bends {
+        if (SECONDARY || SHADOWS) && self.bends {
             walk.media.start(ray.origin);
         }
         loop {
@@ -143,11 +157,22 @@ impl<'a> Tracer<'a> {
                 let Some(hit) = found else {
                     break sky::seen(self.world, &self.sharpness, way.ray.direction);
                 };
-                let Stand { surface, paint, place } = self.stand::<KINDS>(&way.ray, &hit);
+                let object = &self.world.objects[hit.object as usize];
+                let texture = self.world.coat(object, hit.leaving).texture;
+                let Texture::Plain(plain) = &self.world.textures[texture as usize] else {
+                    let ends = !SECONDARY || way.level >= self.max_trace_level;
+                    let (local, next) = self.composite::<SHADOWS, COUNTS>(walk, way, &hit, ends);
+                    let Some(next) = next else { break local };
+                    way = next;
+                    met_by = self.met_by(&way);
+                    continue;
+                };
+                let Stand { surface, paint, place } = self.stand::<KINDS>(plain, &way.ray, &hit);
                 let finish = place.finish;
                 let mut local = shade::local::<SHADOWS, KINDS, COUNTS>(self, walk, &place);
-                if self.world.objects[hit.object as usize].double_illuminate {
-                    local += self.lit_behind::<SHADOWS, COUNTS>(walk, way.ray, hit);
+                if object.double_illuminate || finish.extras.is_some() {
+                    let both = object.double_illuminate;
+                    local += self.lit_behind::<SHADOWS, COUNTS>(walk, plain, way.ray, hit, both);
                 }
                 let clamped = |c: Rgb| if finish.seed { c.at_most_one() } else { c };
                 if !SECONDARY || way.level >= self.max_trace_level {
@@ -193,7 +218,8 @@ impl<'a> Tracer<'a> {
             // What lies behind the surface comes on top, and then the clamp.
             let seed = walk.chain[forked].seed;
             walk.chain.truncate(forked);
-            walk.chain.push(Link::behind(seen, fork.factor, seed));
+            let (exponent, forks) = (fork.exponent, fork.more);
+            walk.chain.push(Link { local: seen, factor: fork.factor, exponent, seed, forks });
             way = fork.way;
             met_by = self.met_by(&way);
             if self.bends {
@@ -217,12 +243,11 @@ impl<'a> Tracer<'a> {
 
     /// What there is where a ray meets a surface, on the side it comes from.
     #[inline(always)]
-    fn stand<const KINDS: bool>(&self, ray: &Ray, hit: &Hit) -> Stand<'a> {
+    fn stand<const KINDS: bool>(&self, plain: &'a Plain, ray: &Ray, hit: &Hit) -> Stand<'a> {
         let surface = geometry::surface::<KINDS>(self.world, ray, hit);
-        let object = &self.world.objects[hit.object as usize];
-        let Material { pigment, finish } = &self.world.materials[object.material as usize];
+        let Plain { normal: bumps, finish, .. } = plain;
         let normal = if hit.leaving { -surface.normal } else { surface.normal };
-        let paint = pigment::on_surface(self, pigment, ray, hit, &surface);
+        let paint = texture::color(self, plain, ray, hit, &surface);
         let origin = surface.spawn(normal);
         let (normal, flat) = match geometry::shading_normal::<KINDS>(self.world, hit, &surface) {
             None => (normal, None),
@@ -230,6 +255,17 @@ impl<'a> Tracer<'a> {
                 let behind = surface.spawn(-normal);
                 let smooth = if smooth.dot(ray.direction) > 0.0 { -smooth } else { smooth };
                 (smooth, Some(Flat { normal, behind }))
+            }
+        };
+        let (normal, flat, smooth) = match bumps {
+            None => (normal, flat, None),
+            Some(bumps) => {
+                let behind =
+                    surface.spawn(if hit.leaving { surface.normal } else { -surface.normal });
+                let facing = if hit.leaving { -surface.normal } else { surface.normal };
+                let flat = flat.unwrap_or(Flat { normal: facing, behind });
+                let bumpy = texture::perturbed(self, bumps, normal, (ray, hit, &surface));
+                (bumpy, Some(flat), Some(normal))
             }
         };
         let place = Place {
@@ -240,32 +276,38 @@ impl<'a> Tracer<'a> {
             origin,
             normal,
             flat,
+            smooth,
             to_viewer: -ray.direction,
         };
         Stand { surface, paint, place }
     }
 
-    /// What the lights on the other side of a surface add that is lit from both. Such surfaces are
-    /// few: all is found once more, and nothing is kept at hand for it elsewhere.
+    /// What the lights on the other side of a surface add that is lit on `both`, or scatters their light. Such
+    /// surfaces are few: all is found once more, and nothing is kept at hand for it elsewhere.
     #[cold]
     #[inline(never)]
     fn lit_behind<const SHADOWS: bool, const COUNTS: bool>(
         &self,
         walk: &mut Walk,
+        plain: &'a Plain,
         ray: Ray,
         hit: Hit,
+        both: bool,
     ) -> Rgb {
+        if !shade::is_lit_behind(&plain.finish, both) {
+            return Rgb::BLACK;
+        }
         if COUNTS {
             walk.counters.evaluations.from_behind += 1;
         }
-        let Stand { surface, place, .. } = self.stand::<ANY>(&ray, &hit);
+        let Stand { surface, place, .. } = self.stand::<ANY>(plain, &ray, &hit);
         let normal = place.flat.map_or(place.normal, |Flat { normal, .. }| normal);
-        shade::from_behind::<SHADOWS, COUNTS>(self, walk, &place, surface.spawn(-normal))
+        shade::from_behind::<SHADOWS, COUNTS>(self, walk, &place, surface.spawn(-normal), both)
     }
 
     /// What a ray under way can meet.
     #[inline(always)]
-    fn met_by(&self, way: &Way) -> &'a Geometry {
+    pub(super) fn met_by(&self, way: &Way) -> &'a Geometry {
         if way.mirrored { self.in_reflections } else { self.in_image }
     }
 
@@ -279,7 +321,7 @@ impl<'a> Tracer<'a> {
     /// The weight of the mirrored ray, and what it leaves behind; `None` where it is cut or nothing
     /// of what it sees comes back.
     #[inline(always)]
-    fn mirrored(
+    pub(super) fn mirrored(
         &self,
         weight: f64,
         place: &Place,
@@ -291,6 +333,10 @@ impl<'a> Tracer<'a> {
         let weight = self.weight(weight, place.finish, most)?;
         let cosine = place.normal.dot(place.to_viewer);
         let factor = reflection::reflectance(reflection, place.color, cosine, fresnel);
+        let factor = match &place.finish.extras {
+            None => factor,
+            Some(extras) => factor * extras::mirrored(extras, place, reflection.exponent),
+        };
         let (exponent, seed) = (reflection.exponent, place.finish.seed);
         let link = Link { local, factor, exponent, seed, forks: false };
         (!factor.is_black()).then_some((weight, link))
@@ -298,7 +344,12 @@ impl<'a> Tracer<'a> {
 
     /// The weight of a ray that brings back a part of what it sees; `None` where it is cut.
     #[inline(always)]
-    fn weight(&self, weight: f64, finish: &Finish, part: impl Fn() -> f64) -> Option<f64> {
+    pub(super) fn weight(
+        &self,
+        weight: f64,
+        finish: &Finish,
+        part: impl Fn() -> f64,
+    ) -> Option<f64> {
         if finish.seed {
             return Some(weight);
         }
@@ -306,124 +357,16 @@ impl<'a> Tracer<'a> {
         let cut = weight < self.adc_bailout;
         (!cut).then_some(weight)
     }
+}
 
-    /// Goes on from a surface that is clear, or mirrors by Fresnel's equations: what it lets through
-    /// goes on behind it, what it mirrors before it, and if both are, that behind it waits. `None`
-    /// where nothing goes on, or where the watch wants no more: then nor does any ray that waits.
-    ///
-    /// Where nothing can go through, what is mirrored has the weight of what else would have gone
-    /// through, and comes back whole, in the place of the finish's own reflection.
-    /// `max_trace_level` does not count a surface that a ray goes straight through, between equal
-    /// indices of refraction.
-    ///
-    /// **Source:** POV-Ray 3.7's behaviour, measured to 1/65,535.
-    #[inline(never)]
-    fn part<const COUNTS: bool>(&self, walk: &mut Walk, way: Way, met: &Met) -> Option<Way> {
-        let Met { ref hit, ref place, paint, local, .. } = *met;
-        let seed = place.finish.seed;
-        let clear = self.clear && paint.is_clear();
-        if walk.patience.is_over_after(1, self.watch) {
-            walk.forks.clear();
-            return None;
-        }
-        walk.coinciding.clear();
-        if clear && hit.contested {
-            let straight = Ray { origin: met.behind, direction: way.ray.direction };
-            let Walk { coinciding, counters, .. } = walk;
-            let work = &mut counters.work;
-            self.met_by(&way).coinciding(&way.ray, hit, &straight, coinciding, work);
-        }
-        if COUNTS {
-            walk.counters.evaluations.refraction += u64::from(self.bends);
-        }
-        let Border { from, to } = match self.bends {
-            true => walk.media.border(self.world, hit, &walk.coinciding),
-            false => Border::NONE,
-        };
-        let bent = refraction::bent(way.ray.direction, place.normal, from, to);
-        let fresnel = bent.map_or(1.0, |bent| refraction::fresnel(from, to, bent.cosines));
-        let through = match clear {
-            true => self.through(&way, met, &walk.coinciding, fresnel),
-            false => None,
-        };
-        let behind = match (through, bent) {
-            (Some((weight, _)), None) => {
-                walk.counters.total_reflection += 1;
-                walk.chain.push(Link::behind(local, Rgb::WHITE, seed));
-                let inside = hit.leaving.then(|| Inside::of(hit));
-                return Some(Way { inside, ..way.mirrored(place, weight) });
-            }
-            (Some((weight, factor)), Some(bent)) => {
-                walk.counters.transmission += 1;
-                let ray = Ray { origin: met.behind, direction: bent.direction };
-                let level = if from == to { way.level } else { way.level + 1 };
-                let inside = (from != to && !hit.leaving).then(|| Inside::of(hit));
-                Some((Way { ray, weight, level, inside, ..way }, factor))
-            }
-            (None, _) => None,
-        };
-        match (self.mirrored(way.weight, place, fresnel, local), behind) {
-            (None, None) => None,
-            (None, Some((behind, factor))) => {
-                walk.chain.push(Link::behind(local, factor, seed));
-                walk.media.go_through();
-                Some(behind)
-            }
-            (Some((weight, link)), behind) => {
-                walk.counters.reflection += 1;
-                walk.chain.push(Link { forks: behind.is_some(), ..link });
-                if let Some((way, factor)) = behind {
-                    let media = walk.media.wait_behind();
-                    walk.forks.push(Fork { way, factor, media });
-                }
-                let inside = (from != to && hit.leaving).then(|| Inside::of(hit));
-                Some(Way { inside, ..way.mirrored(place, weight) })
-            }
-        }
-    }
-
-    /// The weight of the ray behind a clear surface and the part of what it sees that comes back;
-    /// `None` where it is cut or nothing comes back.
-    fn through(
-        &self,
-        way: &Way,
-        met: &Met,
-        coinciding: &[Hit],
-        fresnel: f64,
-    ) -> Option<(f64, Rgb)> {
-        let Place { finish, color, normal, to_viewer, .. } = met.place;
-        let own = met.paint.transmittance();
-        let others = coinciding.iter().map(|hit| self.transmittance(&way.ray, hit));
-        let mut factor = others.fold(own, |factor, other| factor * other);
-        if finish.conserve_energy
-            && let Some(reflection) = &finish.reflection
-        {
-            let cosine = normal.dot(to_viewer);
-            let mirrored = reflection::reflectance(reflection, color, cosine, fresnel);
-            factor = factor * mirrored.map(|part| 1.0 - part);
-        }
-        let weight = self.weight(way.weight, finish, || factor.largest())?;
-        let too_dark = !finish.seed && factor.brightness().abs() < self.adc_bailout;
-        (!too_dark && !factor.is_black()).then_some((weight, factor))
-    }
-
-    /// What the surface at `hit` lets through of the light behind it.
-    pub fn transmittance(&self, ray: &Ray, hit: &Hit) -> Rgb {
-        let object = &self.world.objects[hit.object as usize];
-        let color = match &self.world.materials[object.material as usize].pigment {
-            Pigment::Color(color) => *color,
-            patterned @ (Pigment::Patterned { .. } | Pigment::Faces(_)) => {
-                let surface = geometry::surface::<ANY>(self.world, ray, hit);
-                pigment::on_surface(self, patterned, ray, hit, &surface)
-            }
-        };
-        color.transmittance()
-    }
+/// The old factor of what is seen through a surface.
+pub(super) fn passed(finish: &Finish) -> f64 {
+    finish.extras.as_ref().map_or(1.0, |extras| extras.passed)
 }
 
 impl Link {
     /// Of a ray of which `factor` comes back as it is.
-    fn behind(local: Rgb, factor: Rgb, seed: bool) -> Self {
+    pub(super) fn behind(local: Rgb, factor: Rgb, seed: bool) -> Self {
         Self { local, factor, exponent: 1.0, seed, forks: false }
     }
 }

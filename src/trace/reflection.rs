@@ -14,7 +14,9 @@ use crate::world::Reflection;
 /// **Source:** POV-Ray manual, section "Reflection"; measured to 1/65535.
 #[inline(never)]
 pub(super) fn reflectance(reflection: &Reflection, color: Rgb, cosine: f64, fresnel: f64) -> Rgb {
-    let cosine = cosine.clamp(0.0, 1.0);
+    // Negative where a perturbed normal faces away: then there is more than the maximum, as in POV-Ray 3.7
+    // (measured).
+    let cosine = cosine.min(1.0);
     let Reflection { minimum, maximum, falloff, metallic, .. } = *reflection;
     let plain = if minimum == maximum {
         maximum

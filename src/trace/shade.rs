@@ -3,6 +3,7 @@
 
 use super::Walk;
 use super::attenuation::attenuated;
+use super::extras::{self, Lit};
 use super::highlight::{self, Gloss};
 use super::path::Tracer;
 use super::shadow::{self, Aim};
@@ -27,6 +28,8 @@ pub(super) struct Place<'a> {
     pub normal: Vector,
     /// Of a smooth surface, which is lit otherwise than it lies.
     pub flat: Option<Flat>,
+    /// The normal before a texture perturbed it.
+    pub smooth: Option<Vector>,
     /// Of length 1.
     pub to_viewer: Vector,
 }
@@ -77,26 +80,40 @@ pub(super) fn local<const SHADOWS: bool, const KINDS: bool, const COUNTS: bool>(
         if !(height > 0.0 || (finish.seed && height == 0.0)) {
             continue;
         }
-        let origin = match &place.flat {
+        let (origin, side) = match &place.flat {
             Some(flat) if shadow::height(&light.kind, place.point, flat.normal) < 0.0 => {
-                flat.behind
+                (flat.behind, Side::Back)
             }
-            _ => place.origin,
+            _ => (place.origin, Side::Front),
         };
         let Some(aim) = shadow::aim(&light.kind, origin) else { continue };
         let cosine = place.normal.dot(aim.to_light).max(0.0);
         let arriving =
-            arriving::<SHADOWS, KINDS, COUNTS>(tracer, walk, (number, light), origin, &aim);
+            arriving::<SHADOWS, KINDS, COUNTS>(tracer, walk, (number, light), (origin, side), &aim);
         let Some(color) = arriving else { continue };
         if COUNTS {
             count(walk, finish, light);
         }
-        sum += color * answer(place, light, aim.to_light, cosine);
+        let answer = match &finish.extras {
+            None => answer(place, light, aim.to_light, cosine),
+            Some(extras) => {
+                let (to_light, part) = (aim.to_light, walk.part);
+                let lit = Lit { light, number, to_light, cosine, part };
+                extras::answer(place, extras, finish.diffuse, true, &lit)
+            }
+        };
+        sum += color * answer;
     }
     sum
 }
 
-/// What the lights behind a surface add that is lit on both sides. It answers them as those before it,
+/// Whether a surface answers the lights behind it: if it is lit on both sides, or scatters their light.
+#[inline(always)]
+pub(super) fn is_lit_behind(finish: &Finish, both: bool) -> bool {
+    both || finish.extras.as_ref().is_some_and(|extras| extras.behind != 0.0)
+}
+
+/// What the lights behind a surface add. If it is lit on `both` sides, it answers them as those before it,
 /// but for its highlights, which know where the light is. `behind` is where rays start on that side.
 ///
 /// **Source:** POV-Ray 3.7's behaviour, measured to 1/10,000.
@@ -105,29 +122,81 @@ pub(super) fn from_behind<const SHADOWS: bool, const COUNTS: bool>(
     walk: &mut Walk,
     place: &Place,
     behind: Vector,
+    both: bool,
 ) -> Rgb {
     let mut sum = Rgb::BLACK;
+    let finish = place.finish;
+    let diffuse = match &finish.extras {
+        Some(extras) if !both => extras.behind,
+        _ => finish.diffuse,
+    };
     for (number, light) in tracer.world.lights.iter().enumerate() {
         let is_behind = shadow::height(&light.kind, place.point, place.normal) < 0.0;
-        if !is_behind || (place.finish.diffuse == 0.0 && place.finish.lobes.is_empty()) {
+        if !is_behind || (diffuse == 0.0 && finish.lobes.is_empty()) {
             continue;
         }
-        let Some(aim) = shadow::aim(&light.kind, behind) else { continue };
+        // By a perturbed normal it may be behind a surface that faces it.
+        let (origin, side) = match &place.flat {
+            Some(flat) if shadow::height(&light.kind, place.point, flat.normal) > 0.0 => {
+                (place.origin, Side::Front)
+            }
+            _ => (behind, Side::Back),
+        };
+        let Some(aim) = shadow::aim(&light.kind, origin) else { continue };
         let cosine = place.normal.dot(aim.to_light).min(0.0);
         let arriving =
-            arriving::<SHADOWS, ANY, COUNTS>(tracer, walk, (number, light), behind, &aim);
+            arriving::<SHADOWS, ANY, COUNTS>(tracer, walk, (number, light), (origin, side), &aim);
         let Some(color) = arriving else { continue };
         if COUNTS {
-            count(walk, place.finish, light);
+            match both {
+                true => count(walk, finish, light),
+                false => walk.counters.evaluations.diffuse += 1,
+            }
         }
-        sum += color * answer(place, light, aim.to_light, cosine);
+        let answer = match &finish.extras {
+            None => answer(place, light, aim.to_light, cosine),
+            Some(extras) => {
+                let (to_light, part) = (aim.to_light, walk.part);
+                let lit = Lit { light, number, to_light, cosine, part };
+                extras::answer(place, extras, diffuse, both, &lit)
+            }
+        };
+        sum += color * answer;
     }
     sum
 }
 
-/// What of a light, the `number`th, comes to `origin`; `None` where nothing does.
+/// The side of a surface, as the viewer sees it, on which a ray toward a light starts.
+#[derive(Clone, Copy)]
+enum Side {
+    Front,
+    Back,
+}
+
+/// What of a light, the `number`th, comes to `origin`; `None` where nothing does. The parts of a texture share
+/// one search on each side.
 #[inline(always)]
 fn arriving<const SHADOWS: bool, const KINDS: bool, const COUNTS: bool>(
+    tracer: &Tracer,
+    walk: &mut Walk,
+    (number, light): (usize, &Light),
+    (origin, side): (Vector, Side),
+    aim: &Aim,
+) -> Option<Rgb> {
+    let is_part = walk.part > 0;
+    let known = walk.arrived.get(number).filter(|_| is_part).and_then(|sides| sides[side as usize]);
+    if let Some(known) = known {
+        return known;
+    }
+    let found = searched::<SHADOWS, KINDS, COUNTS>(tracer, walk, (number, light), origin, aim);
+    if let Some(sides) = walk.arrived.get_mut(number).filter(|_| is_part) {
+        sides[side as usize] = Some(found);
+    }
+    found
+}
+
+#[inline(always)]
+fn searched<const SHADOWS: bool, const KINDS: bool, const COUNTS: bool>(
     tracer: &Tracer,
     walk: &mut Walk,
     (number, light): (usize, &Light),
@@ -165,9 +234,7 @@ fn answer(place: &Place, light: &Light, to_light: Vector, cosine: f64) -> Rgb {
     let Place { finish, color, body, normal, to_viewer, .. } = *place;
     let mut sum = Rgb::BLACK;
     if finish.diffuse != 0.0 {
-        let slant = cosine.abs();
-        let slant = if finish.brilliance == 1.0 { slant } else { power(slant, finish.brilliance) };
-        sum = body * (finish.diffuse * slant);
+        sum = body * (finish.diffuse * slant(cosine, finish.brilliance));
     }
     if shines(finish, light) {
         sum += highlight::lobes(finish, &Gloss { color, normal, to_viewer, to_light, cosine });
@@ -175,9 +242,16 @@ fn answer(place: &Place, light: &Light, to_light: Vector, cosine: f64) -> Rgb {
     sum
 }
 
+/// `|cosine|^brilliance`.
+#[inline(always)]
+pub(super) fn slant(cosine: f64, brilliance: f64) -> f64 {
+    let slant = cosine.abs();
+    if brilliance == 1.0 { slant } else { power(slant, brilliance) }
+}
+
 /// Whether a light makes highlights on a finish.
 #[inline(always)]
-fn shines(finish: &Finish, light: &Light) -> bool {
+pub(super) fn shines(finish: &Finish, light: &Light) -> bool {
     !finish.lobes.is_empty() && (light.casts_shadows || finish.seed)
 }
 

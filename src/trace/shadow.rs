@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use super::Walk;
 use super::path::Tracer;
+use super::texture;
 use crate::color::Rgb;
 use crate::geometry::{Hit, Occluder};
 use crate::math::{UnitVector, Vector};
@@ -93,12 +94,16 @@ pub(super) fn filtered(tracer: &Tracer, walk: &mut Walk, origin: Vector, aim: &A
     hits.clear();
     tracer.geometry.filters(&ray, aim.reach, hits, &mut walk.counters.work);
     factors.clear();
-    factors.extend(hits.iter().map(|hit| (hit.t, tracer.transmittance(&ray, hit))));
+    factors.extend(hits.iter().map(|hit| (hit.t, texture::to_light(tracer, &ray, hit))));
     factors.sort_by(|(a, x), (b, y)| {
         let ties = x.components().into_iter().zip(y.components()).map(|(x, y)| x.total_cmp(&y));
         ties.fold(a.total_cmp(b), Ordering::then)
     });
-    factors.iter().fold(Rgb::WHITE, |light, (_, factor)| light * *factor)
+    let light = factors.iter().fold(Rgb::WHITE, |light, (_, factor)| light * *factor);
+    if !tracer.absorbs || light.is_black() {
+        return light;
+    }
+    light * walk.media.left_of_light(tracer.world, hits)
 }
 
 /// Room for the surfaces between a point and a light.

@@ -3,8 +3,8 @@
 use super::sharpness::{ROUNDED, Sharpness};
 use crate::color::{Clearness, Color, Rgb};
 use crate::math::Vector;
+use crate::texture::space::Nowhere;
 use crate::world::World;
-use crate::world::pigment::at;
 
 /// The sky's pigments painted one over the other, the last on top and `background` below all: each
 /// shows its colour where it is opaque, and what lies below untinted through its `transmit` and
@@ -18,8 +18,10 @@ use crate::world::pigment::at;
 pub(super) fn seen(world: &World, sharpness: &Sharpness, direction: Vector) -> Rgb {
     let pigments = world.sky.as_ref().map_or(&[][..], |sky| &sky.pigments);
     let pigments = pigments.iter().zip(&sharpness.sky);
-    let pigments = pigments
-        .map(|(pigment, &is_sharp)| at(pigment, direction, is_sharp, || Vector::splat(ROUNDED)));
+    let pigments = pigments.map(|(pigment, &is_sharp)| {
+        let error = Vector::splat(ROUNDED);
+        pigment.color(None, &Nowhere { point: direction, error, is_sharp })
+    });
     if world.settings.clearness == Clearness::Old {
         let all = Color { rgb: Rgb::WHITE, filter: 1.0, transmit: 1.0 };
         let (mut sum, mut above) = (Rgb::BLACK, None::<Color>);

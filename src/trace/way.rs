@@ -1,7 +1,7 @@
 //! A ray under way, and what is known of it before it meets anything.
 
-use super::reflection;
 use super::shade::Place;
+use super::{bumpy, reflection};
 use crate::geometry::Hit;
 use crate::shape::Ray;
 
@@ -16,6 +16,8 @@ pub(super) struct Way {
     /// Something has mirrored it, or one it goes on from.
     pub mirrored: bool,
     pub inside: Option<Inside>,
+    /// Its position in the spectrum, 0 to 1; `None` while it is of all colours.
+    pub spectrum: Option<f64>,
 }
 
 /// A ray starts on the surface of an object and inside of that: it was bent there, or mirrored.
@@ -36,19 +38,23 @@ impl Inside {
 impl Way {
     #[inline(always)]
     pub fn from_camera(ray: Ray) -> Self {
-        Self { ray, weight: 1.0, level: 1, mirrored: false, inside: None }
+        Self { ray, weight: 1.0, level: 1, mirrored: false, inside: None, spectrum: None }
     }
 
     /// The ray that is mirrored where this one ends.
     #[inline(always)]
     pub fn mirrored(self, place: &Place, weight: f64) -> Self {
-        let direction = reflection::mirrored(self.ray.direction, place.normal);
+        let direction = match place.smooth {
+            None => reflection::mirrored(self.ray.direction, place.normal),
+            Some(smooth) => bumpy::reflected(self.ray.direction, place.normal, smooth),
+        };
         Self {
             ray: Ray { origin: place.start(direction), direction },
             weight,
             level: self.level + 1,
             mirrored: true,
             inside: None,
+            spectrum: self.spectrum,
         }
     }
 }

@@ -3,20 +3,21 @@
 //! **Invariant:** prints every number of the World, each in the shortest form that reads back to the same
 //! bits; an object comes with its shape, a box with the numbers of each face.
 
+mod texture;
+
 use std::fmt::{self, Write};
 
 use super::{
-    Attenuation, Beam, CameraKind, CsgSolid, Fade, Finish, LightKind, LobeKind, Object, Origins,
-    Pigment, World,
+    Absorption, Attenuation, Beam, CameraKind, Coat, CsgSolid, Dispersion, Fade, LightKind, Object,
+    Origins, World,
 };
 use crate::color::Clearness;
 use crate::math::placement::{Map, Placement};
 use crate::math::vector::written as vector;
 use crate::math::{Matrix, UnitVector};
-use crate::pattern::Pattern;
 use crate::shape::body::Local;
 use crate::shape::csg::Node;
-use crate::shape::{Box_, Shape};
+use crate::shape::{Box_, Shape, uv};
 use crate::source::{Site, Sources};
 
 /// Returns the World as text, one part a line, each followed by its origin.
@@ -45,11 +46,14 @@ impl Printer<'_> {
         if settings.clearness == Clearness::Old {
             writeln!(out, "  clear colours of versions below 3.7")?;
         }
+        if settings.untinted_layers {
+            writeln!(out, "  layers of versions up to 3.1")?;
+        }
         writeln!(out, "background {}", self.world.background)?;
         if let Some(sky) = &self.world.sky {
             writeln!(out, "sky{}", self.at(self.origins.sky.as_ref().map(|sky| sky.site)))?;
             for layer in &sky.pigments {
-                pigment(out, layer, "  ")?;
+                texture::pigment(out, layer, "  ")?;
             }
         }
         self.lights(out)?;
@@ -64,20 +68,26 @@ impl Printer<'_> {
                 nodes(out, solid)?;
             }
         }
-        writeln!(out, "materials {}", self.world.materials.len())?;
-        for (i, material) in self.world.materials.iter().enumerate() {
-            let origin = self.origins.materials.get(i);
+        writeln!(out, "textures {}", self.world.textures.len())?;
+        for (i, texture) in self.world.textures.iter().enumerate() {
+            let origin = self.origins.textures.get(i);
             let site = origin.and_then(|origin| origin.pigment.or(origin.finish));
             writeln!(out, "  {i}{}", self.at(site))?;
-            pigment(out, &material.pigment, "    ")?;
-            finish(out, &material.finish)?;
+            texture::texture(out, texture, "    ")?;
         }
         if !self.world.interiors.is_empty() {
             writeln!(out, "interiors {}", self.world.interiors.len())?;
             for (i, interior) in self.world.interiors.iter().enumerate() {
-                let site =
-                    self.at(self.origins.interiors.get(i).and_then(|sites| sites.first().copied()));
-                writeln!(out, "  {i} ior {}{site}", interior.ior)?;
+                let origin = self.origins.interiors.get(i);
+                let site = self.at(origin.and_then(|origin| origin.ior.first().copied()));
+                write!(out, "  {i} ior {}", interior.ior)?;
+                if let Some(Absorption { distance, power, color }) = interior.absorption {
+                    write!(out, " fade_distance {distance} fade_power {power} fade_color {color}")?;
+                }
+                if let Some(Dispersion { ratio, samples }) = interior.dispersion {
+                    write!(out, " dispersion {ratio} dispersion_samples {samples}")?;
+                }
+                writeln!(out, "{site}")?;
             }
         }
         if !self.world.texture_maps.is_empty() {
@@ -85,6 +95,9 @@ impl Printer<'_> {
             for (i, map) in self.world.texture_maps.iter().enumerate() {
                 writeln!(out, "  {i} {}", affine(map))?;
             }
+        }
+        for (i, uv::Mapping { form, map }) in self.world.uv_mappings.iter().enumerate() {
+            writeln!(out, "uv_mapping {i} {form:?} {}", affine(map))?;
         }
         if !self.origins.dropped.is_empty() {
             writeln!(out, "left out")?;
@@ -154,9 +167,20 @@ impl Printer<'_> {
                 placement(out, &mut more, &placed.placement)?;
             }
         }
-        write!(out, " material {}", object.material)?;
-        if let Some(map) = object.texture_from_world {
-            write!(out, " texture_map {map}")?;
+        write!(out, " texture {}", object.texture)?;
+        if let Some(first) = object.places {
+            write!(out, " places from {first}")?;
+        }
+        if let Some(uv) = object.uv {
+            write!(out, " uv_mapping {uv}")?;
+        }
+        if let Some(caustics) = self.world.caustics.get(i).filter(|caustics| **caustics != 0.0) {
+            write!(out, " caustics {caustics}")?;
+        }
+        if let Some(lining) = object.lining {
+            let Coat { texture, places, .. } = self.world.linings[lining as usize];
+            let places = places.map_or(String::new(), |first| format!(" places from {first}"));
+            write!(out, " interior_texture {texture}{places}")?;
         }
         if let Some(interior) = object.interior {
             write!(out, " interior {interior}")?;
@@ -255,71 +279,6 @@ fn faces(out: &mut String, solid: &Box_) -> fmt::Result {
         )?;
     }
     Ok(())
-}
-
-fn pigment(out: &mut String, pigment: &Pigment, indent: &str) -> fmt::Result {
-    match pigment {
-        Pigment::Color(c) => writeln!(out, "{indent}color {}", c),
-        Pigment::Faces(colors) => writeln!(out, "{indent}{} colors by faces", colors.len()),
-        Pigment::Patterned { pattern, pattern_from_texture, map } => {
-            let name = match pattern {
-                Pattern::Checker => "checker".to_owned(),
-                Pattern::Gradient { direction } => format!("gradient {}", vector(*direction)),
-            };
-            write!(out, "{indent}{name}")?;
-            if *pattern_from_texture != Map::IDENTITY {
-                write!(out, " at {}", affine(pattern_from_texture))?;
-            }
-            writeln!(out)?;
-            for (value, c) in map {
-                writeln!(out, "{indent}  {value} {}", c)?;
-            }
-            Ok(())
-        }
-    }
-}
-
-fn finish(out: &mut String, finish: &Finish) -> fmt::Result {
-    let mut parts = Vec::new();
-    if finish.seed {
-        parts.push("seed".to_owned());
-    }
-    if !finish.emission.is_black() {
-        parts.push(format!("emission {}", finish.emission));
-    }
-    if finish.diffuse != 0.0 {
-        parts.push(format!("diffuse {}", finish.diffuse));
-        if finish.brilliance != 1.0 {
-            parts.push(format!("brilliance {}", finish.brilliance));
-        }
-    }
-    for lobe in &finish.lobes {
-        let kind = match lobe.kind {
-            LobeKind::Phong => "phong",
-            LobeKind::Blinn => "blinn",
-        };
-        parts.push(format!(
-            "{kind} weight {} exponent {} metallic {}",
-            lobe.weight, lobe.exponent, lobe.metallic
-        ));
-    }
-    if let Some(r) = &finish.reflection {
-        parts.push(format!(
-            "reflection {} to {}{} exponent {} metallic {}",
-            r.minimum,
-            r.maximum,
-            if r.fresnel { " fresnel".to_owned() } else { format!(" falloff {}", r.falloff) },
-            r.exponent,
-            r.metallic
-        ));
-    }
-    if finish.conserve_energy {
-        parts.push("conserve_energy".to_owned());
-    }
-    match parts.is_empty() {
-        true => writeln!(out, "    black"),
-        false => writeln!(out, "    {}", parts.join(", ")),
-    }
 }
 
 fn attenuation(attenuation: &Attenuation) -> String {

@@ -1,13 +1,30 @@
 //! Queries about the World's solids: point containment, and which objects form one solid.
 
+use std::any::Any;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::{Object, World};
+use super::{Coat, Object, Texture, World};
 use crate::math::Vector;
 use crate::shape::body::Local;
 use crate::shape::{Body, JuliaFractal, Placed, Shape, csg};
+use crate::texture::region::Contains;
+
+/// A World is the region inside of its solids.
+impl Contains for World {
+    fn contains(&self, point: Vector) -> bool {
+        self.solids().any(|i| self.csg_contains(&self.objects[i as usize], point))
+    }
+
+    fn is_equal(&self, other: &dyn Any) -> bool {
+        other.downcast_ref::<Self>() == Some(self)
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+}
 
 impl World {
     /// Returns whether a point lies inside an object: outside its shape, if the object is `inverse`.
@@ -28,6 +45,32 @@ impl World {
         let solid = &self.csg_solids[solid as usize];
         let leaf = |object: &Object| self.contains(object, point) != object.inverse;
         csg::contains(&solid.nodes, self.objects[solid.leaves()].iter().map(leaf))
+    }
+
+    /// Returns the texture of the side of an object that a ray hits; `leaving` as in a hit.
+    #[inline(always)]
+    pub fn coat(&self, object: &Object, leaving: bool) -> Coat {
+        let Object { texture, places, faces, .. } = *object;
+        let outer = Coat { texture, places, faces };
+        object.lining.map_or(outer, |lining| self.side(outer, lining, object, leaving))
+    }
+
+    #[cold]
+    fn side(&self, outer: Coat, lining: u32, object: &Object, leaving: bool) -> Coat {
+        let is_inner = leaving != object.inverse;
+        if is_inner { self.linings[lining as usize] } else { outer }
+    }
+
+    /// Returns the textures of an object: the one of its outer side, or of both, first.
+    pub fn textures_of(&self, object: &Object) -> impl Iterator<Item = &Texture> {
+        let lining = object.lining.map(|lining| self.linings[lining as usize].texture);
+        let all = [Some(object.texture), lining].into_iter().flatten();
+        all.filter_map(|texture| self.textures.get(texture as usize))
+    }
+
+    /// Returns whether light passes through an object, on either side.
+    pub fn is_clear(&self, object: &Object) -> bool {
+        self.textures_of(object).any(Texture::is_clear)
     }
 
     /// Returns the keyword of an object's shape.
@@ -86,22 +129,6 @@ impl World {
             placed.body = body;
         }
         Cow::Owned(world)
-    }
-
-    /// Returns whether an object has no inside.
-    pub fn is_sheet(&self, object: u32) -> bool {
-        match self.objects[object as usize].shape {
-            Shape::Placed(i) => self.placed[i as usize].body.is_sheet(),
-            Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) | Shape::Ellipsoid(_) => false,
-        }
-    }
-
-    /// Returns whether an object is a box without thickness: a ray that enters leaves at once.
-    pub fn is_flat_box(&self, object: u32) -> bool {
-        match self.objects[object as usize].shape {
-            Shape::Box(i) => self.boxes[i as usize].is_flat(),
-            Shape::Sphere(_) | Shape::Plane(_) | Shape::Ellipsoid(_) | Shape::Placed(_) => false,
-        }
     }
 
     /// Returns whether both are parts of one CSG solid, or the same object.

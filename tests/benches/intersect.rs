@@ -10,7 +10,7 @@ use lucarne::geometry::{ANY, Geometry, surface};
 use lucarne::math::placement::Placement;
 use lucarne::math::{Matrix, UnitVector, Vector};
 use lucarne::shape::{Box_, Chord, Ellipsoid, Plane, Ray, Shape, Sphere};
-use lucarne::world::{Finish, Material, Object, Pigment, World};
+use lucarne::world::{Finish, Object, Pigment, Plain, Texture, World};
 
 fn main() {
     divan::main();
@@ -29,9 +29,11 @@ fn empty() -> World {
         lobes: Vec::new(),
         reflection: None,
         seed: false,
+        extras: None,
     };
-    let material = Material { pigment: Pigment::Color(Color::default()), finish };
-    World { materials: vec![material], ..World::default() }
+    let pigment = Pigment::Color(Color::default());
+    let texture = Texture::Plain(Plain { pigment, normal: None, finish });
+    World { textures: vec![texture], ..World::default() }
 }
 
 fn object(shape: Shape) -> Object {

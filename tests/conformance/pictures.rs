@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use image::RgbImage;
 
-use super::silhouettes::plain;
+use super::plain::plain;
 use super::{SCENES, grown, listed};
 use crate::flip;
 use crate::programs::{SAME, Size, is_installed, is_povray_there, ours, theirs};
@@ -37,7 +37,7 @@ pub(crate) fn differing([ours, theirs]: &[RgbImage; 2]) -> usize {
 }
 
 /// What becomes of a scene, as its line has it.
-pub(crate) fn outcome(scene: &Path, folder: &Path, name: &str) -> String {
+fn outcome(scene: &Path, folder: &Path, name: &str) -> String {
     let pictures = match both(scene, folder) {
         Ok(pictures) => pictures,
         Err(told) => return format!("no picture: {told}"),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::pictures::{SIZE, differing};
-use super::silhouettes::plain;
+use super::plain::plain;
 use super::{SCENES, files};
 use crate::programs::{SAME, is_installed, is_povray_there, mean_error, ours, theirs};
 
@@ -12,7 +12,7 @@ type Changes = &'static [(&'static str, &'static str)];
 
 struct Proof {
     scene: &'static str,
-    /// What is made plain for both, as in `silhouettes.list`.
+    /// What is made plain for both, by `plain`.
     items: &'static [(&'static str, &'static str)],
     /// For both.
     both: Changes,

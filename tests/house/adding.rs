@@ -56,6 +56,8 @@ fn the_page_on_adding_is_true_for_each_shape_pattern_and_message() {
         faults.extend(unknown.map(|word| format!("{title}: `{word}` is none")));
         let links = section.split("](../").skip(1).filter_map(|rest| rest.split(')').next());
         let paths = quoted(section).filter(|text| text.contains('/') && !text.contains(' '));
+        // Those of other names are relative to the folder of NAME.
+        let paths = paths.filter(|text| !text.starts_with("../"));
         for path in paths.chain(links) {
             let is_of_each = ["NAME", "WORD", "CODE"].iter().any(|each| path.contains(each));
             if !is_of_each && !is_there(path) {

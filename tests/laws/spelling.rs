@@ -25,6 +25,29 @@ fn law(says: &str, one: &str, other: &str, faulty: &str) {
 }
 
 #[test]
+fn further_parts_of_a_texture() {
+    let map = "color_map { [0 rgb 1] [1 rgb 0] }";
+    law(
+        "a pigment after another stands where that one stands",
+        &format!(
+            "sphere {{ 0, 1 pigment {{ wood scale 2 }} translate x pigment {{ marble {map} rotate 30*z }} }}"
+        ),
+        &format!(
+            "sphere {{ 0, 1 translate x pigment {{ marble {map} scale 2 translate x rotate 30*z }} }}"
+        ),
+        &format!(
+            "sphere {{ 0, 1 translate x pigment {{ marble {map} scale 2 rotate 30*z translate x }} }}"
+        ),
+    );
+    law(
+        "a normal after that of a texture changes it where the texture has it",
+        "sphere { 0, 1 texture { normal { bumps 0.5 } scale 2 normal { bump_size 0.3 scale 3 } } }",
+        "sphere { 0, 1 texture { normal { bumps 0.3 scale 3 } scale 2 } }",
+        "sphere { 0, 1 texture { normal { bumps 0.5 scale 3 } scale 2 } }",
+    );
+}
+
+#[test]
 fn spheres() {
     law(
         "a sphere spends its scale and its move",
@@ -255,7 +278,7 @@ fn textures_and_finishes() {
         "sphere { 0, 1 pigment { rgb <0.5, 0.25, 1> } } sphere { x, 1 pigment { color rgb <2, 1, 4>/8 } }",
     );
     law(
-        "equal materials merge",
+        "equal textures merge",
         "#declare T = texture { pigment { rgb y } } sphere { 0, 1 texture { T } } sphere { x, 1 texture { T } }",
         "sphere { 0, 1 pigment { rgb y } } sphere { x, 1 pigment { rgb y } }",
         "sphere { 0, 1 pigment { rgb y } } sphere { x, 1 pigment { rgb 0.99*y } }",

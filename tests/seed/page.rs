@@ -9,7 +9,7 @@ use lucarne::math::elementary::{pow, tan};
 use lucarne::math::transform::Step;
 use lucarne::scene::{
     Camera, CameraItemKind, Finish, LightKind, Modifier, ModifierKind, ObjectId, ObjectKind,
-    PigmentKind, Scene, Solid,
+    PigmentKind, Scene, Solid, TextureKind,
 };
 
 use super::forms::{Form, Hit, Ray, rotate};
@@ -283,11 +283,11 @@ impl Written {
     }
 
     fn texture(self, scene: &Scene, id: lucarne::scene::TextureId) -> Self {
-        let texture = &scene.textures[id.index()];
-        Self {
-            pigment: pigment(scene, texture.pigment.index()),
-            finish: finish(scene, texture.finish.index()),
-        }
+        let kind = &scene.textures[id.index()].kind;
+        let TextureKind::Plain { pigment: paint, normal: None, finish: polish } = kind else {
+            panic!("not of the page: {kind:?}");
+        };
+        Self { pigment: pigment(scene, paint.index()), finish: finish(scene, polish.index()) }
     }
 
     fn surface(self) -> Surface {

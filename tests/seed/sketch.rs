@@ -51,18 +51,16 @@ impl Sketch {
         let scene = &mut self.scene;
         let kind = PigmentKind::Color(Color::opaque(color));
         scene.pigments.push(Pigment {
-            clear: vec![],
             kind,
-            transforms: Vec::new(),
+            steps: Vec::new(),
             site: SITE,
-            pattern: Vec::new(),
+            clear: None,
+            has_own_colors: false,
         });
         scene.finishes.push(finish);
-        scene.textures.push(Texture {
-            pigment: PigmentId(scene.pigments.len() as u32 - 1),
-            finish: FinishId(scene.finishes.len() as u32 - 1),
-            transforms: Vec::new(),
-        });
+        let pigment = PigmentId(scene.pigments.len() as u32 - 1);
+        let finish = FinishId(scene.finishes.len() as u32 - 1);
+        scene.textures.push(Texture::plain(pigment, finish));
         TextureId(scene.textures.len() as u32 - 1)
     }
 

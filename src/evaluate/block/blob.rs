@@ -5,12 +5,11 @@ use std::sync::Arc;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::math::Vector;
 use crate::scene::blob::{Blob, Component};
-use crate::scene::{Solid, TransformId};
+use crate::scene::{Modifier, ModifierKind, Solid, Texture, TransformId};
 use crate::source::Span;
 use crate::vocabulary::{Family, Word};
 
 use super::super::stream::{Token, TokenKind};
-use super::super::value::Poison;
 use super::super::{Evaluator, Outcome, Reported};
 use super::{Given, Place};
 
@@ -20,7 +19,7 @@ const SMALLEST: f64 = 1e-6;
 impl Evaluator<'_> {
     /// Reads `blob { threshold number sphere { … } cylinder { … } … }`, in any order.
     pub(super) fn blob(&mut self, token: &Token) -> Outcome<Solid> {
-        let mut blob = Blob { threshold: 1.0, components: Vec::new() };
+        let mut blob = Blob { threshold: 1.0, components: Vec::new(), textures: Vec::new() };
         let (mut failed, mut count, mut bytes) = (false, 0, 0);
         loop {
             self.skip_commas();
@@ -140,9 +139,10 @@ impl Evaluator<'_> {
                     .also(a.span, "the first end");
                 return Err(evaluator.report(&b.here, diagnostic));
             }
-            let transforms = evaluator.component_modifiers(word)?;
+            let (transforms, texture) = evaluator.component_modifiers(word)?;
+            let paint = texture.map(|texture| evaluator.texture_of_component(texture, blob));
             let ends = [a.value, b.map_or(a.value, |b| b.value)];
-            evaluator.add_component(ends, radius, strength, transforms, blob);
+            evaluator.add_component(ends, radius, strength, (transforms, paint), blob);
             Ok(())
         })
     }
@@ -153,7 +153,7 @@ impl Evaluator<'_> {
         let radius = self.number_after(token, "a number for the radius");
         let centre = self.point(token, "a vector for the centre");
         let (strength, radius, centre) = (strength?, radius?, centre?);
-        self.add_component([centre.value; 2], radius, strength, Vec::new(), blob);
+        self.add_component([centre.value; 2], radius, strength, (Vec::new(), None), blob);
         Ok(())
     }
 
@@ -163,7 +163,7 @@ impl Evaluator<'_> {
         ends: [Vector; 2],
         radius: Given<f64>,
         strength: Given<f64>,
-        transforms: Vec<TransformId>,
+        (transforms, paint): (Vec<TransformId>, Option<u32>),
         blob: &mut Blob,
     ) {
         for (given, what) in [(&radius, "radius"), (&strength, "strength")] {
@@ -179,29 +179,42 @@ impl Evaluator<'_> {
             self.lint_negative_radius(&radius.here, radius.span, radius.value);
         }
         let (radius, strength) = (radius.value, strength.value);
-        blob.components.push(Component { ends, radius, strength, transforms });
+        blob.components.push(Component { ends, radius, strength, transforms, paint });
     }
 
-    /// Reads the transforms of a component. Its own texture is read, but unsupported.
-    fn component_modifiers(&mut self, word: Word) -> Outcome<Vec<TransformId>> {
+    /// Reads the transforms of a component, and its own texture, which those behind it move.
+    fn component_modifiers(&mut self, word: Word) -> Outcome<(Vec<TransformId>, Option<Texture>)> {
         let (mut transforms, mut failed) = (Vec::new(), false);
+        let (mut texture, mut textured) = (None::<Texture>, false);
+        let mut written = Vec::new();
         while let Some(token) = self.next() {
-            match (self.transform_from(&token), token.kind.clone()) {
+            match (self.transform_from(&token), &token.kind) {
                 (Some(transform), _) => match transform {
-                    Ok(transform) => transforms.push(transform),
+                    Ok(transform) => {
+                        transforms.push(transform);
+                        texture.iter_mut().for_each(|texture| texture.transforms.push(transform));
+                        let (kind, site) =
+                            (ModifierKind::Transform(transform), token.here.site(token.span));
+                        written.push(Modifier { kind, site });
+                    }
                     Err(Reported) => failed = true,
                 },
                 (None, TokenKind::Comma) => {}
-                (None, TokenKind::Word(of @ (Word::Texture | Word::Pigment))) => {
-                    failed |= match of {
-                        Word::Texture => self.texture(&token).is_err(),
-                        _ => self.pigment(&token).is_err(),
-                    };
-                    self.not_per_component(&token);
-                }
-                (None, TokenKind::Word(of @ (Word::Finish | Word::Normal))) => {
-                    self.skip_arguments(of);
-                    self.not_per_component(&token);
+                (
+                    None,
+                    TokenKind::Word(Word::Texture | Word::Pigment | Word::Finish | Word::Normal),
+                ) => {
+                    let before = written.len();
+                    match self.modifier(&token, None, &mut written, &mut textured) {
+                        Some(Ok(kind)) => {
+                            let site = token.here.site(token.span);
+                            written.extend(kind.map(|kind| Modifier { kind, site }));
+                            for Modifier { kind, .. } in &written[before..] {
+                                self.set_in_component(&mut texture, kind);
+                            }
+                        }
+                        _ => failed = true,
+                    }
                 }
                 (None, _) => {
                     self.unexpected(&token, Place::component(word));
@@ -209,11 +222,33 @@ impl Evaluator<'_> {
                 }
             }
         }
-        if failed { Err(Reported) } else { Ok(transforms) }
+        if failed { Err(Reported) } else { Ok((transforms, texture)) }
     }
 
-    fn not_per_component(&mut self, token: &Token) {
-        let site = token.here.site(token.span);
-        self.set_poison(Poison::new(Word::Component, site));
+    fn set_in_component(&mut self, texture: &mut Option<Texture>, kind: &ModifierKind) {
+        match (kind, texture) {
+            (ModifierKind::Texture(id), texture) => {
+                *texture = Some(self.scene.textures[id.index()].clone());
+            }
+            (ModifierKind::Pigment(id), Some(texture)) => {
+                self.change_top(texture, |top| top.set_pigment(*id));
+            }
+            (ModifierKind::Normal(id), Some(texture)) => {
+                self.change_top(texture, |top| top.set_normal(*id));
+            }
+            (ModifierKind::Finish(id), Some(texture)) => {
+                self.change_top(texture, |top| top.set_finish(*id));
+            }
+            _ => {}
+        }
+    }
+
+    /// Returns the index of a texture in a blob's list, adding it if it is not the last one.
+    fn texture_of_component(&mut self, texture: Texture, blob: &mut Blob) -> u32 {
+        let last = blob.textures.last().map(|last| &self.scene.textures[last.index()]);
+        if last != Some(&texture) {
+            blob.textures.push(self.add_texture(texture));
+        }
+        blob.textures.len() as u32 - 1
     }
 }

@@ -68,6 +68,7 @@ impl Evaluator<'_> {
             Value::Object(_) => Word::Object,
             Value::Texture(_) => Word::Texture,
             Value::Pigment(_) => Word::Pigment,
+            Value::Normal(_) => Word::Normal,
             Value::Finish(_) => Word::Finish,
             _ => return None,
         };

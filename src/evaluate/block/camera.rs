@@ -7,7 +7,7 @@ use crate::scene::{Camera, CameraItem, CameraItemKind, CameraKind};
 use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
-use super::super::value::{Components, Value};
+use super::super::value::{Components, Poison, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 
@@ -101,6 +101,12 @@ impl Evaluator<'_> {
             }
             Word::Angle => self.angle(token, camera)?,
             Word::Shift => self.shift(token)?,
+            // Built as patterns, and not in cameras.
+            Word::Spherical | Word::Normal => {
+                self.set_poison(Poison::new(word, token.here.site(token.span)));
+                self.skip_arguments(word);
+                return Ok(());
+            }
             _ => {
                 if let Some(outcome) = self.inert(token, Place::CAMERA) {
                     return outcome;

@@ -14,7 +14,14 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
-use super::pieces::{self, WrittenColor, WrittenMap};
+use super::pieces::WrittenColor;
+
+/// A `color_map`, and the first colour in it that lets light through.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenMap {
+    pub map: ColorMap,
+    pub clear: Option<Site>,
+}
 
 /// The values and colours of an entry.
 type Entries = Vec<(f64, WrittenColor)>;
@@ -59,7 +66,7 @@ impl Evaluator<'_> {
     /// Reads `color_map { [value color] … }` or `color_map { Name }`.
     pub(super) fn color_map(&mut self, token: &Token) -> Outcome<Value> {
         let mut entries: Vec<(f64, Color)> = Vec::new();
-        let mut parts: Vec<pieces::Part> = Vec::new();
+        let mut clear: Option<Site> = None;
         let mut rise = Rise::default();
         let opener = token.clone();
         self.block(token, Word::ColorMap, |evaluator| {
@@ -72,11 +79,11 @@ impl Evaluator<'_> {
                             evaluator.map_entry(&token, &mut rise)
                         });
                         match read {
-                            Ok((read, first)) => {
+                            Ok(read) => {
                                 entries.extend(read.iter().map(|(at, color)| (*at, color.color())));
-                                let colors = read.into_iter().map(|(_, color)| color).collect();
-                                let item = here.site(token.span);
-                                parts.push(pieces::Part::entry(item, colors, first));
+                                if read.iter().any(|(_, color)| color.color().is_clear()) {
+                                    clear = clear.or(Some(here.site(token.span)));
+                                }
                             }
                             Err(Reported) => failed = true,
                         }
@@ -95,7 +102,7 @@ impl Evaluator<'_> {
                             let site = token.here.site(token.span);
                             rise.named(&map.map, site);
                             entries.extend(map.map.0.iter().copied());
-                            parts.push(pieces::Part::name(site, &map));
+                            clear = clear.or(map.clear);
                         }
                         Some(Value::Poison(poison)) => evaluator.set_poison(poison),
                         _ if matches!(
@@ -155,15 +162,12 @@ impl Evaluator<'_> {
                     Dialect::Pov => entries = rising(&entries),
                 }
             }
-            let clear = pieces::without_clear(&parts);
-            let pattern = pieces::without_pattern(&parts);
-            Ok(Value::ColorMap(Arc::new(WrittenMap { map: ColorMap(entries), clear, pattern })))
+            Ok(Value::ColorMap(Arc::new(WrittenMap { map: ColorMap(entries), clear })))
         })
     }
 
-    /// Reads `[value color]`, or the old `[from, to color a color b]`; for the latter, also returns `to color
-    /// a` as a removable piece where possible.
-    fn map_entry(&mut self, token: &Token, rise: &mut Rise) -> Outcome<(Entries, Option<Site>)> {
+    /// Reads `[value color]`, or the old `[from, to color a color b]`.
+    fn map_entry(&mut self, token: &Token, rise: &mut Rise) -> Outcome<Entries> {
         if let Some(reported) = self.entry_without_value(token) {
             return Err(reported);
         }
@@ -175,7 +179,7 @@ impl Evaluator<'_> {
         if starts_color {
             let color = self.written_color_after(token, "a colour")?.value;
             self.end_of_entry(token)?;
-            return Ok((vec![(from, color)], None));
+            return Ok(vec![(from, color)]);
         }
         if let Some(reported) = self.misspelt_color(token) {
             return Err(reported);
@@ -187,10 +191,8 @@ impl Evaluator<'_> {
         self.bare_components(None, &second)?;
         let entries = match second.value {
             Value::Number(to) => {
-                let number = second.site();
                 rise.entry(second.with(to), self.sources);
                 let first = self.written_color_after(token, "a colour")?.value;
-                let piece = self.joined(number, self.taken.unwrap_or(number));
                 if let Some(diagnostic) = self.decimal_comma(first_number)
                     && self.peek().is_none()
                 {
@@ -206,12 +208,11 @@ impl Evaluator<'_> {
                         "write two entries, one for each value",
                     );
                 }
-                let piece = Some(piece).filter(|_| !last.bare);
-                (vec![(from, first), (to, last)], piece)
+                vec![(from, first), (to, last)]
             }
             _ => {
                 let color = self.plain_color(&second, "a colour")?;
-                (vec![(from, self.color_components(color, second.site())?)], None)
+                vec![(from, self.color_components(color, second.site())?)]
             }
         };
         self.end_of_entry(token)?;

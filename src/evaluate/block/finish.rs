@@ -1,6 +1,8 @@
 //! `finish`: POV-Ray's keywords, or the seed's three; never both.
 
 mod albedo;
+mod irid;
+mod old;
 mod reflection;
 mod whole;
 
@@ -11,7 +13,7 @@ use crate::source::{Site, Span};
 use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::stream::{Token, TokenKind};
-use super::super::value::{Poison, Value};
+use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::pieces::WrittenColor;
 use super::{Given, Place};
@@ -40,7 +42,7 @@ pub(super) fn list_once(sites: &mut Vec<Site>, item: Site) {
 impl Evaluator<'_> {
     /// Reads `finish { [Name] … }`, starting from the default texture's finish.
     pub(super) fn finish(&mut self, token: &Token) -> Outcome<FinishId> {
-        let start = self.scene.textures[self.default_texture.index()].finish;
+        let start = self.scene.textures[self.default_texture.index()].kind.first_finish();
         self.finish_from(token, start)
     }
 
@@ -58,10 +60,11 @@ impl Evaluator<'_> {
     pub(super) fn open_finish(&self, token: &Token, start: FinishId) -> OpenFinish {
         let origin = self.finish_origin(start);
         // The default's words yield to those of the other vocabulary.
-        let origin = match start == self.scene.textures[self.default_texture.index()].finish {
-            true => FinishOrigin { seed: None, classic: None, ..origin },
-            false => origin,
-        };
+        let origin =
+            match start == self.scene.textures[self.default_texture.index()].kind.first_finish() {
+                true => FinishOrigin { seed: None, classic: None, ..origin },
+                false => origin,
+            };
         OpenFinish {
             opener: token.clone(),
             finish: self.scene.finishes[start.index()].clone(),
@@ -239,7 +242,10 @@ impl Evaluator<'_> {
             Word::Diffuse => {
                 albedo.diffuse |= self.skip_albedo();
                 finish.diffuse = self.strength_after(token, word)?;
-                self.back_side(token)?;
+                let behind = self.back_side(token)?;
+                finish.behind = behind.map_or(0.0, |(strength, _)| strength);
+                let sites = behind.filter(|(strength, _)| *strength > 0.0).map(|(_, site)| site);
+                written.origin.behind = sites.into_iter().collect();
             }
             Word::Brilliance => finish.brilliance = self.power_after(token, word)?,
             Word::Phong => {
@@ -269,11 +275,10 @@ impl Evaluator<'_> {
                 let help = "write `interior { ior … }` beside the texture";
                 self.lint_legacy(&token.here, token.span, "`ior` in a finish is an old form", help);
             }
-            Word::Crand | Word::Caustics | Word::Refraction
-                if self.options.dialect == Dialect::Pov =>
-            {
-                self.old_finish_word(token, word)?;
-                return Ok(false);
+            Word::Crand => finish.crand = self.number_after(token, "a number")?.value,
+            Word::Irid => finish.irid = Some(self.irid(token, finish.irid)?),
+            Word::ReflectionExponent | Word::Refraction | Word::Caustics => {
+                self.old_item(token, word, finish)?;
             }
             _ => {
                 let poisoned = self.poison.is_some();
@@ -325,25 +330,24 @@ impl Evaluator<'_> {
         Ok(given)
     }
 
-    /// Reads `diffuse front, back`: light from behind is unsupported unless it is zero. POV-Ray 3.7 accepts
-    /// it without the comma (measured).
-    fn back_side(&mut self, token: &Token) -> Outcome<()> {
-        let is_pov = self.options.dialect == Dialect::Pov;
-        if !is_pov && !matches!(self.peek(), Some(Token { kind: TokenKind::Comma, .. })) {
-            return Ok(());
+    /// Reads the second number of `diffuse front, behind`, for light from behind; also returns its site.
+    /// POV-Ray 3.7 accepts it without the comma (measured).
+    fn back_side(&mut self, token: &Token) -> Outcome<Option<(f64, Site)>> {
+        let is_comma = |next: &Token| matches!(next.kind, TokenKind::Comma);
+        if self.options.dialect == Dialect::Scene && !self.peek().is_some_and(is_comma) {
+            return Ok(None);
         }
         self.skip_commas();
         let is_value = matches!(
             self.peek().map(|token| &token.kind),
             Some(TokenKind::Expression(_) | TokenKind::Literal(_))
         );
-        if is_value {
-            let back = self.number_after(token, "a number")?;
-            if back.value != 0.0 {
-                self.set_poison(Poison::new(Word::Diffuse, back.site()));
-            }
+        if !is_value {
+            return Ok(None);
         }
-        Ok(())
+        let behind = self.number_after(token, "a number")?;
+        self.lint_strength(&behind.here, behind.span, Word::Diffuse, Rgb::gray(behind.value));
+        Ok(Some((behind.value, behind.site())))
     }
 
     /// Reads how strongly a surface reflects light.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::color::Gamma;
+use crate::color::{Gamma, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::picture::heights::{self, Heights};
 use crate::scene::Solid;
@@ -41,7 +41,8 @@ impl Evaluator<'_> {
     /// Reads `height_field { [png] "file" | function W, H { … } [smooth] [water_level n] }`.
     ///
     /// **Source:** POV-Ray 3.7 manual, 3.4.5.1.5 "Height Field". The top row of an image is at z = 1; a
-    /// function is evaluated at x and 1 − z, and only the fractional part of its value counts (measured).
+    /// function is evaluated at x and 1 − z, and only the fractional part of its value counts; the value of a
+    /// pigment is its brightness (measured).
     pub(super) fn height_field(&mut self, token: &Token) -> Outcome<Solid> {
         let function = self.take_word(Word::Function);
         let read = match &function {
@@ -116,7 +117,11 @@ impl Evaluator<'_> {
             (None, None) => is_tga = name.to_ascii_lowercase().ends_with(".tga"),
             _ => {}
         }
-        match heights::read(&found.bytes, is_tga, gamma) {
+        let read = match kind {
+            Some((Word::Pot, _)) => heights::read_potential(&found.bytes),
+            _ => heights::read(&found.bytes, is_tga, gamma),
+        };
+        match read {
             Ok(heights) => Ok((file.name, heights)),
             Err(reason) => {
                 let message = format!("`{name}` cannot be read as a picture: {reason}");
@@ -208,8 +213,8 @@ impl Evaluator<'_> {
                 .at(word.span, "expected a formula, a pattern or a pigment");
             return Err(self.report(&word.here, diagnostic));
         }
-        // The red of a colour.
-        let id = outside_id(id, 0);
+        let is_color = function.compound() == Some("a colour");
+        let components = [0, 1, 2].map(|component| outside_id(id, component));
         if width.min(rows) < 2 {
             return Ok(("a function".to_owned(), Heights { width: 2, heights: Vec::new() }));
         }
@@ -221,7 +226,13 @@ impl Evaluator<'_> {
         for row in 0..rows {
             for column in 0..width {
                 let (x, y) = (place(column, width), place(row, rows));
-                let mut value = functions.value(id, &[x, y, 0.0]);
+                let component = |id| functions.value(id, &[x, y, 0.0]);
+                let mut value = if is_color {
+                    let [red, green, blue] = components.map(component);
+                    Rgb { red, green, blue }.brightness()
+                } else {
+                    component(components[0])
+                };
                 if !value.is_finite() {
                     stray.get_or_insert((x, y));
                     value = 0.0;

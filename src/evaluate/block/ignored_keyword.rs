@@ -28,9 +28,7 @@ impl Evaluator<'_> {
     fn inert_arguments(&mut self, token: &Token, word: Word) -> Outcome<()> {
         match word {
             Word::BoundedBy => self.bounds(token),
-            Word::QuickColor | Word::IridWavelength => {
-                self.color_after(token, "a colour").map(drop)
-            }
+            Word::QuickColor => self.color_after(token, "a colour").map(drop),
             Word::FocalPoint => self.vector_after(token, "a point").map(drop),
             Word::BlurSamples => {
                 self.number_after(token, "a number of samples")?;

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Interior, InteriorId};
+use crate::source::Site;
 use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -10,10 +11,21 @@ use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 use super::finish::list_once;
 
+/// The most rays that one ray is split into by dispersion.
+const MOST_SAMPLES: f64 = 65_535.0;
+
+/// Lists a piece that enables an effect, or forgets those before one that disables it.
+fn note(sites: &mut Vec<Site>, piece: Site, enables: bool) {
+    match enables {
+        true => list_once(sites, piece),
+        false => sites.clear(),
+    }
+}
+
 impl Evaluator<'_> {
-    /// Reads `interior { [Name] ior … }`.
+    /// Reads `interior { [Name] ior … fade_distance … dispersion … }`.
     pub(super) fn interior(&mut self, token: &Token) -> Outcome<InteriorId> {
-        let mut interior = Interior { ior: 1.0, sites: Vec::new(), caustics: None };
+        let mut interior = Interior::default();
         let interior = self.block(token, Word::Interior, |evaluator| {
             let mut failed = false;
             while let Some(token) = evaluator.next() {
@@ -30,15 +42,36 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::Ior) => {
                 let before = interior.ior;
                 interior.ior = self.index_of_refraction(token)?;
+                interior.is_refractive = true;
                 // An index like that of air hides the one before it.
                 if before == 1.0 || interior.ior == 1.0 {
                     interior.sites.clear();
                 }
                 list_once(&mut interior.sites, self.whole(token));
             }
-            TokenKind::Word(Word::Caustics) if self.options.dialect == Dialect::Pov => {
+            TokenKind::Word(Word::FadeDistance) => {
                 let given = self.number_after(token, "a number")?;
-                interior.caustics = (given.value != 0.0).then(|| token.here.site(token.span));
+                interior.fade_distance = given.value;
+                note(&mut interior.fade_sites, self.whole(token), given.value != 0.0);
+            }
+            TokenKind::Word(Word::FadePower) => {
+                interior.fade_power = self.number_after(token, "a number")?.value;
+            }
+            TokenKind::Word(Word::FadeColor) => {
+                interior.fade_color = self.color_after(token, "a color")?.value.rgb;
+            }
+            TokenKind::Word(Word::Dispersion) => {
+                let given = self.number_after(token, "a number")?;
+                interior.dispersion = given.value;
+                note(&mut interior.dispersion_sites, self.whole(token), given.value != 1.0);
+            }
+            TokenKind::Word(Word::DispersionSamples) => {
+                let given = self.number_after(token, "a number")?;
+                self.within_bounds(&given, Word::DispersionSamples);
+                interior.dispersion_samples = given.value.clamp(2.0, MOST_SAMPLES) as u32;
+            }
+            TokenKind::Word(Word::Caustics) => {
+                interior.caustics = Some(self.number_after(token, "a number")?.value);
             }
             // POV-Ray 3.7 ignores it (measured).
             TokenKind::Word(Word::Refraction) if self.options.dialect == Dialect::Pov => {
@@ -66,7 +99,8 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Reads `material { [Name] texture { … } interior { … } }`; transforms apply to its texture.
+    /// Reads `material { [Name] texture { … } interior_texture { … } interior { … } }`; transforms apply to its
+    /// textures.
     pub(super) fn material(&mut self, token: &Token) -> Outcome<Material> {
         let mut material = Material::default();
         self.block(token, Word::Material, |evaluator| {
@@ -81,15 +115,21 @@ impl Evaluator<'_> {
     fn material_item(&mut self, token: &Token, material: &mut Material) -> Outcome<()> {
         if let Some(transform) = self.transform_from(token) {
             let transform = transform?;
-            if let Some(texture) = material.texture {
-                let mut moved = self.scene.textures[texture.index()].clone();
-                moved.transforms.push(transform);
-                material.texture = Some(self.add_texture(moved));
+            for texture in [&mut material.texture, &mut material.interior_texture] {
+                if let Some(id) = texture {
+                    let mut moved = self.scene.textures[id.index()].clone();
+                    moved.transforms.push(transform);
+                    *texture = Some(self.add_texture(moved));
+                }
             }
             return Ok(());
         }
         match token.kind {
             TokenKind::Word(Word::Texture) => material.texture = Some(self.texture(token)?),
+            TokenKind::Word(Word::InteriorTexture) => {
+                let texture = self.layers_of(Word::InteriorTexture, token)?;
+                material.interior_texture = Some(texture);
+            }
             TokenKind::Word(Word::Interior) => material.interior = Some(self.interior(token)?),
             TokenKind::Expression(id) => match self.declared(token, id) {
                 Some(Value::Broken) => {

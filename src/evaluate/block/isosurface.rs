@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::function::Closed;
 use crate::math::Vector;
 use crate::scene::{Container, Dialect, Solid};
+use crate::texture::Closed;
 use crate::vocabulary::Word;
 
 use super::super::lint::Compared;

@@ -164,8 +164,11 @@ impl Evaluator<'_> {
                 .help(sentence.to_owned());
             // The contents of a `sky` block are rarely valid in a `sky_sphere`.
             if word == Word::Sky { diagnostic } else { diagnostic.fix(token.span, meant) }
-        // In a `julia_fractal` it is a function, and elsewhere other tools' name for a box.
-        } else if let (Some(near), false) = (near, word.is_built() && word != Word::Cube) {
+        // `cube` is a function in a `julia_fractal`, and `size` a word of `facets`; elsewhere they are words
+        // of other tools.
+        } else if let (Some(near), false) =
+            (near, word.is_built() && !matches!(word, Word::Cube | Word::Size))
+        {
             Diagnostic::new(Code::ForeignWord, format!("`{name}` is not a word {}", place.name()))
                 .at(token.span, format!("did you mean `{near}`?"))
                 .help(format!("replace it with `{near}`"))

@@ -10,6 +10,28 @@ use super::super::{Evaluator, Reported};
 use super::opens_object;
 
 impl Evaluator<'_> {
+    /// Reports missing parentheses: `seed 99`.
+    pub(super) fn lacks_parentheses(&mut self, token: &Token, word: Word) -> Reported {
+        let name = word.name();
+        let message = format!("`{name}` takes its arguments in parentheses");
+        let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
+            .at(token.span, format!("expected `(` after `{name}`"));
+        let value = match self.peek() {
+            Some(&Token { kind: TokenKind::Expression(_), span, .. }) => Some(span),
+            _ => None,
+        };
+        let diagnostic = match value {
+            Some(value) => {
+                let right = format!("{name}({})", self.sources.text(value));
+                diagnostic.help(format!("write `{right}`")).fix(token.span.to(value), right)
+            }
+            None => diagnostic.help(word.sentence()),
+        };
+        let reported = self.report(&token.here, diagnostic);
+        self.skip_arguments(word);
+        reported
+    }
+
     /// Reports that `next` appears where `wanted`, which belongs to `after`, is expected.
     pub(super) fn missing(
         &mut self,

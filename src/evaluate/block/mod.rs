@@ -3,6 +3,7 @@
 //! **Invariant:** a mistake in a block costs only that block's object; the items after it are read as usual.
 
 mod bare_object;
+mod blend_map;
 mod blob;
 mod braces;
 mod camera;
@@ -17,6 +18,7 @@ mod foreign_keyword;
 mod foreign_value;
 mod height_field;
 mod ignored_keyword;
+mod image;
 mod interior;
 mod isosurface;
 mod item;
@@ -31,6 +33,7 @@ mod missing_keyword;
 mod misspelt;
 mod modifier;
 mod named;
+mod normal;
 mod object;
 mod outline;
 mod part;
@@ -64,12 +67,14 @@ use crate::source::Span;
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Dialect, Family, Role, Word};
 
+pub(in crate::evaluate) use self::image::Pictures;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};
+pub use blend_map::BlendMap;
+pub use color_map::WrittenMap;
 pub(in crate::evaluate) use object::Made;
 pub(in crate::evaluate) use part::Given;
-pub use pieces::WrittenMap;
 pub(in crate::evaluate) use place::Place;
 pub(in crate::evaluate) use text::Fonts;
 pub(in crate::evaluate) use unknown::Unknown;
@@ -237,10 +242,14 @@ impl Evaluator<'_> {
         match word {
             Word::Texture => self.texture(token).map(Value::Texture),
             Word::Pigment => self.pigment(token).map(Value::Pigment),
+            Word::Normal => self.normal(token).map(Value::Normal),
             Word::Finish => self.finish(token).map(Value::Finish),
             Word::Interior => self.interior(token).map(Value::Interior),
             Word::Material => self.material(token).map(Value::Material),
             Word::ColorMap => self.color_map(token),
+            Word::PigmentMap | Word::NormalMap | Word::SlopeMap | Word::TextureMap => {
+                self.map_value(token, word)
+            }
             Word::TransformWord => self.transform_block(token).map(Value::Transform),
             Word::Camera => self.camera(token),
             Word::Array => self.array(token),
@@ -274,28 +283,6 @@ impl Evaluator<'_> {
                 Err(reported)
             }
         }
-    }
-
-    /// Reports missing parentheses: `seed 99`.
-    fn lacks_parentheses(&mut self, token: &Token, word: Word) -> Reported {
-        let name = word.name();
-        let message = format!("`{name}` takes its arguments in parentheses");
-        let diagnostic = Diagnostic::new(Code::ExpectedExpression, message)
-            .at(token.span, format!("expected `(` after `{name}`"));
-        let value = match self.peek() {
-            Some(&Token { kind: TokenKind::Expression(_), span, .. }) => Some(span),
-            _ => None,
-        };
-        let diagnostic = match value {
-            Some(value) => {
-                let right = format!("{name}({})", self.sources.text(value));
-                diagnostic.help(format!("write `{right}`")).fix(token.span.to(value), right)
-            }
-            None => diagnostic.help(word.sentence()),
-        };
-        let reported = self.report(&token.here, diagnostic);
-        self.skip_arguments(word);
-        reported
     }
 
     /// Adds the fix that puts braces around the text from `from` to the item taken last: `pigment rgb 1`.

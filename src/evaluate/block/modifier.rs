@@ -1,7 +1,7 @@
 //! Object modifiers: transforms, textures, interior and flags, in source order.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{FinishId, Modifier, ModifierKind, ObjectId, ObjectKind};
+use crate::scene::{Modifier, ModifierKind, ObjectId};
 use crate::source::{Site, Span};
 use crate::vocabulary::{Dialect, Family, Word};
 
@@ -42,7 +42,13 @@ impl Evaluator<'_> {
         let mut within = false;
         let mut first: Option<Site> = None;
         let mut late: Option<Late> = None;
+        let mut mapped = false;
         while let Some(token) = self.next() {
+            if let TokenKind::Word(Word::UvMapping) = token.kind {
+                mapped = true;
+                continue;
+            }
+            let set_before = modifiers.len();
             let before = self.poison;
             if let TokenKind::Word(item) = token.kind
                 && let Some(first) = first
@@ -117,6 +123,22 @@ impl Evaluator<'_> {
                     }
                 },
             }
+            if mapped {
+                for modifier in &mut modifiers[set_before..] {
+                    if let ModifierKind::Texture(texture) = &mut modifier.kind {
+                        *texture = self.mapped(*texture);
+                    }
+                }
+            }
+        }
+        let is_lining = |it: &&Modifier| matches!(it.kind, ModifierKind::InteriorTexture(_));
+        if !textured && let Some(&Modifier { site, .. }) = modifiers.iter().find(is_lining) {
+            let message = "`interior_texture` needs a `texture` beside it";
+            let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                .at(site.span, "the texture seen from inside")
+                .help("write the texture seen from outside, too: `texture { … }`");
+            failed = true;
+            self.report_in(site.expansion, diagnostic);
         }
         if let Some(Late { token, diagnostic, others }) = late {
             let diagnostic = match others {
@@ -190,33 +212,8 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    /// Returns the finish from which another one after these modifiers starts, as in POV-Ray (measured).
-    fn finish_of(&self, modifiers: &[Modifier], used: Option<ObjectId>) -> FinishId {
-        let (mut modifiers, mut used) = (modifiers, used);
-        loop {
-            let last = modifiers.iter().rev().find_map(|modifier| match modifier.kind {
-                ModifierKind::Finish(finish) => Some(finish),
-                ModifierKind::Texture(id) => Some(self.scene.textures[id.index()].finish),
-                _ => None,
-            });
-            match (last, used.map(|used| &self.scene.objects[used.index()])) {
-                (Some(finish), _) => return finish,
-                (None, None) => {
-                    return self.scene.textures[self.default_texture.index()].finish;
-                }
-                (None, Some(object)) => {
-                    modifiers = &object.modifiers;
-                    used = match object.kind {
-                        ObjectKind::Use(used) => Some(used),
-                        _ => None,
-                    };
-                }
-            }
-        }
-    }
-
     /// Reads one modifier; returns `None` if the token is not one, `Some(Ok(None))` if it has no effect.
-    fn modifier(
+    pub(super) fn modifier(
         &mut self,
         token: &Token,
         used: Option<ObjectId>,
@@ -242,6 +239,9 @@ impl Evaluator<'_> {
                 *textured = true;
                 Some(ModifierKind::Texture(texture))
             }),
+            Word::InteriorTexture => self
+                .layers_of(word, token)
+                .map(|texture| Some(ModifierKind::InteriorTexture(texture))),
             Word::Interior => {
                 self.interior(token).map(|interior| Some(ModifierKind::Interior(interior)))
             }
@@ -249,6 +249,7 @@ impl Evaluator<'_> {
                 *textured |= material.texture.is_some();
                 let parts = [
                     material.texture.map(ModifierKind::Texture),
+                    material.interior_texture.map(ModifierKind::InteriorTexture),
                     material.interior.map(ModifierKind::Interior),
                 ];
                 modifiers.extend(parts.into_iter().flatten().map(|kind| Modifier { kind, site }));
@@ -256,7 +257,13 @@ impl Evaluator<'_> {
             }),
             Word::Pigment => {
                 start_texture(self, modifiers, textured);
-                self.pigment(token).map(|pigment| Some(ModifierKind::Pigment(pigment)))
+                let start = self.pigment_of(modifiers, used);
+                self.pigment_from(token, start).map(|pigment| Some(ModifierKind::Pigment(pigment)))
+            }
+            Word::Normal => {
+                start_texture(self, modifiers, textured);
+                let start = self.normal_of(modifiers, used);
+                self.normal_from(token, start).map(|normal| Some(ModifierKind::Normal(normal)))
             }
             Word::Finish => {
                 start_texture(self, modifiers, textured);

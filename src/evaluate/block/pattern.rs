@@ -1,43 +1,405 @@
-//! `pattern { … }`: a pattern alone, as used in a function.
+//! Patterns: their words, parameters and modifiers, as pigments, normals, textures and functions share them.
+//!
+//! **In:** the items of a block in which a pattern is chosen. **Out:** the pattern, its parameters by the table
+//! that it declares, its modifiers, and what moves it.
 
-use crate::color::Color;
+use std::sync::Arc;
+
 use crate::diagnostic::{Code, Diagnostic};
-use crate::pattern::Pattern;
-use crate::scene::{ColorMap, Pigment, PigmentId, PigmentKind};
+use crate::noise::{NoiseGenerator, Turbulence};
+use crate::pattern::{Argument, Kind, Parameter, Warp, WaveKind};
+use crate::scene::texture::{Layers, Modifiers};
+use crate::scene::{ColorMap, Colors, Pattern, Pigment, PigmentId, PigmentKind, Source, Step};
+use crate::source::Site;
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
+use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 
+mod source;
+
+/// A pattern during reading.
+#[derive(Debug, Clone)]
+pub(super) struct OpenPattern {
+    /// The pattern that was chosen in this block, with its site.
+    pub chosen: Option<(Source, Site)>,
+    /// The pattern of the declared value that the block began with.
+    pub inherited: Option<Pattern>,
+    pub modifiers: Modifiers,
+    pub steps: Vec<Step>,
+    /// The number of steps that the declared value began with.
+    pub inherited_steps: usize,
+}
+
+impl OpenPattern {
+    /// Begins without a pattern.
+    pub fn new(noise: NoiseGenerator, waves: usize) -> Self {
+        let mut modifiers = Modifiers::default();
+        (modifiers.setting.noise, modifiers.setting.waves) = (noise, waves);
+        let (chosen, inherited, steps) = (None, None, Vec::new());
+        Self { chosen, inherited, modifiers, steps, inherited_steps: 0 }
+    }
+
+    /// Returns the pattern of a normal that names none.
+    pub fn flat(site: Site) -> Pattern {
+        Pattern { source: Source::Average, site, modifiers: Modifiers::default() }
+    }
+
+    /// Goes on from a declared pattern, if there is one, and from what moved it.
+    pub fn inherit(&mut self, pattern: Option<&Pattern>, steps: &[Step]) {
+        self.chosen = None;
+        if let Some(pattern) = pattern {
+            let uv_mapping = self.modifiers.uv_mapping || pattern.modifiers.uv_mapping;
+            self.modifiers = Modifiers { uv_mapping, ..pattern.modifiers };
+        }
+        self.inherited = pattern.cloned();
+        self.steps = steps.to_vec();
+        self.inherited_steps = steps.len();
+    }
+
+    /// Chooses a pattern. Its word sets what it has by itself, over what was written before: the wave of `wood`
+    /// and the like, and the frequency 0 of lists and pictures. Those of another pattern before it stay
+    /// (measured on POV-Ray 3.7).
+    pub fn choose(&mut self, source: Source, site: Site) {
+        let before = match &self.chosen {
+            Some((source, _)) => Some(source),
+            None => self.inherited.as_ref().map(|pattern| &pattern.source),
+        };
+        let (wave, frequency) = before.map_or((None, None), Source::own_wave);
+        let modifiers = &mut self.modifiers;
+        modifiers.wave = modifiers.wave.or(wave);
+        modifiers.frequency = modifiers.frequency.or(frequency);
+        let (wave, frequency) = source.own_wave();
+        modifiers.wave = modifiers.wave.filter(|_| wave.is_none());
+        modifiers.frequency = modifiers.frequency.filter(|_| frequency.is_none());
+        self.chosen = Some((source, site));
+    }
+
+    /// Returns the pattern that was chosen, or the inherited one, with all modifiers.
+    pub fn close(&self) -> Option<Pattern> {
+        let modifiers = self.modifiers;
+        if let Some((source, site)) = &self.chosen {
+            return Some(Pattern { source: source.clone(), site: *site, modifiers });
+        }
+        self.inherited.clone().map(|pattern| Pattern { modifiers, ..pattern })
+    }
+
+    fn kind(&mut self) -> Option<&mut Kind> {
+        let source = match &mut self.chosen {
+            Some((source, _)) => source,
+            None => &mut self.inherited.as_mut()?.source,
+        };
+        match source {
+            Source::Kind(kind) => Some(kind),
+            _ => None,
+        }
+    }
+}
+
+/// Returns the wave of a word, with the exponent of `poly_wave`.
+fn wave_of(word: Word) -> Option<WaveKind> {
+    Some(match word {
+        Word::RampWave => WaveKind::Ramp,
+        Word::TriangleWave => WaveKind::Triangle,
+        Word::SineWave => WaveKind::Sine,
+        Word::ScallopWave => WaveKind::Scallop,
+        Word::CubicWave => WaveKind::Cubic,
+        Word::PolyWave => WaveKind::Poly(2.0),
+        _ => return None,
+    })
+}
+
+/// Returns the pattern that a word names by itself.
+pub(super) fn kind_of(word: Word) -> Option<Kind> {
+    Kind::of_word(word.name())
+}
+
 impl Evaluator<'_> {
+    /// Reads an item that moves or modifies a pattern, or sets one of its parameters; `None` for other items.
+    pub(super) fn pattern_item(
+        &mut self,
+        token: &Token,
+        open: &mut OpenPattern,
+    ) -> Option<Outcome<()>> {
+        if let Some(transform) = self.transform_from(token) {
+            return Some(transform.map(|id| open.steps.push(Step::Transform(id))));
+        }
+        let TokenKind::Word(word) = token.kind else { return None };
+        if !word.is_built() {
+            return None;
+        }
+        if let Some(kind) = wave_of(word) {
+            return Some(self.wave_after(token, kind).map(|kind| open.modifiers.wave = Some(kind)));
+        }
+        let modifiers = &mut open.modifiers;
+        Some(match word {
+            Word::Frequency => {
+                self.number_after(token, "a number").map(|n| modifiers.frequency = Some(n.value))
+            }
+            Word::Phase => {
+                self.number_after(token, "a number").map(|n| modifiers.phase = Some(n.value))
+            }
+            Word::Turbulence => self
+                .vector_after(token, "a number or a vector")
+                .map(|v| modifiers.turbulence = Some(v.value)),
+            Word::Octaves | Word::Lambda | Word::Omega => {
+                self.number_after(token, "a number").map(|given| {
+                    let layers = &mut modifiers.layers;
+                    match word {
+                        Word::Octaves => layers.octaves = given.value,
+                        Word::Lambda => layers.lambda = given.value,
+                        _ => layers.omega = given.value,
+                    }
+                    let Layers { octaves, lambda, omega } = *layers;
+                    modifiers.setting.turbulence = Turbulence::new(lambda, omega, octaves);
+                })
+            }
+            Word::NoiseGenerator => self
+                .noise_generator_after(token)
+                .map(|generator| modifiers.setting.noise = generator),
+            Word::Interpolate => return self.interpolation(token, open),
+            Word::UvMapping => {
+                modifiers.uv_mapping = true;
+                Ok(())
+            }
+            Word::Warp => self.warp(token).map(|warp| open.steps.push(Step::Warp(warp))),
+            _ => return self.pattern_parameter(token, word, open),
+        })
+    }
+
+    /// Reads the exponent of `poly_wave`, which may be missing.
+    fn wave_after(&mut self, token: &Token, kind: WaveKind) -> Outcome<WaveKind> {
+        match kind {
+            WaveKind::Poly(_) if self.is_before_value() => {
+                Ok(WaveKind::Poly(self.number_after(token, "an exponent")?.value))
+            }
+            kind => Ok(kind),
+        }
+    }
+
+    /// Reads `warp { … }`: the word of a warp, the values after it, and its items.
+    fn warp(&mut self, token: &Token) -> Outcome<Warp> {
+        let opener = token.clone();
+        self.block(token, Word::Warp, |evaluator| {
+            let mut warp: Option<Warp> = None;
+            while let Some(token) = evaluator.next() {
+                if matches!(token.kind, TokenKind::Comma) {
+                    continue;
+                }
+                let TokenKind::Word(word) = token.kind else {
+                    evaluator.unexpected(&token, Place::WARP);
+                    return Err(Reported);
+                };
+                let parameters = warp.as_ref().map_or(&[][..], |warp| warp.parameters());
+                let place = parameters.iter().position(|one| one.word == Some(word.name()));
+                if let (Some(place), Some(warp)) = (place, &mut warp) {
+                    let Parameter { what, default, .. } = parameters[place];
+                    let argument = match default {
+                        Argument::Switch(_) => Argument::Switch(true),
+                        _ => evaluator.pattern_argument(&token, what, default)?,
+                    };
+                    warp.set(place, argument);
+                    continue;
+                }
+                let Some(mut chosen) = Warp::of_word(word.name()).filter(|_| warp.is_none()) else {
+                    evaluator.unexpected(&token, Place::WARP);
+                    return Err(Reported);
+                };
+                for (place, parameter) in chosen.parameters().iter().enumerate() {
+                    if parameter.word.is_none() {
+                        let Parameter { what, default, .. } = *parameter;
+                        let is_optional = matches!(word, Word::Planar);
+                        if is_optional && !evaluator.is_before_value() {
+                            break;
+                        }
+                        let argument = evaluator.pattern_argument(&token, what, default)?;
+                        chosen.set(place, argument);
+                    }
+                }
+                warp = Some(chosen);
+            }
+            let Some(warp) = warp else {
+                let diagnostic = Diagnostic::new(Code::MissingPart, "this `warp` names none")
+                    .at(opener.span, "expected its kind, such as `turbulence 0.5`");
+                return Err(evaluator.report(&opener.here, diagnostic));
+            };
+            Ok(warp)
+        })
+    }
+
+    /// Reads a parameter of the chosen pattern, by the word before it.
+    fn pattern_parameter(
+        &mut self,
+        token: &Token,
+        word: Word,
+        open: &mut OpenPattern,
+    ) -> Option<Outcome<()>> {
+        let kind = open.kind()?;
+        let parameters = kind.parameters();
+        let place = parameters.iter().position(|parameter| parameter.word == Some(word.name()))?;
+        let parameter = parameters[place];
+        let argument = self.pattern_argument(token, parameter.what, parameter.default);
+        Some(argument.map(|argument| kind.set(place, argument)))
+    }
+
+    fn pattern_argument(
+        &mut self,
+        token: &Token,
+        what: &str,
+        default: Argument,
+    ) -> Outcome<Argument> {
+        Ok(match default {
+            Argument::Number(_) => {
+                let given = self.number_after(token, what)?;
+                if let TokenKind::Word(word) = token.kind {
+                    self.within_bounds(&given, word);
+                }
+                Argument::Number(given.value)
+            }
+            Argument::Vector(_) => Argument::Vector(self.vector_after(token, what)?.value),
+            Argument::Numbers(_) => {
+                let first = self.number_after(token, what)?.value;
+                Argument::Numbers([first, self.number_after(token, what)?.value])
+            }
+            Argument::Switch(_) => Argument::Switch(match self.peek().map(|next| &next.kind) {
+                Some(TokenKind::Expression(_) | TokenKind::Literal(_)) => {
+                    self.number_after(token, what)?.value != 0.0
+                }
+                _ => true,
+            }),
+        })
+    }
+
+    /// Reads the pattern that a word begins, with the values after it; `None` for other words. What a list
+    /// holds is read by the caller.
+    pub(super) fn pattern_source(&mut self, token: &Token, word: Word) -> Option<Outcome<Source>> {
+        if !word.is_built() {
+            return None;
+        }
+        if let Some(kind) = kind_of(word) {
+            return Some(self.kind_after(token, kind).map(Source::Kind));
+        }
+        match word {
+            Word::Magnet => Some(self.magnet(token)),
+            Word::Average => Some(Ok(Source::Average)),
+            Word::ImagePattern => {
+                Some(self.image(token, word).map(|placed| Source::Image(Arc::new(placed.image))))
+            }
+            Word::Slope => Some(self.slope(token)),
+            Word::Aoi => Some(Ok(Source::Aoi)),
+            Word::DensityFile => Some(self.density_file(token)),
+            Word::Object => {
+                Some(self.object_pattern(token, |_, _| Ok(())).map(|(source, ())| source))
+            }
+            Word::PigmentPattern => Some(self.pigment(token).map(Source::Pigment)),
+            Word::Function => Some(self.function_pattern(token)),
+            _ => None,
+        }
+    }
+
+    /// Reads `magnet 1 mandel 50` and the like, after its first word.
+    fn magnet(&mut self, token: &Token) -> Outcome<Source> {
+        let given = self.number_after(token, "1 or 2")?;
+        let next = self.peek().cloned();
+        let kind = match next.as_ref().map(|next| &next.kind) {
+            Some(TokenKind::Word(Word::Mandel)) => Kind::of_word("magnet_mandel"),
+            Some(TokenKind::Word(Word::Julia)) => Kind::of_word("magnet_julia"),
+            _ => {
+                let at = (&token.here, given.span.after());
+                return Err(self.expected("`mandel` or `julia`", next.as_ref(), at));
+            }
+        };
+        let (Some(mut kind), Some(next)) = (kind, self.next()) else { return Err(Reported) };
+        kind.set(0, Argument::Number(given.value));
+        self.values_after(&next, kind, 1).map(Source::Kind)
+    }
+
+    /// Reads the values that follow the word of a pattern.
+    fn kind_after(&mut self, token: &Token, kind: Kind) -> Outcome<Kind> {
+        self.values_after(token, kind, 0)
+    }
+
+    /// Reads the values that follow the word of a pattern, from one parameter on.
+    fn values_after(&mut self, token: &Token, mut kind: Kind, first: usize) -> Outcome<Kind> {
+        for (place, parameter) in kind.parameters().iter().enumerate().skip(first) {
+            if parameter.word.is_some() {
+                continue;
+            }
+            let argument = match parameter.default {
+                Argument::Vector(_) if matches!(kind, Kind::Gradient(_)) => {
+                    Argument::Vector(self.any_direction_after(token, parameter.what)?.value)
+                }
+                default => self.pattern_argument(token, parameter.what, default)?,
+            };
+            kind.set(place, argument);
+        }
+        Ok(kind)
+    }
+
+    /// Reads `function { … }` as a pattern.
+    fn function_pattern(&mut self, token: &Token) -> Outcome<Source> {
+        let id = match self.function(token)? {
+            Value::Function(id) => id,
+            Value::Poison(poison) => {
+                self.set_poison(poison);
+                return Err(Reported);
+            }
+            _ => return Err(Reported),
+        };
+        match self.closed(id) {
+            Some(function) => Ok(Source::Function(Arc::new(function))),
+            None => {
+                let diagnostic = Diagnostic::new(
+                    Code::WrongType,
+                    "the function of a pattern gives a number, and this one does not",
+                )
+                .at(token.span, "expected a function whose value is a number");
+                Err(self.report(&token.here, diagnostic))
+            }
+        }
+    }
+
+    /// Reads the number of a noise generator.
+    fn noise_generator_after(&mut self, token: &Token) -> Outcome<NoiseGenerator> {
+        let given = self.number_after(token, "1, 2 or 3")?;
+        match given.value as i64 {
+            1 => Ok(NoiseGenerator::Plateaus),
+            2 => Ok(NoiseGenerator::RangeCorrected),
+            3 => Ok(NoiseGenerator::Perlin),
+            _ => {
+                self.out_of_range(&given, Word::NoiseGenerator, "1, 2 or 3");
+                Err(Reported)
+            }
+        }
+    }
+
     /// Reads `pattern { … }`, after its keyword, as a pigment whose red is the pattern's value.
     pub(in crate::evaluate) fn pattern_block(&mut self, token: &Token) -> Outcome<PigmentId> {
-        let (mut found, mut transforms) = (None, Vec::new());
+        let mut open = OpenPattern::new(self.noise, self.waves);
         let told = self.reports;
         self.block(token, Word::Pattern, |evaluator| {
             while let Some(token) = evaluator.next() {
-                if let Some(transform) = evaluator.transform_from(&token) {
-                    transforms.push(transform?);
+                if let Some(read) = evaluator.pattern_item(&token, &mut open) {
+                    read?;
                     continue;
                 }
-                match token.kind {
-                    TokenKind::Word(Word::Checker) => found = Some(Pattern::Checker),
-                    TokenKind::Word(Word::Gradient) => {
-                        let given =
-                            evaluator.any_direction_after(&token, "the gradient's direction")?;
-                        found = Some(Pattern::Gradient { direction: given.value });
-                    }
-                    _ => match evaluator.inert(&token, Place::PATTERN) {
-                        Some(outcome) => outcome?,
-                        None => evaluator.unexpected(&token, Place::PATTERN),
-                    },
+                if let TokenKind::Word(word) = token.kind
+                    && let Some(source) = evaluator.pattern_source(&token, word)
+                {
+                    open.choose(source?, evaluator.whole(&token));
+                    continue;
+                }
+                match evaluator.inert(&token, Place::PATTERN) {
+                    Some(outcome) => outcome?,
+                    None => evaluator.unexpected(&token, Place::PATTERN),
                 }
             }
             Ok(())
         })?;
         let site = token.here.site(token.span);
-        let Some(pattern) = found else {
+        let Some(pattern) = open.close() else {
             if self.poison.is_some() || self.reports > told {
                 return Err(Reported);
             }
@@ -45,8 +407,17 @@ impl Evaluator<'_> {
                 .at(site.span, "expected a pattern, as `gradient x`");
             return Err(self.report(&token.here, diagnostic));
         };
-        let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
-        let kind = PigmentKind::Patterned { pattern, map };
-        Ok(self.add_pigment(Pigment { kind, transforms, site, clear: vec![], pattern: vec![] }))
+        // Its values are numbers, also those of a list.
+        let last = pattern.source.list().map_or(1, |count| count - 1) as f64;
+        let gray = |value: f64| crate::color::Color::opaque(crate::color::Rgb::gray(value));
+        let map = ColorMap(vec![(0.0, gray(0.0)), (last, gray(last))]);
+        let kind = PigmentKind::Patterned { pattern: Box::new(pattern), colors: Colors::Map(map) };
+        Ok(self.add_pigment(Pigment {
+            kind,
+            steps: open.steps,
+            site,
+            clear: None,
+            has_own_colors: false,
+        }))
     }
 }

@@ -1,10 +1,7 @@
-//! Removable pieces of a colour or a map: the smallest parts of the text whose removal cancels an effect.
-
-use std::collections::HashSet;
+//! Removable pieces of a colour: the smallest parts of the text whose removal cancels an effect.
 
 use crate::color::Color;
-use crate::scene::ColorMap;
-use crate::source::{Site, Span};
+use crate::source::Site;
 use crate::vocabulary::Word;
 
 /// Maximum number of components after a colour whose combinations are tried; with more, the whole colour is
@@ -78,11 +75,6 @@ impl WrittenColor {
         let gone = components.filter(|(i, _)| found >> (i + 1) & 1 == 1);
         Some(base.chain(gone.map(|(_, (.., piece))| *piece)).collect())
     }
-
-    /// As [`Self::without`], for an opaque colour.
-    pub fn without_clear(&self) -> Option<Vec<Site>> {
-        self.without(|color| !color.is_clear())
-    }
 }
 
 /// Returns the pieces whose removal makes two colours in one block black; the second may be missing. Returns
@@ -99,95 +91,10 @@ pub(super) fn without_light(both: [(&WrittenColor, Site); 2]) -> Option<Vec<Site
     }
 }
 
-/// A `color_map` and its removable pieces.
-#[derive(Debug, Clone, PartialEq)]
-pub struct WrittenMap {
-    pub map: ColorMap,
-    /// The pieces whose removal leaves no transparent colour; `None` if only removing the whole map is
-    /// enough.
-    pub clear: Option<Vec<Site>>,
-    /// The pieces whose removal leaves a single colour, likewise.
-    pub pattern: Option<Vec<Site>>,
-}
-
-/// A part of a `color_map`: an entry, or the name of another map.
-pub(super) struct Part {
-    pub item: Site,
-    pub colors: Vec<WrittenColor>,
-    /// In the old `[from, to color a color b]`, the piece `to color a`, whose removal leaves `[from color
-    /// b]`.
-    pub first: Option<Site>,
-    /// For a name, its [`WrittenMap::clear`] and [`WrittenMap::pattern`].
-    named: Option<[Option<Vec<Site>>; 2]>,
-}
-
-impl Part {
-    pub fn entry(item: Site, colors: Vec<WrittenColor>, first: Option<Site>) -> Self {
-        Self { item, colors, first, named: None }
-    }
-
-    pub fn name(item: Site, map: &WrittenMap) -> Self {
-        let colors = map.map.0.iter().map(|(_, color)| WrittenColor::new(*color, None)).collect();
-        Self { item, colors, first: None, named: Some([map.clear.clone(), map.pattern.clone()]) }
-    }
-
-    /// Returns the pieces whose removal makes each of its colours satisfy `suits`; `None` if only removing
-    /// the whole part is enough.
-    fn without(&self, suits: impl Fn(Color) -> bool) -> Option<Vec<Site>> {
-        let pieces = self.colors.iter().enumerate().map(|(i, color)| {
-            let first = self.first.filter(|_| i == 0).map(|first| vec![first]);
-            color.without(&suits).or(first)
-        });
-        let pieces: Option<Vec<_>> = pieces.collect();
-        pieces.map(|pieces| pieces.concat())
-    }
-}
-
-/// Returns the pieces whose removal leaves a map of these parts without transparent colours.
-pub(super) fn without_clear(parts: &[Part]) -> Option<Vec<Site>> {
-    pieces(parts, |part| match &part.named {
-        Some([clear, _]) => clear.clone(),
-        None => part.without(|color| !color.is_clear()),
-    })
-}
-
-/// Returns the pieces whose removal leaves a map of these parts with a single colour.
-pub(super) fn without_pattern(parts: &[Part]) -> Option<Vec<Site>> {
-    if let [Part { named: Some([_, pattern]), .. }] = parts {
-        return pattern.clone();
-    }
-    // One entry remains, the first or else the last.
-    let mut entries = parts.iter().filter(|part| part.named.is_none());
-    let (first, last) = (entries.next(), entries.next_back());
-    first.into_iter().chain(last).find_map(|staying| {
-        let color = staying.colors.first()?.color();
-        pieces(parts, |part| part.without(|other| other == color))
-    })
-}
-
-/// Returns the pieces of each part, or the whole part; `None` if nothing would remain of the map.
-fn pieces(parts: &[Part], of: impl Fn(&Part) -> Option<Vec<Site>>) -> Option<Vec<Site>> {
-    let mut all: Vec<Site> = Vec::new();
-    // A loop may visit one entry repeatedly; the removal applies to all turns.
-    let mut gone: HashSet<Span> = HashSet::new();
-    for part in parts {
-        match of(part) {
-            Some(pieces) => all.extend(pieces),
-            None => {
-                gone.insert(part.item.span);
-                all.push(part.item);
-            }
-        }
-    }
-    let mut listed: HashSet<Span> = HashSet::new();
-    all.retain(|piece| listed.insert(piece.span));
-    parts.iter().any(|part| !gone.contains(&part.item.span)).then_some(all)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::{ExpansionId, FileId};
+    use crate::source::{ExpansionId, FileId, Span};
 
     fn site(at: usize) -> Site {
         Site { span: Span::new(FileId(0), at, at + 1), expansion: ExpansionId::MAIN }
@@ -215,19 +122,5 @@ mod tests {
         assert_eq!(color.without(opaque), None);
         color.set(Word::Transmit, 0.0, site(2));
         assert_eq!(color.without(opaque), Some(vec![]));
-    }
-
-    #[test]
-    fn one_entry_of_a_map_stays_and_a_loop_takes_all_of_its_turns() {
-        let color = |transmit| WrittenColor::new(Color { transmit, ..Color::WHITE }, None);
-        let entry = |at, transmit| Part::entry(site(at), vec![color(transmit)], None);
-        let map = [entry(1, 0.5), entry(2, 0.0), entry(3, 1.0), entry(4, 0.0)];
-        assert_eq!(without_clear(&map), Some(vec![site(1), site(3)]));
-        assert_eq!(without_pattern(&map), Some(vec![site(2), site(3), site(4)]));
-        let turns = [entry(1, 0.0), entry(1, 0.5), entry(1, 1.0)];
-        assert_eq!((without_clear(&turns), without_pattern(&turns)), (None, None));
-        let beside = [entry(1, 0.0), entry(1, 0.5), entry(2, 1.0)];
-        assert_eq!(without_clear(&beside[..2]), None);
-        assert_eq!(without_pattern(&beside), Some(vec![site(1)]));
     }
 }

@@ -1,61 +1,45 @@
 //! `pigment`: one colour, or a pattern with its colours.
 
+mod list;
+mod map;
 mod open;
 mod second;
 
 use std::sync::Arc;
 
-use crate::color::{Color, Rgb};
+use crate::color::Color;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::pattern::Pattern;
-use crate::scene::{ColorMap, Pigment, PigmentId, PigmentKind};
+use crate::scene::{Colors, Pigment, PigmentId, PigmentKind, Source};
 use crate::source::Site;
 use crate::source::Span;
 use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::stream::{Token, TokenKind};
-use super::super::value::{Poison, Value};
+use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
-use super::finish::list_once;
-use super::pieces::{WrittenColor, WrittenMap};
 use super::{Given, Place};
 pub(super) use open::OpenPigment;
 use second::First;
 pub(super) use second::colors_of;
 
-/// What a block has specified: its last pattern, with the items that gave the pigment an earlier one, and its
-/// last map.
+/// What a block has specified besides its pattern.
 #[derive(Default)]
 struct Written {
-    pattern: Option<(Site, Vec<Site>)>,
-    map: Option<(Arc<WrittenMap>, Token, Site)>,
+    /// The colours of its last map, or of a list.
+    colors: Option<(Colors, Token)>,
+    /// They are of a map.
+    is_map: bool,
+    /// The first colour of the map or list that lets light through.
+    clear: Option<Site>,
     first: Option<First>,
     /// Whether it began as a declared pigment.
     named: bool,
 }
 
-/// Returns the items that gave a pigment its pattern, if that has more than one colour.
-fn called_pattern(pigment: &mut Pigment) -> Vec<Site> {
-    match &pigment.kind {
-        PigmentKind::Patterned { map, .. } if map.lone_color().is_none() => {
-            std::mem::take(&mut pigment.pattern)
-        }
-        PigmentKind::Patterned { .. } | PigmentKind::Color(_) | PigmentKind::Faces(_) => Vec::new(),
-    }
-}
-
-/// The colours of `checker`, the items that make them transparent, and the pieces whose removal leaves one
-/// colour, if not the whole.
-struct Pair {
-    colors: [Color; 2],
-    clear: Vec<Site>,
-    pattern: Option<Vec<Site>>,
-}
-
 impl Evaluator<'_> {
     /// Reads `pigment { [Name] … }`, starting from the default texture's pigment.
     pub(super) fn pigment(&mut self, token: &Token) -> Outcome<PigmentId> {
-        let start = self.scene.textures[self.default_texture.index()].pigment;
+        let start = self.scene.textures[self.default_texture.index()].kind.first_pigment();
         self.pigment_from(token, start)
     }
 
@@ -69,35 +53,32 @@ impl Evaluator<'_> {
         })
     }
 
-    /// Applies the colours of a map to the pigment's pattern. `is_new`: it had no other colours.
-    fn paint(
-        &mut self,
-        pigment: &mut Pigment,
-        given: ColorMap,
-        token: &Token,
-        is_new: bool,
-    ) -> Outcome<()> {
-        match &mut pigment.kind {
-            PigmentKind::Patterned { pattern: Pattern::Checker, .. } => {
-                let message = "`checker` takes two colours, and no `color_map`";
+    /// Reports a map whose pattern takes a list of colours, or that has no pattern. `is_new`: the pigment had
+    /// no other colours.
+    fn judge_map(&mut self, source: Option<&Source>, token: &Token, is_new: bool) -> Outcome<()> {
+        let map = self.sources.text(token.span).to_owned();
+        match source {
+            Some(list) if list.list().is_some() => {
+                let name = list.word();
+                let count = list.list().unwrap_or_default();
+                let message = format!("`{name}` takes {} colours, and no `{map}`", number(count));
+                let values = match count {
+                    2 => "its values are two, with nothing between them".to_owned(),
+                    _ => format!("its values are {count}, with nothing between them"),
+                };
                 let diagnostic = Diagnostic::new(Code::ExtraPart, message)
-                    .at(token.span, "its values are two, with nothing between them")
-                    .help("write the colours behind it: `checker rgb 0, rgb 1`");
+                    .at(token.span, values)
+                    .help(format!("write the colours behind it: `{name} rgb 0, rgb 1`"));
                 Err(self.report(&token.here, diagnostic))
             }
-            PigmentKind::Patterned { map, .. } => {
-                *map = given;
-                Ok(())
-            }
+            Some(_) => Ok(()),
             // The pattern is unsupported.
-            PigmentKind::Color(_) | PigmentKind::Faces(_) if self.poison.is_some() => Ok(()),
-            PigmentKind::Color(_) | PigmentKind::Faces(_) => {
-                let diagnostic = Diagnostic::new(
-                    Code::MissingPart,
-                    "a `color_map` needs a pattern in its pigment",
-                )
-                .at(token.span, "colours over the values of which pattern?")
-                .help("name one: `gradient y color_map { … }`");
+            None if self.poison.is_some() => Ok(()),
+            None => {
+                let message = format!("a `{map}` needs a pattern in its pigment");
+                let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                    .at(token.span, "colours over the values of which pattern?")
+                    .help(format!("name one: `gradient y {map} {{ … }}`"));
                 match is_new {
                     // It stays black in POV-Ray 3.7, which refuses the map over any other colour (measured).
                     true => self.opinion(&token.here, diagnostic),
@@ -107,123 +88,87 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Records the pieces that cause an effect in a pigment with the map `given`, whose site is `item`.
-    fn note_map(
-        &self,
-        pigment: &mut Pigment,
-        given: &WrittenMap,
-        item: Site,
-        pattern: Option<(Site, Vec<Site>)>,
-    ) {
-        match &given.clear {
-            Some(pieces) => pigment.clear.clone_from(pieces),
-            // The pattern's own colours become visible again.
-            None => list_once(&mut pigment.clear, item),
-        }
-        match (&given.pattern, pattern) {
-            (Some(pieces), _) if !pieces.is_empty() => pigment.pattern.clone_from(pieces),
-            // Without its pattern the map would be a mistake.
-            (_, Some((pattern, before))) => {
-                pigment.pattern = before;
-                list_once(&mut pigment.pattern, self.joined(pattern, item));
-            }
-            (_, None) => {
-                pigment.pattern = called_pattern(pigment);
-                list_once(&mut pigment.pattern, item);
-            }
-        }
-    }
-
     /// Sets the pigment to one colour, by the item that `token` began.
-    fn color_of(&self, pigment: &mut Pigment, color: &WrittenColor, token: &Token) {
-        pigment.kind = PigmentKind::Color(color.color());
-        pigment.pattern.clear();
-        match color.without_clear() {
-            Some(pieces) => pigment.clear = pieces,
-            None => list_once(&mut pigment.clear, self.whole(token)),
-        }
-    }
-
-    /// Sets the pigment's pattern, by the item that `token` began; `pieces` of it suffice as the cause.
-    fn pattern_of(
-        &self,
-        pigment: &mut Pigment,
-        written: &mut Written,
-        token: &Token,
-        pieces: Option<Vec<Site>>,
-    ) {
-        let before = called_pattern(pigment);
-        let item = self.whole(token);
-        match pieces {
-            Some(pieces) => pigment.pattern = pieces,
-            None => {
-                pigment.pattern.clone_from(&before);
-                list_once(&mut pigment.pattern, item);
-            }
-        }
-        written.pattern = Some((item, before));
+    fn color_of(&self, open: &mut OpenPigment, color: Color, token: &Token) {
+        open.pigment.kind = PigmentKind::Color(color);
+        open.pigment.clear = color.is_clear().then(|| self.whole(token));
+        open.pattern.inherited = None;
     }
 
     pub(super) fn add_pigment(&mut self, pigment: Pigment) -> PigmentId {
         let map = match &pigment.kind {
-            PigmentKind::Patterned { map, .. } => size_of_val(&map.0[..]),
+            PigmentKind::Patterned { colors: Colors::Map(map), .. } => size_of_val(&map.0[..]),
+            PigmentKind::Patterned { colors: Colors::Pigments(all), .. } => size_of_val(&all[..]),
+            PigmentKind::Patterned { colors: Colors::Image, .. } => 0,
             PigmentKind::Color(_) => 0,
             PigmentKind::Faces(colors) => size_of_val(&colors[..]),
         };
-        let lists =
-            map + 2 * size_of_val(&pigment.transforms[..]) + size_of_val(&pigment.pattern[..]);
+        let lists = map + 2 * size_of_val(&pigment.steps[..]);
         self.stored += (size_of::<Pigment>() + lists) as u64;
         self.scene.pigments.push(pigment);
         PigmentId(self.scene.pigments.len() as u32 - 1)
     }
 
-    fn pigment_item(
-        &mut self,
-        token: &Token,
-        pigment: &mut Pigment,
-        written: &mut Written,
-    ) -> Outcome<()> {
-        if let Some(transform) = self.transform_from(token) {
-            pigment.transforms.push(transform?);
+    fn pigment_item(&mut self, token: &Token, open: &mut OpenPigment) -> Outcome<()> {
+        if let Some(read) = self.pattern_item(token, &mut open.pattern) {
+            return read;
+        }
+        if let TokenKind::Word(Word::Object) = token.kind {
+            let (source, (colors, clear)) = self.object_pattern(token, |evaluator, source| {
+                evaluator.list_of_colors(token, source, 2)
+            })?;
+            self.alone_in_pigment(token, Some(Word::Object), &mut open.written)?;
+            open.written.colors = Some((colors, token.clone()));
+            open.written.clear = clear;
+            open.pattern.choose(source, self.whole(token));
+            return Ok(());
+        }
+        if let TokenKind::Word(word) = token.kind
+            && word.family() != Family::Color
+            && let Some(source) = self.pattern_source(token, word)
+        {
+            let source = source?;
+            let site = self.whole(token);
+            let list = match source.list() {
+                Some(count) => Some(self.list_of_colors(token, &source, count)?),
+                None => None,
+            };
+            self.alone_in_pigment(token, Some(word), &mut open.written)?;
+            if let Some((colors, clear)) = list {
+                open.written.colors = Some((colors, token.clone()));
+                open.written.clear = clear;
+            }
+            open.pattern.choose(source, site);
             return Ok(());
         }
         match &token.kind {
-            TokenKind::Word(Word::Checker) => {
-                let Pair { colors: [first, second], clear, pattern } = self.color_pair(token)?;
-                self.alone_in_pigment(token, Some(Word::Checker), written)?;
-                let pattern = pattern.filter(|_| first != second);
-                self.pattern_of(pigment, written, token, pattern);
-                let map = ColorMap(vec![(0.0, first), (1.0, second)]);
-                pigment.kind = PigmentKind::Patterned { pattern: Pattern::Checker, map };
-                pigment.clear = clear;
-            }
-            TokenKind::Word(Word::Gradient) => {
-                let direction = self.any_direction_after(token, "the gradient's direction")?.value;
-                self.alone_in_pigment(token, Some(Word::Gradient), written)?;
-                self.pattern_of(pigment, written, token, None);
-                let pattern = Pattern::Gradient { direction };
-                match &mut pigment.kind {
-                    // In POV-Ray 3.7 the colours stay, those of `checker` too (measured).
-                    PigmentKind::Patterned { pattern: before, .. }
-                        if self.options.dialect == Dialect::Pov =>
-                    {
-                        *before = pattern;
-                    }
-                    kind => {
-                        let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]);
-                        *kind = PigmentKind::Patterned { pattern, map };
-                        pigment.clear.clear();
-                    }
-                }
-            }
             TokenKind::Word(Word::ColorMap) => {
                 let Value::ColorMap(given) = self.color_map(token)? else { return Err(Reported) };
-                written.map = Some((given, token.clone(), self.whole(token)));
+                open.written.colors = Some((Colors::Map(given.map.clone()), token.clone()));
+                open.written.clear = given.clear;
+                open.written.is_map = true;
+            }
+            TokenKind::Word(word @ Word::ImageMap) => {
+                let placed = self.image(token, *word)?;
+                self.alone_in_pigment(token, Some(*word), &mut open.written)?;
+                let mut is_clear = false;
+                placed.image.for_each_color(&mut |color| is_clear |= color.is_clear());
+                let site = self.whole(token);
+                open.written.clear = is_clear.then_some(site);
+                open.written.colors = Some((Colors::Image, token.clone()));
+                open.written.is_map = false;
+                open.pattern.choose(Source::Image(Arc::new(placed.image)), site);
+            }
+            TokenKind::Word(Word::PigmentMap) if Word::PigmentMap.is_built() => {
+                let average = self.is_average(open);
+                let given = self.pigment_map(token, average)?;
+                open.written.colors = Some((Colors::Pigments(given), token.clone()));
+                open.written.is_map = true;
             }
             TokenKind::Word(word) if word.family() == Family::Color => {
                 let color = self.color_from(token)?;
-                self.alone_in_pigment(token, None, written)?;
-                self.color_of(pigment, &color, token);
+                self.alone_in_pigment(token, None, &mut open.written)?;
+                self.color_of(open, color.color(), token);
             }
             TokenKind::Expression(id) => {
                 let id = *id;
@@ -241,12 +186,11 @@ impl Evaluator<'_> {
                 };
                 match value {
                     Value::Pigment(id) => {
-                        self.first_in_pigment(token, written)?;
-                        let site = pigment.site;
-                        *pigment = self.scene.pigments[id.index()].clone();
-                        pigment.site = site;
-                        written.pattern = None;
-                        written.named = true;
+                        self.first_in_pigment(token, &open.written)?;
+                        let site = open.pigment.site;
+                        open.pigment = Pigment { site, ..self.scene.pigments[id.index()].clone() };
+                        open.pattern.inherit(open.pigment.pattern(), &open.pigment.steps);
+                        open.written.named = true;
                     }
                     value @ (Value::Color(_) | Value::Vector(_)) => {
                         if matches!(value, Value::Vector(_))
@@ -258,8 +202,8 @@ impl Evaluator<'_> {
                         let given = Given { value, span, here, expression: Some(id) };
                         let color = self.plain_color(&given, "a colour")?;
                         let color = self.color_components(color, given.site())?;
-                        self.alone_in_pigment(token, None, written)?;
-                        self.color_of(pigment, &color, token);
+                        self.alone_in_pigment(token, None, &mut open.written)?;
+                        self.color_of(open, color.color(), token);
                     }
                     // Not an error: what it lacks is reported where it is needed.
                     Value::Poison(poison) => {
@@ -274,7 +218,7 @@ impl Evaluator<'_> {
                 }
             }
             // The site of a surplus colour, which is reported.
-            TokenKind::Comma if written.first.is_some() && self.at_color() => {}
+            TokenKind::Comma if open.written.first.is_some() && self.at_color() => {}
             _ => {
                 if let Some(outcome) = self.inert(token, Place::PIGMENT) {
                     return outcome;
@@ -285,7 +229,7 @@ impl Evaluator<'_> {
                     && word.family() == Family::Pattern
                     && self.poison.is_some()
                 {
-                    self.alone_in_pigment(token, Some(word), written)?;
+                    self.alone_in_pigment(token, Some(word), &mut open.written)?;
                 }
                 if !poisoned
                     && self.poison.is_none()
@@ -316,90 +260,15 @@ impl Evaluator<'_> {
             .fix(Span { end: token.span.start, ..token.span }, "rgb ");
         self.report(&token.here, diagnostic);
     }
+}
 
-    /// Reads the two colours of `checker`; missing ones are blue and green.
-    fn color_pair(&mut self, token: &Token) -> Outcome<Pair> {
-        let mut colors =
-            [Color::opaque(Rgb::new(0.0, 0.0, 1.0)), Color::opaque(Rgb::new(0.0, 1.0, 0.0))];
-        let mut clear = Vec::new();
-        let mut said: Vec<WrittenColor> = Vec::new();
-        let (mut given, mut pigments) = (0, 0);
-        // All items before the last colour.
-        let mut lead = self.whole(token);
-        for color in &mut colors {
-            let before = self.whole(token);
-            self.skip_commas();
-            if self.at_color() {
-                lead = before;
-                let first = self.peek().cloned();
-                let written = self.written_color_after(token, "a colour")?.value;
-                *color = written.color();
-                if let Some(first) = first {
-                    let pieces = written.without_clear().unwrap_or(vec![self.whole(&first)]);
-                    pieces.into_iter().for_each(|piece| list_once(&mut clear, piece));
-                }
-                said.push(written);
-                given += 1;
-            } else if let Some(Token {
-                kind: TokenKind::Word(word @ (Word::Pigment | Word::Texture)),
-                ..
-            }) = self.peek()
-            {
-                let word = *word;
-                let Some(next) = self.next() else { break };
-                given += 1;
-                let mut not_built = word;
-                if word == Word::Pigment {
-                    pigments += 1;
-                    let id = self.pigment(&next)?;
-                    if let Pigment { kind: PigmentKind::Color(plain), clear: inner, .. } =
-                        &self.scene.pigments[id.index()]
-                    {
-                        *color = *plain;
-                        inner.iter().for_each(|&item| list_once(&mut clear, item));
-                        continue;
-                    }
-                } else {
-                    self.skip_arguments(word);
-                    not_built = Word::Checker;
-                }
-                let site = next.here.site(next.span);
-                self.set_poison(Poison::new(not_built, site));
-            }
-        }
-        // `checker rgb 1; rgb 0`.
-        if given == 1
-            && let Some(sign) = self.next_if(|kind| matches!(kind, TokenKind::Semicolon))
-        {
-            let diagnostic =
-                Diagnostic::new(Code::UnexpectedCharacter, "commas part the colours of a pattern")
-                    .at(sign.span, "expected `,`")
-                    .help("replace the `;` with `,`")
-                    .fix(sign.span, ",");
-            self.report(&sign.here, diagnostic);
-            self.skip_color(token);
-        } else if given == 1 && self.poison.is_none() {
-            // Without any, the author knows the two that it has. Beside a pigment the other is the default one,
-            // as in POV-Ray 3.7 (measured).
-            if pigments > 0 {
-                let default = self.scene.textures[self.default_texture.index()].pigment;
-                match self.scene.pigments[default.index()].kind {
-                    PigmentKind::Color(color) => colors[1] = color,
-                    _ => self.set_poison(Poison::new(Word::Pigment, token.here.site(token.span))),
-                }
-            }
-            self.lint_missing_color(token, if pigments > 0 { "black" } else { "green" });
-        }
-        let alike = match said.as_slice() {
-            [first, second] => {
-                let like = |color: Color| move |other: Color| other == color;
-                second.without(like(colors[0])).or_else(|| first.without(like(colors[1])))
-            }
-            _ => None,
-        };
-        // A colour is a pigment by itself.
-        let last = said.last().filter(|last| said.len() == given && !last.bare);
-        let pattern = alike.or(last.map(|_| vec![lead]));
-        Ok(Pair { colors, clear, pattern })
+/// Returns a small number as a word.
+fn number(count: usize) -> String {
+    match count {
+        2 => "two".to_owned(),
+        3 => "three".to_owned(),
+        4 => "four".to_owned(),
+        6 => "six".to_owned(),
+        _ => count.to_string(),
     }
 }

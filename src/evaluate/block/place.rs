@@ -49,6 +49,39 @@ impl Place {
         families: &[Family::Pattern, Family::PatternItem, Family::Transform],
         others: Self::PIGMENT.others,
     };
+    pub const NORMAL: Self = Self {
+        word: Some(Word::Normal),
+        families: &[Family::Pattern, Family::PatternItem, Family::Transform],
+        others: &[
+            Word::NormalMap,
+            Word::UvMapping,
+            Word::NoiseGenerator,
+            Word::Accuracy,
+            Word::Exponent,
+            Word::Function,
+            Word::Object,
+            Word::Cubic,
+        ],
+    };
+    pub const IMAGE: Self = Self {
+        word: Some(Word::ImageMap),
+        families: &[Family::PatternItem, Family::FileKind, Family::Color],
+        others: &[Word::All, Word::UseColor, Word::UseIndex, Word::UseAlpha],
+    };
+    pub const WARP: Self = Self {
+        word: Some(Word::Warp),
+        families: &[Family::PatternItem],
+        others: &[
+            Word::Cubic,
+            Word::Cylindrical,
+            Word::Planar,
+            Word::Spherical,
+            Word::Falloff,
+            Word::Inverse,
+            Word::MajorRadius,
+            Word::Strength,
+        ],
+    };
     pub const COLOR_MAP: Self =
         Self { word: Some(Word::ColorMap), families: &[Family::Color], others: &[] };
     pub const FINISH: Self =
@@ -57,6 +90,11 @@ impl Place {
         word: Some(Word::Reflection),
         families: &[Family::FinishItem, Family::Color],
         others: &[],
+    };
+    pub const IRID: Self = Self {
+        word: Some(Word::Irid),
+        families: &[],
+        others: &[Word::Thickness, Word::Turbulence],
     };
     /// The `radiosity` block of an object.
     pub const RADIOSITY: Self =

@@ -37,6 +37,10 @@ impl Evaluator<'_> {
                 self.scene.settings.ambient_light =
                     self.color_after(token, "a number or a colour")?.value.rgb;
             }
+            TokenKind::Word(Word::IridWavelength) => {
+                self.scene.settings.irid_wavelength =
+                    self.color_after(token, "a colour")?.value.rgb;
+            }
             TokenKind::Word(Word::AssumedGamma) => {
                 let gamma = match self.take_word(Word::Srgb) {
                     Some(_) => Gamma::Srgb,
@@ -86,8 +90,13 @@ impl Evaluator<'_> {
                 }
                 self.scene.settings.adc_bailout = given.value.max(0.0);
             }
+            TokenKind::Word(Word::NumberOfWaves) => {
+                let given = self.number_after(token, "a number of waves")?;
+                self.waves = if given.value >= 1.0 { given.value as usize } else { 1 };
+            }
             TokenKind::Word(Word::NoiseGenerator) => {
                 let given = self.number_after(token, "a number")?;
+                self.says_noise = true;
                 self.noise = match given.value.trunc() {
                     1.0 => NoiseGenerator::Plateaus,
                     2.0 => NoiseGenerator::RangeCorrected,

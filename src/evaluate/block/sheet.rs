@@ -126,14 +126,14 @@ impl Evaluator<'_> {
     ///
     /// **Source:** POV-Ray 3.7 manual, 3.4.5.2.1 "Bicubic Patch".
     pub(super) fn bicubic_patch(&mut self, token: &Token) -> Outcome<Solid> {
-        let mut typed = false;
+        let (mut typed, mut uvs) = (false, None);
         while let Some((item, word)) = self.next_part(Word::BicubicPatch, OF_PATCH) {
             typed |= word == Word::Type;
             match word {
                 Word::UvVectors => {
-                    for name in ["first", "second", "third", "fourth"] {
-                        self.uv_after(&item, name)?;
-                    }
+                    let mut corner = |name| self.uv_after(&item, name);
+                    let [a, b] = [corner("first")?, corner("second")?];
+                    uvs = Some(Box::new([a, b, corner("third")?, corner("fourth")?]));
                 }
                 Word::Type => {
                     let kind = self.number_after(&item, "0 or 1")?;
@@ -170,7 +170,7 @@ impl Evaluator<'_> {
             *place = point.value;
             last = Some(point);
         }
-        let solid = Solid::BicubicPatch { points: Box::new(points) };
+        let solid = Solid::BicubicPatch { points: Box::new(points), uvs };
         if let Some(last) = last.filter(|_| solid.is_sizeless()) {
             let message = "a patch whose points lie in a line is nothing";
             let diagnostic = Diagnostic::new(self.sizeless(), message)

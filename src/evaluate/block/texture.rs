@@ -1,49 +1,136 @@
 //! `texture`, and the default texture of `#default`.
 
 mod bare;
+mod map;
+mod part;
 mod pattern;
 
-use crate::scene::{Texture, TextureId};
+use crate::scene::{Step, Texture, TextureId, TextureKind};
 use crate::vocabulary::Word;
 
 use super::super::stream::{Token, TokenKind};
-use super::super::value::{Poison, Value};
+use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::pattern::OpenPattern;
 use bare::Bare;
 use pattern::Written;
 
+/// A texture during reading.
+pub(super) struct OpenTexture {
+    texture: Texture,
+    pattern: OpenPattern,
+    written: Written,
+}
+
+impl OpenTexture {
+    /// Goes on from a declared texture.
+    fn inherit(&mut self, texture: Texture) {
+        let (pattern, steps) = match &texture.kind {
+            TextureKind::Blend { pattern, steps, .. } => (Some(&**pattern), &steps[..]),
+            TextureKind::Plain { .. } | TextureKind::Layers(_) => (None, &[][..]),
+        };
+        self.pattern.inherit(pattern, steps);
+        let uv_mapping = self.texture.uv_mapping || texture.uv_mapping;
+        self.texture = Texture { uv_mapping, ..texture };
+    }
+
+    fn close(self) -> Texture {
+        let Self { mut texture, pattern: open, mut written } = self;
+        let entries = match (written.entries.take(), &texture.kind) {
+            (None, TextureKind::Blend { entries, .. }) => Some(entries.clone()),
+            (entries, _) => entries,
+        };
+        if let (Some(pattern), Some(entries)) = (open.close(), entries) {
+            // The transforms of a declared pattern are inside of its own.
+            let own = texture.transforms.into_iter().map(Step::Transform);
+            let inherited = open.inherited_steps;
+            let mut steps = open.steps[..inherited].to_vec();
+            steps.extend(own);
+            steps.extend(&open.steps[inherited..]);
+            let kind = TextureKind::Blend { pattern: Box::new(pattern), steps, entries };
+            return Texture { kind, transforms: Vec::new(), uv_mapping: false };
+        }
+        texture.transforms.extend(open.steps.iter().filter_map(|step| match step {
+            Step::Transform(id) => Some(*id),
+            Step::Warp(_) => None,
+        }));
+        texture
+    }
+}
+
 impl Evaluator<'_> {
-    /// Reads `texture { [Name] … }`, starting from the default texture.
+    /// Reads `texture { [Name] … }`, starting from the default texture; several in a row are layers.
     pub(super) fn texture(&mut self, token: &Token) -> Outcome<TextureId> {
-        let texture = self.one_texture(token);
-        // Several in a row are layers, which are unsupported.
-        while let Some(Token { kind: TokenKind::Word(Word::Texture), .. }) = self.peek_on()
+        self.layers_of(Word::Texture, token)
+    }
+
+    /// As [`Self::texture`], for blocks that `word` opens.
+    pub(super) fn layers_of(&mut self, word: Word, token: &Token) -> Outcome<TextureId> {
+        let first = self.one_texture(token).map(|texture| self.add_texture(texture));
+        let mut layers = vec![first];
+        while let Some(Token { kind: TokenKind::Word(next), .. }) = self.peek_on()
+            && *next == word
             && let Some(next) = self.next()
         {
             // Each is read for its own mistakes.
             let outer = self.poison.take();
-            let _: Outcome<Texture> = self.one_texture(&next);
-            self.poison = outer;
-            self.set_poison(Poison::new(Word::Texture, next.here.site(next.span)));
+            let layer = self.one_texture(&next);
+            let inner = std::mem::replace(&mut self.poison, outer);
+            inner.into_iter().for_each(|poison| self.set_poison(poison));
+            layers.push(layer.map(|texture| self.add_texture(texture)));
         }
-        Ok(self.add_texture(texture?))
+        let layers = layers.into_iter().collect::<Outcome<Vec<_>>>()?;
+        match layers[..] {
+            [only] => Ok(only),
+            _ => {
+                let kind = TextureKind::Layers(layers);
+                Ok(self.add_texture(Texture { kind, transforms: Vec::new(), uv_mapping: false }))
+            }
+        }
     }
 
     /// As [`Self::texture`], where textures that follow are not layers of it.
     pub(super) fn one_texture(&mut self, token: &Token) -> Outcome<Texture> {
-        let mut texture = self.scene.textures[self.default_texture.index()].clone();
-        self.block(token, Word::Texture, |evaluator| {
-            let mut failed = false;
-            let (mut written, mut bare) = (Written::default(), Bare::default());
-            while let Some(token) = evaluator.next() {
-                let item = evaluator.texture_item(&token, &mut texture, (&mut written, &mut bare));
-                failed |= item == Err(Reported);
+        self.block(token, Word::Texture, Self::texture_of_items)
+    }
+
+    /// Reads the items of a texture, up to the end of its block or entry.
+    pub(super) fn texture_of_items(&mut self) -> Outcome<Texture> {
+        let mut open = OpenTexture {
+            texture: self.scene.textures[self.default_texture.index()].clone(),
+            pattern: OpenPattern::new(self.noise, self.waves),
+            written: Written::default(),
+        };
+        let (mut failed, mut bare) = (false, Bare::default());
+        while let Some(token) = self.next() {
+            failed |= self.texture_item(&token, &mut open, &mut bare) == Err(Reported);
+        }
+        failed |= self.close_bare(&mut open.texture, &mut bare) == Err(Reported);
+        failed |= self.whole_texture(&open.written) == Err(Reported);
+        if failed { Err(Reported) } else { Ok(open.close()) }
+    }
+
+    /// Returns a texture whose points are the surface's own coordinates.
+    ///
+    /// **Source:** measured on POV-Ray 3.7: `uv_mapping` before the texture of an object is as in each of its
+    /// layers.
+    pub(super) fn mapped(&mut self, id: TextureId) -> TextureId {
+        let mut texture = self.scene.textures[id.index()].clone();
+        texture.uv_mapping = true;
+        match &mut texture.kind {
+            TextureKind::Plain { .. } => {}
+            TextureKind::Blend { pattern, .. } => pattern.modifiers.uv_mapping = true,
+            TextureKind::Layers(layers) => {
+                for layer in layers {
+                    // Layers have none of their own.
+                    let mut mapped = self.scene.textures[layer.index()].clone();
+                    mapped.uv_mapping = true;
+                    *layer = self.add_texture(mapped);
+                }
             }
-            failed |= evaluator.close_bare(&mut texture, &mut bare) == Err(Reported);
-            failed |= evaluator.whole_texture(&written) == Err(Reported);
-            if failed { Err(Reported) } else { Ok(texture) }
-        })
+        }
+        self.add_texture(texture)
     }
 
     pub(super) fn add_texture(&mut self, texture: Texture) -> TextureId {
@@ -56,22 +143,43 @@ impl Evaluator<'_> {
     fn texture_item(
         &mut self,
         token: &Token,
-        texture: &mut Texture,
-        (written, bare): (&mut Written, &mut Bare),
+        open: &mut OpenTexture,
+        bare: &mut Bare,
     ) -> Outcome<()> {
         if let Some(transform) = self.transform_from(token) {
-            texture.transforms.push(transform?);
+            open.pattern.steps.push(Step::Transform(transform?));
             return Ok(());
         }
-        if self.bare_item(token, texture, bare).is_some() {
+        if self.bare_item(token, &open.texture, bare).is_some() {
             return Ok(());
         }
-        self.close_bare(texture, bare)?;
+        self.close_bare(&mut open.texture, bare)?;
+        if let TokenKind::Word(Word::UvMapping) = token.kind {
+            open.texture.uv_mapping = true;
+            open.pattern.modifiers.uv_mapping = true;
+            return Ok(());
+        }
         if let TokenKind::Word(word) = token.kind
-            && let Some(outcome) = self.patterned_item(token, word, written)
+            && let Some(outcome) =
+                self.patterned_item(token, word, &mut open.pattern, &mut open.written)
         {
             return outcome;
         }
+        if open.pattern.close().is_some()
+            && let Some(read) = self.pattern_item(token, &mut open.pattern)
+        {
+            return read;
+        }
+        // What is there already has its transforms before any part that follows.
+        if !matches!(open.texture.kind, TextureKind::Blend { .. }) && open.pattern.chosen.is_none()
+        {
+            let since = std::mem::take(&mut open.pattern.steps);
+            open.texture.transforms.extend(since.iter().filter_map(|step| match step {
+                Step::Transform(id) => Some(*id),
+                Step::Warp(_) => None,
+            }));
+        }
+        let OpenTexture { texture, written, .. } = open;
         match token.kind {
             TokenKind::Word(Word::Pigment) => {
                 let site = token.here.site(token.span);
@@ -81,20 +189,33 @@ impl Evaluator<'_> {
                 {
                     self.lint_replaced(token, first, "texture");
                 }
-                texture.pigment = self.pigment_from(token, texture.pigment)?
+                let top = self.top_of(texture);
+                let pigment = self.pigment_from(token, top.kind.first_pigment())?;
+                self.change_top(texture, |top| top.set_pigment(pigment));
+            }
+            TokenKind::Word(Word::Normal) => {
+                let top = self.top_of(texture);
+                let normal = self.normal_from(token, top.kind.first_normal())?;
+                self.change_top(texture, |top| top.set_normal(normal));
             }
             TokenKind::Word(Word::Finish) => {
-                texture.finish = self.finish_from(token, texture.finish)?
+                let top = self.top_of(texture);
+                let finish = self.finish_from(token, top.kind.first_finish())?;
+                self.change_top(texture, |top| top.set_finish(finish));
             }
             TokenKind::Expression(id) => match self.declared(token, id) {
                 Some(Value::Broken) => {
                     self.broken_of_place(token, id, Place::TEXTURE);
                     return Err(Reported);
                 }
-                Some(Value::Texture(id)) => *texture = self.scene.textures[id.index()].clone(),
+                Some(Value::Texture(id)) => {
+                    let texture = self.scene.textures[id.index()].clone();
+                    open.inherit(texture);
+                }
                 // As in POV-Ray, their keywords are optional here.
-                Some(Value::Pigment(id)) => texture.pigment = id,
-                Some(Value::Finish(id)) => texture.finish = id,
+                Some(Value::Pigment(id)) => self.change_top(texture, |top| top.set_pigment(id)),
+                Some(Value::Normal(id)) => self.change_top(texture, |top| top.set_normal(id)),
+                Some(Value::Finish(id)) => self.change_top(texture, |top| top.set_finish(id)),
                 Some(Value::Poison(poison)) => {
                     self.is_of_place(token, poison, Place::TEXTURE);
                     self.set_poison(poison);
@@ -133,7 +254,14 @@ impl Evaluator<'_> {
                 TokenKind::Word(Word::Pigment) => {
                     let mut texture = self.scene.textures[self.default_texture.index()].clone();
                     self.pigment(&token).map(|pigment| {
-                        texture.pigment = pigment;
+                        texture.set_pigment(pigment);
+                        self.add_texture(texture)
+                    })
+                }
+                TokenKind::Word(Word::Normal) => {
+                    let mut texture = self.scene.textures[self.default_texture.index()].clone();
+                    self.normal(&token).map(|normal| {
+                        texture.set_normal(normal);
                         self.add_texture(texture)
                     })
                 }
@@ -142,7 +270,7 @@ impl Evaluator<'_> {
                     let finish = self.finish(&token);
                     self.forget_words_of_finishes(finishes);
                     finish.map(|finish| {
-                        texture.finish = finish;
+                        texture.set_finish(finish);
                         self.add_texture(texture)
                     })
                 }

@@ -4,7 +4,6 @@
 
 mod items;
 mod left_out;
-mod picture;
 mod ranges;
 
 use crate::diagnostic::{Code, Diagnostic};
@@ -16,15 +15,6 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported, Symbol};
 use super::Place;
-use super::place::home;
-
-/// Returns the parts of an unsupported shape before its modifiers, if their number is fixed: all are vectors.
-fn parts_not_built(word: Word) -> Option<&'static [&'static str]> {
-    Some(match word {
-        Word::JuliaFractal => &["a vector for the parameter"],
-        _ => return None,
-    })
-}
 
 /// Returns the arguments of an unsupported word, if it has a fixed number of values.
 fn values_not_built(word: Word) -> &'static [&'static str] {
@@ -35,8 +25,7 @@ fn values_not_built(word: Word) -> &'static [&'static str] {
             "a number of lights along the first side",
             "a number of lights along the second side",
         ],
-        Word::Adaptive | Word::Aperture | Word::MajorRadius => &["a number"],
-        Word::BrickSize => &["a vector for the size of a brick"],
+        Word::Adaptive | Word::Aperture => &["a number"],
         _ => &[],
     }
 }
@@ -51,38 +40,7 @@ impl Evaluator<'_> {
                 break;
             }
         }
-        if word == Word::Function && self.is_before_block() {
-            let _: Outcome<Value> = self.function(token);
-            self.poison = outer;
-            return;
-        }
         self.poison = outer;
-        if let Word::TextureMap
-        | Word::PigmentMap
-        | Word::NormalMap
-        | Word::SlopeMap
-        | Word::DensityMap = word
-            && self.follows_a_pattern(token)
-            && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
-                self.peek().cloned()
-        {
-            self.next();
-            self.inside_block(&here, contents, span, |evaluator| evaluator.map_not_built(word));
-            return;
-        }
-        if word.family() == Family::Pattern || (word == Word::Cubic && !self.is_before_block()) {
-            return self.pattern_not_built(token, word);
-        }
-        if let Word::Normal = word
-            && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
-                self.peek().cloned()
-        {
-            self.next();
-            self.openers.push(token.span);
-            self.inside_block(&here, contents, span, Self::normal_not_built);
-            self.openers.pop();
-            return;
-        }
         if Self::knows_items(word)
             && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
                 self.peek().cloned()
@@ -118,7 +76,6 @@ impl Evaluator<'_> {
                 | Word::ProjectedThrough
                 | Word::Radiosity
                 | Word::Photons
-                | Word::InteriorTexture
                 | Word::Scattering
                 | Word::Warp
         );
@@ -156,132 +113,10 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    /// Returns whether a pattern precedes a map in its block, and none is `average`, whose entries need no
-    /// number.
-    fn follows_a_pattern(&self, map: &Token) -> bool {
-        let block = self.blocks.last().map(|block| block.span);
-        let Some(block) =
-            block.filter(|block| block.file == map.span.file && block.start < map.span.start)
-        else {
-            return false;
-        };
-        let before = self.sources.text(Span { end: map.span.start, ..block });
-        let words = before.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-        let mut patterns =
-            words.filter_map(Word::from_name).filter(|word| word.family() == Family::Pattern);
-        patterns.next().is_some_and(|first| first != Word::Average)
-            && patterns.all(|other| other != Word::Average)
-    }
-
-    /// Reads a `normal`, in which items of a finish are not valid.
-    fn normal_not_built(&mut self) {
-        const PLACE: Place = Place { word: Some(Word::Normal), families: &[], others: &[] };
-        while let Some(token) = self.next() {
-            match token.kind {
-                TokenKind::Word(word) if home(word) == Some(Word::Finish) => {
-                    self.unexpected_word(&token, word, PLACE);
-                }
-                TokenKind::Word(word) if word.family() == Family::Color => {
-                    let message = "a `normal` is made of a pattern, and has no colour";
-                    let diagnostic = Diagnostic::new(Code::MisplacedBlock, message)
-                        .at(token.span, "expected a pattern, such as `bumps 0.5`")
-                        .help("colours belong in `pigment { … }`");
-                    self.report(&token.here, diagnostic);
-                    self.skip_arguments(word);
-                }
-                TokenKind::Word(Word::Scale | Word::Rotate | Word::Translate) => {
-                    let outer = self.poison.take();
-                    if self.unbuilt_part(&token, "a vector").is_err() {
-                        self.skip_values();
-                    }
-                    self.poison = outer;
-                }
-                TokenKind::Word(word) => self.skip_arguments(word),
-                TokenKind::Expression(id) => {
-                    if !self.misspelt_item(&token, id, Word::Normal) {
-                        self.run_expression(&token.here, id);
-                    }
-                }
-                TokenKind::Block(contents) => {
-                    self.inside_block(&token.here, contents, token.span, Self::run_items);
-                }
-                TokenKind::Entry(items) => self.inside(&token.here, items, Self::run_items),
-                TokenKind::Comma | TokenKind::Semicolon | TokenKind::Literal(_) => {}
-            }
-        }
-    }
-
-    /// Reads the entries of an unsupported map, each of which begins with a number.
-    fn map_not_built(&mut self, map: Word) {
-        while let Some(token) = self.peek().cloned() {
-            let TokenKind::Entry(items) = token.kind else {
-                self.next();
-                if let TokenKind::Expression(id) = token.kind {
-                    self.run_expression(&token.here, id);
-                }
-                continue;
-            };
-            self.next();
-            self.inside(&token.here, items, |evaluator| {
-                if let Some(Token { kind: TokenKind::Word(word), here, span }) =
-                    evaluator.peek().cloned()
-                    && word.family() != Family::Directive
-                {
-                    let message = format!("expected a number before `{}`", word.name());
-                    let diagnostic = Diagnostic::new(Code::MissingPart, message)
-                        .at(span, "an entry of a map begins with a number")
-                        .help(format!("write `[0.5 {} …]`", word.name()));
-                    evaluator.report(&here, diagnostic);
-                }
-                if map == Word::TextureMap {
-                    evaluator.entry_of_textures();
-                }
-                evaluator.run_items();
-            });
-        }
-    }
-
     pub(super) fn shape_not_built(&mut self, token: &Token, word: Word) -> Reported {
-        let poison = Poison::new(word, token.here.site(token.span));
-        let Some(parts) = parts_not_built(word) else {
-            self.set_poison(poison);
-            self.skip_arguments(word);
-            return Reported;
-        };
-        let _: Outcome<()> = self.block(token, word, |evaluator| {
-            if !evaluator.takes_declared_object() {
-                let each = parts.iter().try_for_each(|part| evaluator.unbuilt_part(token, part));
-                if each.is_err() {
-                    evaluator.skip_parts();
-                }
-            }
-            evaluator.modifiers(word, None, &mut Vec::new())
-        });
-        let inside = self.poison.take();
-        self.set_poison(poison);
-        // `open` and the like belong to their shape.
-        if let Some(inside) = inside.filter(|inside| inside.word.family() != Family::ShapeItem) {
-            self.set_poison(inside);
-        }
+        self.set_poison(Poison::new(word, token.here.site(token.span)));
+        self.skip_arguments(word);
         Reported
-    }
-
-    /// Reads a declared object in the block: `ovus { Egg … }`.
-    fn takes_declared_object(&mut self) -> bool {
-        let declared = matches!(
-            self.peek_declared(),
-            Some(Value::Object(_) | Value::Poison(_) | Value::Broken)
-        );
-        // A single name, not the first of several values.
-        let alone = declared
-            && !matches!(
-                self.peek_on().map(|next| &next.kind),
-                Some(TokenKind::Comma | TokenKind::Expression(_) | TokenKind::Literal(_))
-            );
-        if alone {
-            self.next();
-        }
-        alone
     }
 
     fn unbuilt_part(&mut self, token: &Token, wanted: &str) -> Outcome<()> {

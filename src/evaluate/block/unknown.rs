@@ -134,7 +134,12 @@ impl Evaluator<'_> {
             .filter(|word| has_block || is_built(word) || is_likely(&name, word))
             .or_else(|| word_like(&name, elsewhere))
             .filter(|word| !may_be_included || word.eq_ignore_ascii_case(&name))
-            .filter(|_| !has_no_word(&name, place));
+            .filter(|_| !has_no_word(&name, place))
+            // `texture { Wood }` is a name: a pattern would need its textures.
+            .filter(|near| {
+                let pattern = || Word::from_name(near).map(Word::family) == Some(Family::Pattern);
+                !(is_own && place.word == Some(Word::Texture) && pattern())
+            });
         if let Some(name) = near.and_then(|near| self.color_meant(near)) {
             let theirs = self.sources.text(span);
             let message = format!("`{theirs}` is not a word {}", place.name());

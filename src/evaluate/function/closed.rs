@@ -1,10 +1,11 @@
 //! User-defined functions in the form that shapes use: with all functions that they call.
 
-use crate::function::{Asked, Builder, Closed, Function, OutsideId};
-use crate::world::Pigment;
+use crate::function::{Builder, Function, OutsideId};
+use crate::texture::function::Component;
+use crate::texture::{Asked, Closed};
 
 use super::super::Evaluator;
-use super::tape_call::{AuthorFunction, FunctionId, named_by, outside_id, part};
+use super::tape_call::{AuthorFunction, FunctionId, component_of, named_by, outside_id};
 
 impl Evaluator<'_> {
     /// Returns a self-contained function with a numeric value; `None` for other values.
@@ -32,8 +33,12 @@ impl Evaluator<'_> {
             AuthorFunction::Spline(spline) => {
                 Asked::Spline { spline: spline.spline.clone(), component }
             }
-            AuthorFunction::Pattern(pigment) => mapped(pigment, 0),
-            AuthorFunction::Pigment(pigment) => mapped(pigment, component),
+            AuthorFunction::Pattern(pigment) => {
+                Asked::Pigment { pigment: pigment.clone(), component: Component::Value }
+            }
+            AuthorFunction::Pigment(pigment) => {
+                Asked::Pigment { pigment: pigment.clone(), component: component_of(component)? }
+            }
             // The tape contains their operations.
             AuthorFunction::Formula(_) | AuthorFunction::Transform(_) => return None,
         })
@@ -46,18 +51,4 @@ fn asking(id: FunctionId, parameters: usize) -> Option<Function> {
     let arguments: Vec<_> = (0..parameters).filter_map(|at| builder.parameter(at)).collect();
     let result = builder.ask(outside_id(id, 0), &arguments).ok()?;
     Some(builder.finish(result))
-}
-
-/// Returns one component of a pigment's colour.
-fn mapped(pigment: &Pigment, component: usize) -> Asked {
-    match pigment {
-        Pigment::Color(color) => Asked::Constant(part(color.single(), component)),
-        // It applies to meshes only.
-        Pigment::Faces(_) => Asked::Constant(0.0),
-        Pigment::Patterned { pattern, pattern_from_texture, map } => Asked::Pattern {
-            pattern: *pattern,
-            pattern_from_point: *pattern_from_texture,
-            map: map.iter().map(|(at, color)| (*at, part(color.single(), component))).collect(),
-        },
-    }
 }

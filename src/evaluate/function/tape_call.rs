@@ -10,9 +10,9 @@ use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::noise::NoiseGenerator;
 use crate::syntax::ast::Component;
+use crate::texture::Pigment;
+use crate::texture::function::Component as Number;
 use crate::vocabulary::Word;
-use crate::world::Pigment;
-use crate::world::pigment::at as color_at;
 
 use super::super::spline::SplineValue;
 use super::super::value::Value;
@@ -28,9 +28,9 @@ pub enum AuthorFunction {
     /// From a point and further arguments to a number.
     Noise(NoiseFunction),
     /// From a point to the pattern's value there: the red of this pigment.
-    Pattern(Box<Pigment>),
+    Pattern(Arc<Pigment>),
     /// From a point to a colour.
-    Pigment(Box<Pigment>),
+    Pigment(Arc<Pigment>),
     /// From a point to a point, with one function for each component.
     Transform(Box<[Function; 3]>),
 }
@@ -95,10 +95,11 @@ impl Outside for Functions<'_> {
         match function {
             Some(AuthorFunction::Formula(function)) => function.run().at(arguments, self),
             Some(AuthorFunction::Noise(noise)) => noise.bounds(self.noise, arguments),
-            Some(AuthorFunction::Pattern(_)) => Interval::UNDECIDED,
+            Some(AuthorFunction::Pattern(_)) => Interval::EVERYTHING,
             Some(AuthorFunction::Pigment(pigment)) => {
                 // A colour is interpolated between those of the map.
-                let parts = pigment.colors().map(|color| part(color.single(), component));
+                let colors = pigment.colors().into_iter();
+                let parts = colors.map(|color| part(color.single(), component));
                 let range = parts.map(Interval::point).reduce(Interval::hull);
                 range.unwrap_or(Interval::EVERYTHING)
             }
@@ -115,7 +116,20 @@ impl Outside for Functions<'_> {
 pub(super) fn color(pigment: &Pigment, point: &[f64]) -> Color {
     let coordinate = |axis: usize| point.get(axis).copied().unwrap_or(0.0);
     let point = Vector::new(coordinate(0), coordinate(1), coordinate(2));
-    color_at(pigment, point, false, || Vector::ZERO)
+    pigment.color_at(point)
+}
+
+/// Returns the component of a colour with an index.
+pub(super) fn component_of(index: usize) -> Option<Number> {
+    Some(match index {
+        0 => Number::Red,
+        1 => Number::Green,
+        2 => Number::Blue,
+        3 => Number::Filter,
+        4 => Number::Transmit,
+        GRAY => Number::Gray,
+        _ => return None,
+    })
 }
 
 pub(super) fn part(color: Color, component: usize) -> f64 {

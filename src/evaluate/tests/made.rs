@@ -3,6 +3,10 @@
 use super::printed;
 
 facts! {
+    the_heights_of_a_pigment_are_its_brightness:
+        "#declare Norm = <0,0,0>; #declare H = height_field { function 8, 8 { pigment { rgb <0.2,0.5,0.9> } } }
+         P(trace(H, <0.5,5,0.5>, -y, Norm).y)"
+        => "0.456";
     an_array_is_copied_when_it_is_assigned:
         "#declare A = array[3] {1,2,3} #declare B = A; #declare B[0] = 9; P(A[0]) P(B[0])"
         => "1.000 9.000";

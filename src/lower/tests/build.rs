@@ -5,10 +5,11 @@ use crate::diagnostic::{Code, Diagnostics};
 use crate::lower::LowerOptions;
 use crate::math::Vector;
 use crate::math::transform::Step;
-use crate::pattern::Pattern;
-use crate::scene::*;
+use crate::pattern::{Checker, Kind};
+use crate::scene::texture::Modifiers;
+use crate::scene::{self, *};
 use crate::source::{ExpansionId, FileId, Site, Span};
-use crate::world::{Origins, World};
+use crate::world::{self, Origins, Plain, World};
 
 /// A Scene under construction: textures 0 and 1 are black by default and a checker.
 pub struct Build(pub Scene);
@@ -47,20 +48,21 @@ impl Build {
     }
 
     pub fn pigment(&mut self, kind: PigmentKind, steps: Vec<Step>) -> PigmentId {
-        let transforms = if steps.is_empty() { vec![] } else { vec![self.transform(steps)] };
+        let own = (!steps.is_empty()).then(|| scene::Step::Transform(self.transform(steps)));
+        let steps = own.into_iter().collect();
         self.0.pigments.push(Pigment {
-            clear: vec![],
             kind,
-            transforms,
+            steps,
             site: site(900),
-            pattern: vec![],
+            clear: None,
+            has_own_colors: false,
         });
         PigmentId(self.0.pigments.len() as u32 - 1)
     }
 
     pub fn texture(&mut self, pigment: PigmentId, steps: Vec<Step>) -> TextureId {
         let transforms = if steps.is_empty() { vec![] } else { vec![self.transform(steps)] };
-        self.0.textures.push(Texture { pigment, finish: FinishId(0), transforms });
+        self.0.textures.push(Texture { transforms, ..Texture::plain(pigment, FinishId(0)) });
         TextureId(self.0.textures.len() as u32 - 1)
     }
 
@@ -109,8 +111,22 @@ pub fn spend(kind: ObjectKind, steps: Vec<Step>) -> World {
 }
 
 pub fn checker() -> PigmentKind {
-    let map = ColorMap(vec![(0.0, Color::BLACK), (1.0, Color::opaque(Rgb::gray(0.5)))]);
-    PigmentKind::Patterned { pattern: Pattern::Checker, map }
+    checker_of([Color::BLACK, Color::opaque(Rgb::gray(0.5))])
+}
+
+pub fn checker_of([even, odd]: [Color; 2]) -> PigmentKind {
+    let source = Source::Kind(Kind::Checker(Checker {}));
+    let pattern = Pattern { source, site: site(901), modifiers: Modifiers::default() };
+    let colors = Colors::Map(ColorMap(vec![(0.0, even), (1.0, odd)]));
+    PigmentKind::Patterned { pattern: Box::new(pattern), colors }
+}
+
+/// The plain texture of object `index`.
+pub fn texture_of(world: &World, index: usize) -> &Plain {
+    match &world.textures[world.objects[index].texture as usize] {
+        world::Texture::Plain(plain) => plain,
+        other => panic!("a plain texture: {other:?}"),
+    }
 }
 
 pub fn translate(x: f64, y: f64, z: f64) -> Step {

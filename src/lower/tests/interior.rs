@@ -12,7 +12,7 @@ impl Build {
         self.0.interiors.push(Interior {
             ior,
             sites: vec![site(700 + self.0.interiors.len())],
-            caustics: None,
+            ..Interior::default()
         });
         ModifierKind::Interior(InteriorId(self.0.interiors.len() as u32 - 1))
     }
@@ -81,8 +81,9 @@ fn an_interior_that_no_light_enters_is_dropped_and_that_is_said() {
     build.root(around);
     let (world, origins, _) = build.lower();
     assert_eq!(iors(&world), [None, Some(1.5), Some(1.33)]);
-    assert_eq!(world.interiors, [1.5, 1.33].map(|ior| world::Interior { ior }));
-    assert_eq!(origins.interiors, [[site(700)], [site(701)]]);
+    assert_eq!(world.interiors, [1.5, 1.33].map(world::Interior::of));
+    let sites: Vec<_> = origins.interiors.iter().map(|origin| origin.ior.clone()).collect();
+    assert_eq!(sites, [[site(700)], [site(701)]]);
     assert!(origins.dropped.is_empty());
 
     let mut build = Build::new();
@@ -131,12 +132,12 @@ fn an_opaque_object_keeps_its_interior_for_fresnel() {
     };
     let (world, _, messages) = scene(0.0, Some(1.5));
     assert_eq!(iors(&world), [Some(1.5)]);
-    let reflection = world.materials[0].finish.reflection.expect("one");
+    let reflection = texture_of(&world, 0).finish.reflection.expect("one");
     assert_eq!((reflection.fresnel, reflection.falloff), (true, 1.0));
     assert!(!messages.iter().any(|m| m.code == Code::FresnelWithoutIor));
     // Between equal ends there is nothing to go by.
     let (world, _, _) = scene(1.0, Some(1.5));
-    assert!(!world.materials[0].finish.reflection.expect("one").fresnel);
+    assert!(!texture_of(&world, 0).finish.reflection.expect("one").fresnel);
     // One of 1 may be a bubble in water.
     for (ior, told) in [(None, 1), (Some(1.0), 0)] {
         let messages = scene(0.0, ior).2;
@@ -163,7 +164,7 @@ fn energy_is_conserved_only_where_something_is_both_reflected_and_let_through() 
             ..ClassicFinish::default()
         });
         build.ball(0.0, vec![color, finish]);
-        build.world().materials[0].finish.conserve_energy
+        texture_of(&build.world(), 0).finish.conserve_energy
     };
     assert!(kept(true, 0.5));
     assert!(!kept(false, 0.5) && !kept(true, 0.0));

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::build::texture_of;
 use crate::color::{Color, Rgb};
 use crate::math::elementary::sin_cos_degrees;
 use crate::math::random::{Random, tries};
@@ -11,7 +12,7 @@ use crate::scene::Dialect;
 use crate::shape::body::Local;
 use crate::shape::{Body, Ray, Rounding};
 use crate::source::{FileError, Files, Found};
-use crate::world::{Material, Pigment, World};
+use crate::world::{Pigment, Plain, Texture, World};
 
 /// A triangle in three colours.
 struct OneFile;
@@ -66,7 +67,7 @@ fn a_mesh_from_a_file_named_ten_thousand_times_is_stored_once() {
         #declare M = mesh { file \"a.obj\" } #for (I, 1, 5000) object { M scale I } #end";
     let (world, codes) = world(scene);
     assert!(codes.is_empty(), "{codes:?}");
-    assert_eq!((world.placed.len(), world.materials.len()), (10_000, 1));
+    assert_eq!((world.placed.len(), world.textures.len()), (10_000, 1));
     let first = &world.placed[0].body;
     assert!(world.placed.iter().all(|placed| Arc::ptr_eq(&placed.body, first)));
 }
@@ -80,13 +81,13 @@ fn the_colours_of_a_file_give_way_to_a_pigment_and_keep_a_finish() {
         #declare M = mesh { file \"a.obj\" } object { M pigment { rgb 0.25 } }",
     );
     assert!(codes.is_empty(), "{codes:?}");
-    let materials: Vec<&Material> =
-        world.objects.iter().map(|object| &world.materials[object.material as usize]).collect();
-    let is_colored = |material: &&Material| matches!(material.pigment, Pigment::Faces(_));
-    let colored: Vec<bool> = materials.iter().map(is_colored).collect();
+    let textures: Vec<&Plain> =
+        (0..world.objects.len()).map(|index| texture_of(&world, index)).collect();
+    let is_colored = |texture: &&Plain| matches!(texture.pigment, Pigment::Faces(_));
+    let colored: Vec<bool> = textures.iter().map(is_colored).collect();
     assert_eq!(colored, [true, false, true, false]);
-    assert_eq!(materials[0].finish.lobes.len(), 1);
-    let Pigment::Faces(colors) = &materials[0].pigment else { unreachable!("it is colored") };
+    assert_eq!(textures[0].finish.lobes.len(), 1);
+    let Pigment::Faces(colors) = &textures[0].pigment else { unreachable!("it is colored") };
     assert_eq!(colors.len(), 3);
 }
 
@@ -210,16 +211,54 @@ fn what_does_not_fit_in_the_textures_of_a_mesh2_is_told() {
     told(&textured(THREE, ["", "", "", ", 1 } uv_indices {"]), "missing-part");
     told(&textured(&THREE.replace("3,", "4,"), [""; 4]), "wrong-arity");
     told(&textured(&THREE.replace("3,", "2,"), [""; 4]), "wrong-arity");
-    told(&textured(&THREE.replace("rgb x", "checker"), [", 0"; 4]), "not-supported-yet");
-    told(
-        &textured(&THREE.replace("{ rgb x }", "{ rgb x } finish { phong 1 }"), [", 0"; 4]),
-        "not-supported-yet",
+}
+
+#[test]
+fn faces_may_have_any_textures_and_the_meshs_own_is_the_last() {
+    for (from, to) in [("rgb x", "checker"), ("{ rgb x }", "{ rgb x } finish { phong 1 }")] {
+        let text = textured(&THREE.replace(from, to), [", 0, 1, 2", ", 1", "", ", 2"]);
+        let (world, codes) = world(&text.replace("inside_vector y", "pigment { rgb 1 }"));
+        assert!(codes.is_empty(), "{codes:?}");
+        let Texture::Faces(textures) = &world.textures[world.objects[0].texture as usize] else {
+            panic!("{:?}", world.textures)
+        };
+        assert_eq!(textures.len(), 4);
+    }
+}
+
+#[test]
+fn textures_of_the_components_of_a_blob_count_by_the_sizes_of_their_fields() {
+    let (world, codes) = world(
+        "blob {
+            threshold 0.5
+            sphere { -x/2, 1, 1 pigment { rgb x } }
+            sphere { x/2, 1, 1 }
+            sphere { y/4, 1, -0.25 pigment { rgb z } }
+            pigment { rgb y }
+        }",
     );
+    assert!(codes.is_empty(), "{codes:?}");
+    let Pigment::Faces(colors) = pigment(&world) else { panic!("{:?}", pigment(&world)) };
+    assert_eq!(colors.len(), 3);
+    let ray = Ray { origin: Vector::Z * 5.0, direction: -Vector::Z };
+    let placed = &world.placed[0];
+    let met = placed.crossings(&ray)[0];
+    let surface = placed.surface(&ray, met.t, met.leaving);
+    let field = |centre: Vector, strength: f64| {
+        let inner = 1.0 - (surface.point - centre).length_squared();
+        (strength * inner * inner).abs()
+    };
+    let mut fields = [field(Vector::X / 2.0, 1.0); 3];
+    fields[1] = field(Vector::Y / 4.0, 0.25);
+    let sum: f64 = fields.iter().sum();
+    for (index, weight) in placed.paint(&surface).expect("it is painted") {
+        assert!((weight - fields[index as usize] / sum).abs() < 1e-12);
+    }
 }
 
 /// What is seen of the first object: its pigment.
 fn pigment(world: &World) -> &Pigment {
-    &world.materials[world.objects[0].material as usize].pigment
+    &texture_of(world, 0).pigment
 }
 
 #[test]

@@ -5,15 +5,29 @@ use super::build::*;
 use super::seed_rules::Numbers;
 use crate::color::{Color, Rgb};
 use crate::math::Vector;
-use crate::math::placement::Map;
 use crate::math::transform::Step;
-use crate::pattern::Pattern;
 use crate::scene::*;
+use crate::texture::Space;
+use crate::texture::space::{Nowhere, Place, Start};
 use crate::world::{self, World};
+
+/// The space in which a patterned pigment is evaluated.
+fn space(pigment: &world::Pigment) -> &Space {
+    match pigment {
+        world::Pigment::Ramp(blend) => &blend.space,
+        other => panic!("a pattern: {other:?}"),
+    }
+}
+
+fn is_patterned(world: &World, index: usize) -> bool {
+    matches!(texture_of(world, index).pigment, world::Pigment::Ramp(_))
+}
 
 /// Where the pattern of object `index` finds the world's point `p`.
 fn pattern_point(world: &World, index: usize, p: Vector) -> Vector {
-    match world.objects[index].texture_from_world {
+    let space = space(&texture_of(world, index).pigment);
+    assert_eq!(*space, Space { start: Start::Slot(0), steps: vec![] });
+    match world.objects[index].places {
         Some(map) => world.texture_maps[map as usize].point(p),
         None => p,
     }
@@ -60,9 +74,9 @@ fn pigment_texture_and_object_move_a_pattern_in_that_order() {
 }
 
 #[test]
-fn a_new_pigment_stands_where_the_old_one_stood() {
+fn a_new_pigment_has_all_of_its_placement_itself() {
     let point = under_origin(|b| {
-        let pigment = checkered(b, vec![]);
+        let pigment = checkered(b, vec![translate(1.0, 0.0, 0.0)]);
         vec![
             ModifierKind::Texture(PLAIN),
             moved(b, 1.0),
@@ -70,14 +84,7 @@ fn a_new_pigment_stands_where_the_old_one_stood() {
             moved(b, 0.5),
         ]
     });
-    assert_eq!(point, v(-1.5, 0.0, 0.0), "measured");
-    let point = under_origin(|b| {
-        let old = b.pigment(PigmentKind::Color(Color::WHITE), vec![]);
-        let texture = b.texture(old, vec![scale(2.0, 2.0, 2.0)]);
-        let new = checkered(b, vec![translate(3.0, 0.0, 0.0)]);
-        vec![ModifierKind::Texture(texture), ModifierKind::Pigment(new)]
-    });
-    assert_eq!(point, v(-1.5, 0.0, 0.0), "measured");
+    assert_eq!(point, v(-1.5, 0.0, 0.0));
 }
 
 #[test]
@@ -91,13 +98,9 @@ fn a_childs_own_texture_wins_and_else_the_parents_which_the_child_does_not_move(
     let union = build.object(union, vec![ModifierKind::Texture(CHECKER), half]);
     build.root(union);
     let world = build.world();
-    let is_plain = |i: usize| {
-        let material = world.objects[i].material as usize;
-        matches!(world.materials[material].pigment, world::Pigment::Color(_))
-    };
-    assert!(is_plain(0) && !is_plain(1));
+    assert!(!is_patterned(&world, 0) && is_patterned(&world, 1));
     assert_eq!(pattern_point(&world, 1, Vector::ZERO), v(-0.5, 0.0, 0.0), "measured");
-    assert_eq!(world.objects[0].texture_from_world, None);
+    assert_eq!(world.objects[0].places, None);
 }
 
 #[test]
@@ -108,7 +111,7 @@ fn the_default_texture_is_the_roots_and_stays_in_the_world() {
     build.0.roots.push(Root { object: union, default_texture: CHECKER });
     let world = build.world();
     assert_eq!(pattern_point(&world, 0, Vector::ZERO), Vector::ZERO, "measured");
-    assert!(matches!(world.materials[0].pigment, world::Pigment::Patterned { .. }));
+    assert!(is_patterned(&world, 0));
 }
 
 #[test]
@@ -121,13 +124,12 @@ fn the_texture_of_a_use_replaces_the_objects_own_but_not_its_childrens() {
     build.root(repainted);
     build.root(used);
     let world = build.world();
-    let patterned = |i: usize| world.objects[i].material == world.objects[0].material;
-    assert!(matches!(world.materials[0].pigment, world::Pigment::Patterned { .. }), "measured");
-    assert!(!patterned(1), "measured");
+    assert!(is_patterned(&world, 0), "measured");
+    assert!(!is_patterned(&world, 1), "measured");
 }
 
 #[test]
-fn equal_materials_and_equal_maps_are_one() {
+fn equal_textures_and_equal_maps_are_one() {
     let mut build = Build::new();
     for _ in 0..3 {
         let pigment = build.pigment(PigmentKind::Color(Color::opaque(Rgb::gray(0.25))), vec![]);
@@ -140,8 +142,8 @@ fn equal_materials_and_equal_maps_are_one() {
         build.root(ball);
     }
     let (world, origins, _) = build.lower();
-    assert_eq!((world.materials.len(), world.texture_maps.len()), (2, 1));
-    assert_eq!(origins.materials.len(), 2);
+    assert_eq!((world.textures.len(), world.texture_maps.len()), (2, 1));
+    assert_eq!(origins.textures.len(), 2);
 }
 
 #[test]
@@ -167,22 +169,19 @@ fn ambient_is_lit_by_the_ambient_light_and_emission_is_not() {
         Finish::Classic(ClassicFinish { ambient, emission, ..Default::default() });
     let object = build.object(sphere(0.0, 0.0, 0.0, 1.0), vec![]);
     build.root(object);
-    assert_eq!(build.world().materials[0].finish.emission, Rgb::gray(1.125));
+    assert_eq!(texture_of(&build.world(), 0).finish.emission, Rgb::gray(1.125));
 }
 
 #[test]
 fn a_pattern_of_one_colour_is_that_colour() {
     let mut build = Build::new();
-    let map = ColorMap(vec![(0.0, Color::WHITE), (1.0, Color::WHITE)]);
-    let pattern = Pattern::Checker;
-    let pigment =
-        build.pigment(PigmentKind::Patterned { pattern, map }, vec![scale(3.0, 3.0, 3.0)]);
+    let pigment = build.pigment(checker_of([Color::WHITE; 2]), vec![scale(3.0, 3.0, 3.0)]);
     let texture = build.texture(pigment, vec![]);
     let ball = build.object(plane(0.0, 1.0, 0.0, 1.0), vec![ModifierKind::Texture(texture)]);
     build.root(ball);
     let world = build.world();
-    assert_eq!(world.materials[0].pigment, world::Pigment::Color(Color::WHITE));
-    assert_eq!((world.objects[0].texture_from_world, world.objects[0].faces), (None, None));
+    assert_eq!(texture_of(&world, 0).pigment, world::Pigment::Color(Color::WHITE));
+    assert_eq!((world.objects[0].places, world.objects[0].faces), (None, None));
 }
 
 #[test]
@@ -311,12 +310,10 @@ fn the_skys_patterns_keep_their_own_places() {
     });
     let (world, origins, _) = build.lower();
     let sky = world.sky.expect("a sky");
-    let world::Pigment::Patterned { pattern_from_texture, .. } = &sky.pigments[0] else {
-        panic!("a pattern: {sky:?}");
-    };
-    assert_eq!(pattern_from_texture.point(Vector::ZERO), v(0.5, 0.0, 0.0));
+    let origin = Nowhere::exact(Vector::ZERO);
+    let place = Place::new(space(&sky.pigments[0]), None, &origin);
+    assert_eq!(place.point, v(0.5, 0.0, 0.0));
     assert_eq!(origins.sky.map(|sky| sky.site), Some(site(7)));
-    assert_ne!(*pattern_from_texture, Map::IDENTITY);
 }
 
 #[test]
@@ -326,7 +323,7 @@ fn the_seeds_finish_is_its_formula() {
     build.0.finishes[0] = Finish::Seed { kd: 0.5, ks: 0.25, phong_exponent: 20.0 };
     let object = build.object(sphere(0.0, 0.0, 0.0, 1.0), vec![]);
     build.root(object);
-    let finish = build.world().materials[0].finish.clone();
+    let finish = texture_of(&build.world(), 0).finish.clone();
     assert_eq!(finish.emission, Rgb::new(0.5, 0.25, 0.0));
     assert_eq!((finish.diffuse, finish.brilliance, finish.seed), (0.5, 1.0, true));
     let kind = world::LobeKind::Blinn;
@@ -341,7 +338,7 @@ fn what_a_finish_gives_no_weight_is_absent() {
         build.0.finishes[0] = Finish::Classic(finish);
         let object = build.object(sphere(0.0, 0.0, 0.0, 1.0), vec![]);
         build.root(object);
-        build.world().materials[0].finish.clone()
+        texture_of(&build.world(), 0).finish.clone()
     };
     let black = Reflection {
         fresnel: false,

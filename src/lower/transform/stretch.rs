@@ -6,6 +6,11 @@ use super::{Affine, Cofactors};
 use crate::math::double::{Double, DoubleVector, power_of_two_near};
 
 impl Affine {
+    /// Returns whether it exchanges left and right.
+    pub fn is_reflection(&self) -> bool {
+        self.cofactors().is_some_and(|Cofactors { determinant, .. }| determinant.round() < 0.0)
+    }
+
     /// Returns the linear part without its initial rotation, which does not change a sphere about the origin:
     /// the symmetric positive matrix P of M = P·Q, and its inverse. `None` if the map flattens space.
     ///

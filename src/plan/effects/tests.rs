@@ -3,9 +3,11 @@
 use super::*;
 use crate::color::{Color, Rgb};
 use crate::math::Vector;
+use crate::pattern::{Checker, Kind, Setting, Wave};
 use crate::plan::{Frame, Precision};
 use crate::shape::{Shape, Sphere};
 use crate::source::{ExpansionId, FileId, Span};
+use crate::texture::{Blend, Pattern, Source, Space};
 use crate::world::{
     Dropped, Finish, LightKind, Lobe, LobeKind, Object, Reflection, Sky, SkyOrigin,
 };
@@ -14,7 +16,7 @@ fn site(place: usize) -> Site {
     Site { span: Span::new(FileId(0), place, place + 1), expansion: ExpansionId::MAIN }
 }
 
-/// A mirroring, shining sphere (material called for at 10) under a lamp (at 20).
+/// A mirroring, shining sphere (texture called for at 10) under a lamp (at 20).
 fn lit_mirror() -> (World, Origins) {
     let part = Rgb::gray(0.5);
     let lobe = Lobe { kind: LobeKind::Phong, weight: 0.5, exponent: 9.0, metallic: 0.0 };
@@ -33,11 +35,13 @@ fn lit_mirror() -> (World, Origins) {
             metallic: 0.0,
         }),
         seed: false,
+        extras: None,
     };
+    let pigment = Pigment::Color(Color::WHITE);
     let world = World {
         spheres: vec![Sphere { centre: Vector::ZERO, radius: 1.0 }],
         objects: vec![Object::plain(Shape::Sphere(0))],
-        materials: vec![Material { pigment: Pigment::Color(Color::WHITE), finish }],
+        textures: vec![Texture::Plain(Plain { pigment, normal: None, finish })],
         lights: vec![Light {
             kind: LightKind::Point { position: Vector::Y },
             color: Rgb::WHITE,
@@ -50,7 +54,7 @@ fn lit_mirror() -> (World, Origins) {
         objects: vec![site(1)],
         lights: vec![site(20)],
         light_pieces: vec![vec![site(20)]],
-        materials: vec![MaterialOrigin {
+        textures: vec![TextureOrigin {
             clear: vec![],
             filter: vec![],
             pigment: Some(site(9)),
@@ -58,11 +62,20 @@ fn lit_mirror() -> (World, Origins) {
             pattern: vec![],
             highlights: vec![site(12), site(11), site(12)],
             reflection: vec![site(13)],
+            behind: vec![],
         }],
         max_trace_level: Some(site(30)),
         ..Origins::default()
     };
     (world, origins)
+}
+
+/// The finish of the lit mirror.
+fn finish(world: &mut World) -> &mut Finish {
+    match &mut world.textures[0] {
+        Texture::Plain(plain) => &mut plain.finish,
+        _ => unreachable!("it has one part"),
+    }
 }
 
 const OPTIONS: PlanOptions = PlanOptions {
@@ -110,7 +123,7 @@ fn the_kernel_has_what_the_effects_need() {
     world.lights[0].casts_shadows = false;
     let kernel = plan(&world, &origins, &OPTIONS).kernel;
     assert_eq!(kernel, Kernel { shadows: false, secondary: true, bodies: false });
-    world.materials[0].finish.reflection = None;
+    finish(&mut world).reflection = None;
     assert_eq!(plan(&world, &origins, &OPTIONS).kernel.name(), "bare");
 }
 
@@ -121,8 +134,8 @@ fn shadows_are_left_out_for_the_reason_that_holds() {
     assert_eq!(why(&|w| w.lights[0].casts_shadows = false), "no light casts shadows");
     assert_eq!(why(&|w| w.objects[0].casts_shadow = false), "no object casts a shadow");
     let dull = |w: &mut World| {
-        w.materials[0].finish.diffuse = 0.0;
-        w.materials[0].finish.lobes.clear();
+        finish(w).diffuse = 0.0;
+        finish(w).lobes.clear();
     };
     assert_eq!(why(&dull), "no surface answers a light");
 }
@@ -130,11 +143,11 @@ fn shadows_are_left_out_for_the_reason_that_holds() {
 #[test]
 fn highlights_need_a_lobe_and_a_light_that_makes_them() {
     let why = |change: &dyn Fn(&mut World)| why_not(Effect::Highlights, change).0;
-    assert_eq!(why(&|w| w.materials[0].finish.lobes.clear()), "no surface has a highlight");
+    assert_eq!(why(&|w| finish(w).lobes.clear()), "no surface has a highlight");
     assert_eq!(why(&|w| w.lights[0].casts_shadows = false), "shadowless lights make no highlight");
     let (mut world, origins) = lit_mirror();
     world.lights[0].casts_shadows = false;
-    world.materials[0].finish.seed = true;
+    finish(&mut world).seed = true;
     assert!(plan(&world, &origins, &OPTIONS).simulates(Effect::Highlights));
 }
 
@@ -152,8 +165,8 @@ fn what_lights_and_objects_do_apart_from_the_rest_is_called_for_by_them() {
     assert_eq!(why_not(Effect::DoubleIllumination, dark).0, "no light");
     let dull = |w: &mut World| {
         w.lights[0].attenuation = attenuation;
-        w.materials[0].finish.diffuse = 0.0;
-        w.materials[0].finish.lobes.clear();
+        finish(w).diffuse = 0.0;
+        finish(w).lobes.clear();
     };
     assert_eq!(why_not(Effect::Attenuation, dull).0, "no surface answers a light");
     let (mut world, mut origins) = lit_mirror();
@@ -171,7 +184,7 @@ fn what_lights_and_objects_do_apart_from_the_rest_is_called_for_by_them() {
 
 #[test]
 fn reflection_needs_a_surface_that_reflects_and_a_second_level() {
-    let dull = |w: &mut World| w.materials[0].finish.reflection = None;
+    let dull = |w: &mut World| finish(w).reflection = None;
     assert_eq!(why_not(Effect::Reflection, dull), ("no surface reflects".to_owned(), None));
     let (why, at) = why_not(Effect::Reflection, |w| w.settings.max_trace_level = 0);
     assert_eq!((why.contains("`max_trace_level` is 1"), at), (true, Some(site(30))));
@@ -192,13 +205,14 @@ fn a_sky_and_its_patterns_are_called_for_by_the_sky() {
     let (mut world, mut origins) = lit_mirror();
     let (items, pattern) = (vec![site(40), site(42)], vec![site(43)]);
     origins.sky = Some(SkyOrigin { site: site(41), items, pattern });
-    world.sky = Some(Sky {
-        pigments: vec![Pigment::Patterned {
-            pattern: crate::pattern::Pattern::Checker,
-            pattern_from_texture: crate::math::placement::Map::IDENTITY,
-            map: vec![(0.0, Color::WHITE)],
-        }],
-    });
+    let checker = Pattern {
+        source: Source::Kind(Kind::Checker(Checker {})),
+        setting: Setting::default(),
+        wave: Wave::default(),
+    };
+    let entries = vec![(0.0, Color::WHITE)];
+    let blend = Blend { space: Space::default(), pattern: checker, entries };
+    world.sky = Some(Sky { pigments: vec![Pigment::Ramp(blend)] });
     let plan = plan(&world, &origins, &OPTIONS);
     let by = |effect| plan.called(effect).map(|called| called.by.clone());
     assert_eq!(by(Effect::Sky), Some(vec![site(40), site(42)]));

@@ -8,6 +8,12 @@ impl BicubicPatch {
     /// Returns the point on the surface nearest to `point`, which is near the given part, and the normal
     /// there, of any length.
     pub(super) fn foot(&self, point: Vector, part: u32) -> (Vector, Vector) {
+        let [u, v] = self.uv(part, point);
+        (self.net.at(u, v).point, self.normal(u, v))
+    }
+
+    /// Returns the parameters there: from the first point of a row to its fourth, and from row to row.
+    pub fn uv(&self, part: u32, point: Vector) -> [f64; 2] {
         let (mut u, mut v) = (f64::from(part >> 15) / STEPS, f64::from(part & 0x7fff) / STEPS);
         for _ in 0..6 {
             let Place { point: here, along_u, along_v } = self.net.at(u, v);
@@ -24,7 +30,7 @@ impl BicubicPatch {
                 break;
             }
         }
-        (self.net.at(u, v).point, self.normal(u, v))
+        [u, v]
     }
 
     /// Returns the normal at (u, v). At a tip, and wherever else the derivatives along u and v are parallel,

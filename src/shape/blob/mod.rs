@@ -13,7 +13,7 @@ use smallvec::SmallVec;
 
 use super::body::{Crossings, Height, Local, LocalRay};
 use super::tree::Tree;
-use super::{Bounds, U};
+use super::{Bounds, Paint, U};
 use crate::math::singular::singular_values;
 use crate::math::{Matrix, Vector};
 use along::Line;
@@ -41,6 +41,8 @@ pub struct Blob {
     stretches: Vec<f64>,
     tree: Tree,
     reach: f64,
+    /// For each component, an index into a list owned by the caller; or empty.
+    paints: Vec<u32>,
 }
 
 /// A point in a component's space.
@@ -90,12 +92,24 @@ impl Component {
 impl Blob {
     /// Builds a blob of about size 1 from components whose strengths are relative to the threshold. `None` if
     /// the field reaches 1 nowhere.
-    pub fn new(mut components: Vec<Component>) -> Option<Self> {
+    pub fn new(components: Vec<Component>) -> Option<Self> {
+        Self::painted(components, &[])
+    }
+
+    /// Builds a blob whose components have these paints.
+    pub fn painted(mut components: Vec<Component>, paints: &[u32]) -> Option<Self> {
+        let painted = components.iter().zip(paints);
+        let paints: Vec<u32> =
+            painted.filter(|(one, _)| one.strength != 0.0).map(|(_, paint)| *paint).collect();
         components.retain(|component| component.strength != 0.0);
         if components.is_empty() {
             return None;
         }
-        let (tree, components, bounds) = sorted(&components);
+        let (tree, components, bounds, order) = sorted(&components);
+        let paints = match paints.is_empty() {
+            true => paints,
+            false => order.iter().map(|&i| paints[i as usize]).collect(),
+        };
         let (widths, _) = widths(&tree, &components, &bounds);
         let parts = || components.iter().zip(&widths).filter(|(_, width)| **width > 0.0);
         let reach = parts().map(|(component, &width)| component.reach(width)).fold(0.0, f64::max);
@@ -103,7 +117,30 @@ impl Blob {
         let stretch = |component: &Component| singular_values(component.unit_from_blob)[0];
         let stretches = components.iter().map(stretch).collect();
         let reach = reach * (1.0 + 64.0 * U);
-        Some(Self { components, widths, stretches, tree, reach })
+        Some(Self { components, widths, stretches, tree, reach, paints })
+    }
+
+    /// Returns the paints of the components at a point, each with its share of the sum of all fields' sizes;
+    /// `None` if they have none.
+    ///
+    /// **Source:** measured on POV-Ray 3.7, to 1/10,000.
+    pub fn paint(&self, point: Vector) -> Option<Paint> {
+        if self.paints.is_empty() {
+            return None;
+        }
+        let mut paint = Paint::new();
+        for i in self.around(point) {
+            let component = &self.components[i];
+            let seen = component.seen(component.unit_from_blob * (point - component.centre));
+            let weight = component.strength.abs() * seen.inner.max(0.0) * seen.inner.max(0.0);
+            match paint.iter_mut().find(|(known, _)| *known == self.paints[i]) {
+                Some((_, share)) => *share += weight,
+                None => paint.push((self.paints[i], weight)),
+            }
+        }
+        let sum: f64 = paint.iter().map(|(_, weight)| weight).sum();
+        paint.iter_mut().for_each(|(_, weight)| *weight /= sum);
+        (sum > 0.0).then_some(paint)
     }
 
     /// Returns the components that may have a field at a point.
@@ -122,13 +159,13 @@ impl Blob {
     }
 }
 
-/// Builds a tree over the components; returns them, and their boxes, in its order.
-fn sorted(components: &[Component]) -> (Tree, Vec<Component>, Vec<Bounds>) {
+/// Builds a tree over the components; returns them, and their boxes, in its order, and their former indices.
+fn sorted(components: &[Component]) -> (Tree, Vec<Component>, Vec<Bounds>, Vec<u32>) {
     let bounds: Vec<Bounds> = components.iter().map(Component::bounds).collect();
     let (tree, order) = Tree::build(&bounds);
     let components = order.iter().map(|&i| components[i as usize]).collect();
     let bounds = order.iter().map(|&i| bounds[i as usize]).collect();
-    (tree, components, bounds)
+    (tree, components, bounds, order)
 }
 
 /// Returns [`Blob::widths`], and the number of visited tree nodes.
@@ -220,7 +257,7 @@ impl Local for Blob {
 impl Blob {
     /// Returns the number of tree nodes visited to compute the widths.
     pub(super) fn looks(components: &[Component]) -> usize {
-        let (tree, components, bounds) = sorted(components);
+        let (tree, components, bounds, _) = sorted(components);
         widths(&tree, &components, &bounds).1
     }
 

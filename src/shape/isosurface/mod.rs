@@ -17,10 +17,11 @@ use std::sync::Arc;
 
 use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::{Memory, U, multiple};
-use crate::function::{Closed, Number, Run, Sloped};
+use crate::function::{Number, Run, Sloped};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::math::roots::isolate::{Changes, Fineness, Search};
+use crate::texture::Closed;
 pub use cells::Cells;
 pub use container::Container;
 use line::{Line, look};

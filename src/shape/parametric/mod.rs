@@ -15,9 +15,10 @@ use smallvec::SmallVec;
 use super::U;
 use super::body::{Crossings, Height, Local, LocalRay};
 use super::isosurface::Container;
-use crate::function::{Closed, Run, Sloped};
+use crate::function::{Run, Sloped};
 use crate::math::Vector;
 use crate::math::interval::Interval;
+use crate::texture::Closed;
 use search::Search;
 
 /// The rectangle is divided into 2^DEPTH parts along each parameter in advance.
@@ -85,6 +86,13 @@ impl Surface<'_> {
             point: std::array::from_fn(|i| over(all[i].value - Interval::point(centre[i]))),
             slopes: [0, 1].map(|way| std::array::from_fn(|i| over(all[i].slopes[way]))),
         }
+    }
+
+    /// Returns the middle of the image of a point, and of its slopes along u and v.
+    fn middle(&self, [u, v]: [f64; 2]) -> (Vector, Vector, Vector) {
+        let image = self.evaluate([Interval::point(u), Interval::point(v)]);
+        let mid = |all: [Interval; 3]| Vector::from_array(all.map(middle));
+        (mid(image.point), mid(image.slopes[0]), mid(image.slopes[1]))
     }
 
     /// Like [`Self::evaluate`], with the points limited by the slopes from the middle's; also returns the
@@ -164,28 +172,11 @@ impl Parametric {
         Search::along(self, ray).looked
     }
 
-    fn held(&self) -> Vector {
-        match self.container {
-            Container::Box(half) => half,
-            Container::Sphere(radius) => Vector::splat(radius),
-        }
-    }
-}
-
-impl Local for Parametric {
-    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        found.extend(Search::along(self, ray).crossings());
-    }
-
-    /// Measured from the tangent plane at the surface point nearest to `point`, searched within the part.
-    fn height(&self, part: u32, point: Vector) -> Height {
+    /// Returns u and v of the surface point nearest to `point`, searched within a part.
+    pub fn uv(&self, part: u32, point: Vector) -> [f64; 2] {
         let part = self.part(part);
         let surface = self.surface();
-        let at = |[u, v]: [f64; 2]| {
-            let image = surface.evaluate([Interval::point(u), Interval::point(v)]);
-            let mid = |all: [Interval; 3]| Vector::from_array(all.map(middle));
-            (mid(image.point), mid(image.slopes[0]), mid(image.slopes[1]))
-        };
+        let at = |place| surface.middle(place);
         let shares = [0.125, 0.375, 0.625, 0.875];
         let place =
             |way: usize, share: f64| part[way].low + share * (part[way].high - part[way].low);
@@ -207,6 +198,28 @@ impl Local for Parametric {
                 (place[way] + step[way]).clamp(part[way].low, part[way].high)
             });
         }
+        place
+    }
+
+    fn held(&self) -> Vector {
+        match self.container {
+            Container::Box(half) => half,
+            Container::Sphere(radius) => Vector::splat(radius),
+        }
+    }
+}
+
+impl Local for Parametric {
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        found.extend(Search::along(self, ray).crossings());
+    }
+
+    /// Measured from the tangent plane at the surface point nearest to `point`, searched within the part.
+    fn height(&self, part: u32, point: Vector) -> Height {
+        let place = self.uv(part, point);
+        let part = self.part(part);
+        let surface = self.surface();
+        let at = |place| surface.middle(place);
         let (there, along_u, along_v) = at(place);
         let mut normal = along_u.cross(along_v);
         if normal == Vector::ZERO {

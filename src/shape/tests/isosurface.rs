@@ -8,13 +8,14 @@ use super::placed::{
     ray_at_placed,
 };
 use super::*;
-use crate::function::{Binary, Builder, Closed, Function, Node, Unary};
+use crate::function::{Binary, Builder, Function, Node, Unary};
 use crate::math::random::tries_in;
 use crate::shape::Body;
 use crate::shape::Memory;
 use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::exact::Triple;
 use crate::shape::isosurface::{Container, Isosurface};
+use crate::texture::Closed;
 
 /// Operations as they are read.
 pub(super) struct Formula(Builder);

@@ -43,7 +43,7 @@ fn a_mirrored_world_makes_a_mirrored_film() {
     }
     // A checker is not mirrored by a mirrored point on the lattice; a colour is.
     let plain = |mut world: World| {
-        world.materials[0] = matte(0.4, 0.5, 0.6);
+        world.textures[0] = Texture::Plain(matte(0.4, 0.5, 0.6));
         traced(&world, 61, 40, Antialias::Off).film.radiance
     };
     let (left, mut right) = (plain(world), plain(mirrored));
@@ -56,7 +56,7 @@ fn the_pruned_kernel_and_the_full_one_give_the_same_bits() {
     let full_plan = |plan: &Plan| Plan { kernel: crate::plan::Kernel::EVERYTHING, ..plan.clone() };
     use Effect::{Diffuse, Highlights, Reflection, Shadows};
     let without_reflection =
-        |w: &mut World| w.materials.iter_mut().for_each(|m| m.finish.reflection = None);
+        |w: &mut World| finishes(w).for_each(|finish| finish.reflection = None);
     type Change<'a> = &'a dyn Fn(&mut World);
     let changes: [(&[Effect], Change); 5] = [
         (&[Shadows], &|w| w.lights.iter_mut().for_each(|light| light.casts_shadows = false)),
@@ -93,7 +93,7 @@ fn what_nothing_calls_for_is_counted_zero() {
     assert_eq!(rays(&|w| w.lights.iter_mut().for_each(|l| l.casts_shadows = false)).shadow, 0);
     assert_eq!(rays(&|w| w.objects.iter_mut().for_each(|o| o.casts_shadow = false)).shadow, 0);
     let unanswering = |w: &mut World| {
-        w.materials.iter_mut().for_each(|m| m.finish = Finish { ..NO_FINISH });
+        finishes(w).for_each(|finish| *finish = Finish { ..NO_FINISH });
     };
     assert_eq!(rays(&unanswering), Counters { camera: 1200, ..rays(&unanswering) });
     assert_eq!(rays(&unanswering).shadow + rays(&unanswering).reflection, 0);

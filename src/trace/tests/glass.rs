@@ -6,13 +6,13 @@ use crate::plan::{Called, Effect, Kernel};
 use crate::world::Interior;
 
 /// A surface that shows nothing of itself and lets `transmit` through.
-fn pane(transmit: f64) -> Material {
+fn pane(transmit: f64) -> Plain {
     let color = Color { rgb: Rgb::WHITE, filter: 0.0, transmit };
-    Material { pigment: Pigment::Color(color), finish: NO_FINISH }
+    plain(color, NO_FINISH)
 }
 
 /// Clear through and through, and mirroring by Fresnel's equations what does not go in.
-fn glass() -> Material {
+fn glass() -> Plain {
     let mut glass = mirror(1.0, 0.0);
     glass.pigment = pane(1.0).pigment;
     glass.finish.conserve_energy = true;
@@ -25,7 +25,7 @@ fn glass() -> Material {
 impl Built {
     /// Fills the object that was added last.
     fn filled(mut self, ior: f64) -> Self {
-        self.0.interiors.push(Interior { ior });
+        self.0.interiors.push(Interior::of(ior));
         if let Some(object) = self.0.objects.last_mut() {
             object.interior = Some(self.0.interiors.len() as u32 - 1);
         }
@@ -33,12 +33,12 @@ impl Built {
     }
 
     /// All of space beyond `depth` before the camera, across `TILT` from its sight.
-    fn beyond(self, depth: f64, material: Material) -> Self {
-        self.plane(UnitVector::from_unit(TILT), TILT.z * -depth, material)
+    fn beyond(self, depth: f64, texture: Plain) -> Self {
+        self.plane(UnitVector::from_unit(TILT), TILT.z * -depth, texture)
     }
 
     /// The same between two depths.
-    fn slab(mut self, from: f64, to: f64, material: Material) -> Self {
+    fn slab(mut self, from: f64, to: f64, texture: Plain) -> Self {
         let across = UnitVector::from_direction(TILT.cross(Vector::X)).expect("not along");
         self.0.boxes.push(Box_ {
             centre: Vector::Z * (-0.5 * (from + to)),
@@ -46,7 +46,7 @@ impl Built {
             half_widths: [1e6, 1e6, 0.5 * (to - from) * TILT.z],
         });
         let shape = Shape::Box(self.0.boxes.len() as u32 - 1);
-        self.object(shape, material)
+        self.object(shape, texture)
     }
 }
 
@@ -56,14 +56,11 @@ const TILT: Vector = Vector::new(0.0, 0.5, 0.866_025_403_784_438_6);
 /// By which index of refraction the medium in which the ray ends shows itself: the sky tells the
 /// ray's direction.
 fn index_behind(built: Built) -> f64 {
-    let axis = |direction: Vector| Pigment::Patterned {
-        pattern: Pattern::Gradient { direction },
+    let axis = |direction: Vector| {
         // From −1 … 1 to 0 … 1.
-        pattern_from_texture: Map {
-            centre: direction * -1.0,
-            matrix: Matrix::from_diagonal(Vector::splat(0.499_999)),
-        },
-        map: vec![(0.0, Color::BLACK), (1.0, Color::WHITE)],
+        let matrix = Matrix::from_diagonal(Vector::splat(0.499_999));
+        let step = Step::Map(Map { centre: direction * -1.0, matrix });
+        ramp(gradient(direction), vec![step], black_to_white())
     };
     let along = |direction: Vector| {
         let world = Built(built.0.clone()).world(|world| {
@@ -191,7 +188,7 @@ fn a_clear_surface_shows_by_itself_as_much_as_is_not_clear_and_shines_all_the_sa
     part.pigment = Pigment::Color(color);
     part.finish.emission = Rgb::gray(0.4);
     let behind = Rgb::new(0.8, 0.4, 0.2);
-    let seen = |part: &Material| {
+    let seen = |part: &Plain| {
         let built = Built::default().plane(UnitVector::Z, -3.0, part.clone());
         centre(&built.world(|world| world.background = behind)).components()
     };

@@ -171,11 +171,8 @@ fn a_parallel_light_throws_shadows_from_its_plane_only() {
 #[test]
 fn a_flat_face_takes_its_constant_texture_coordinate_from_the_world() {
     let mut checkered = glowing(1.0);
-    checkered.pigment = Pigment::Patterned {
-        pattern: Pattern::Gradient { direction: Vector::Z },
-        pattern_from_texture: Map { centre: Vector::Z * 0.5, ..Map::IDENTITY },
-        map: vec![(0.0, Color::BLACK), (1.0, Color::WHITE)],
-    };
+    let step = Step::Map(Map { centre: Vector::Z * 0.5, ..Map::IDENTITY });
+    checkered.pigment = ramp(gradient(Vector::Z), vec![step], black_to_white());
     let world = Built::default().plane(UnitVector::Z, -3.0, checkered).world(|world| {
         world.objects[0].faces = Some(1);
         world.faces = vec![FaceCoordinates::default(), FaceCoordinates([None, None, Some(0.75)])];
@@ -186,15 +183,12 @@ fn a_flat_face_takes_its_constant_texture_coordinate_from_the_world() {
 #[test]
 fn a_pattern_is_read_in_the_textures_space_and_then_in_its_own() {
     let mut striped = glowing(1.0);
-    striped.pigment = Pigment::Patterned {
-        pattern: Pattern::Gradient { direction: Vector::X },
-        pattern_from_texture: Map { centre: Vector::X * 0.125, ..Map::IDENTITY },
-        map: vec![(0.0, Color::BLACK), (1.0, Color::WHITE)],
-    };
+    let step = Step::Map(Map { centre: Vector::X * 0.125, ..Map::IDENTITY });
+    striped.pigment = ramp(gradient(Vector::X), vec![step], black_to_white());
     let world = Built::default().plane(UnitVector::Z, -3.0, striped).world(|world| {
         let matrix = Matrix::from_diagonal(Vector::splat(0.25));
         world.texture_maps = vec![Map::IDENTITY, Map { centre: Vector::X * -2.0, matrix }];
-        world.objects[0].texture_from_world = Some(1);
+        world.objects[0].places = Some(1);
     });
     // Seen at x = 0: (0 + 2) / 4 in the texture, an eighth less in the pattern.
     assert_eq!(centre(&world), Rgb::gray(0.375));
@@ -260,8 +254,7 @@ fn what_neither_the_camera_nor_mirrors_see_casts_its_shadow() {
 fn a_surface_lit_on_both_sides_answers_the_light_behind_it() {
     let seen = |finish: Finish, double_illuminate: bool, blocked: bool| {
         let color = Color::opaque(Rgb::new(1.0, 0.5, 0.25));
-        let material = Material { pigment: Pigment::Color(color), finish };
-        let wall = Built::default().plane(UnitVector::Z, -5.0, material);
+        let wall = Built::default().plane(UnitVector::Z, -5.0, plain(color, finish));
         let wall = wall.light([3.0, 0.0, -9.0], 1.0);
         let wall = if blocked { wall.sphere([1.5, 0.0, -7.0], 0.3, glowing(0.0)) } else { wall };
         centre(&wall.world(|world| world.objects[0].double_illuminate = double_illuminate))

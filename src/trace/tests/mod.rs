@@ -10,12 +10,14 @@ use super::*;
 use crate::color::{Color, Rgb};
 use crate::math::placement::Map;
 use crate::math::{Matrix, UnitVector, Vector};
-use crate::pattern::Pattern;
+use crate::pattern::{Checker, Gradient, Kind, Setting, Wave};
 use crate::plan::{Effect, PlanOptions, plan};
 use crate::shape::{Box_, Plane, Shape, Sphere};
+use crate::texture::space::Start;
+use crate::texture::{Blend, Pattern, Source, Space, Step};
 use crate::world::{
-    Camera, CameraKind, FaceCoordinates, Finish, Light, LightKind, Lobe, LobeKind, Material,
-    Object, Origins, Pigment, Reflection, Settings, Sky,
+    Camera, CameraKind, FaceCoordinates, Finish, Light, LightKind, Lobe, LobeKind, Object, Origins,
+    Pigment, Plain, Reflection, Settings, Sky, Texture,
 };
 
 const NO_FINISH: Finish = Finish {
@@ -26,14 +28,19 @@ const NO_FINISH: Finish = Finish {
     lobes: Vec::new(),
     reflection: None,
     seed: false,
+    extras: None,
 };
 
-fn glowing(emission: f64) -> Material {
-    let finish = Finish { emission: Rgb::gray(emission), ..NO_FINISH };
-    Material { pigment: Pigment::Color(Color::WHITE), finish }
+fn plain(color: Color, finish: Finish) -> Plain {
+    Plain { pigment: Pigment::Color(color), normal: None, finish }
 }
 
-fn mirror(albedo: f64, emission: f64) -> Material {
+fn glowing(emission: f64) -> Plain {
+    let finish = Finish { emission: Rgb::gray(emission), ..NO_FINISH };
+    plain(Color::WHITE, finish)
+}
+
+fn mirror(albedo: f64, emission: f64) -> Plain {
     let all = Rgb::gray(albedo);
     let reflection = Reflection {
         fresnel: false,
@@ -45,20 +52,43 @@ fn mirror(albedo: f64, emission: f64) -> Material {
     };
     let finish =
         Finish { emission: Rgb::gray(emission), reflection: Some(reflection), ..NO_FINISH };
-    Material { pigment: Pigment::Color(Color::WHITE), finish }
+    plain(Color::WHITE, finish)
 }
 
-fn matte(red: f64, green: f64, blue: f64) -> Material {
+fn matte(red: f64, green: f64, blue: f64) -> Plain {
     let finish = Finish { emission: Rgb::gray(0.1), diffuse: 0.6, ..NO_FINISH };
-    Material { pigment: Pigment::Color(Color::opaque(Rgb::new(red, green, blue))), finish }
+    plain(Color::opaque(Rgb::new(red, green, blue)), finish)
 }
 
-fn seed(rgb: Rgb, kd: f64, ks: f64, exponent: f64, ambient: f64) -> Material {
-    let mut material = mirror(ks, kd * ambient);
+fn seed(rgb: Rgb, kd: f64, ks: f64, exponent: f64, ambient: f64) -> Plain {
+    let mut texture = mirror(ks, kd * ambient);
     let lobe = Lobe { kind: LobeKind::Blinn, weight: ks, exponent, metallic: 1.0 };
-    material.pigment = Pigment::Color(Color::opaque(rgb));
-    material.finish = Finish { diffuse: kd, lobes: vec![lobe], seed: true, ..material.finish };
-    material
+    texture.pigment = Pigment::Color(Color::opaque(rgb));
+    texture.finish = Finish { diffuse: kd, lobes: vec![lobe], seed: true, ..texture.finish };
+    texture
+}
+
+/// Colours over a pattern. `steps` lead from the texture's space to the pattern's.
+fn ramp(kind: Kind, steps: Vec<Step>, entries: Vec<(f64, Color)>) -> Pigment {
+    let wave = Wave::new(kind.wave(), kind.frequency(), 0.0);
+    let pattern = Pattern { source: Source::Kind(kind), setting: Setting::default(), wave };
+    Pigment::Ramp(Blend { space: Space { start: Start::Slot(0), steps }, pattern, entries })
+}
+
+fn gradient(direction: Vector) -> Kind {
+    Kind::Gradient(Gradient { direction })
+}
+
+fn black_to_white() -> Vec<(f64, Color)> {
+    vec![(0.0, Color::BLACK), (1.0, Color::WHITE)]
+}
+
+/// The finishes of a World's textures.
+fn finishes(world: &mut World) -> impl Iterator<Item = &mut Finish> {
+    world.textures.iter_mut().map(|texture| match texture {
+        Texture::Plain(plain) => &mut plain.finish,
+        _ => unreachable!("these are plain"),
+    })
 }
 
 /// A World under construction.
@@ -66,34 +96,33 @@ fn seed(rgb: Rgb, kd: f64, ks: f64, exponent: f64, ambient: f64) -> Material {
 struct Built(World);
 
 impl Built {
-    fn object(mut self, shape: Shape, material: Material) -> Self {
-        self.0
-            .objects
-            .push(Object { material: self.0.materials.len() as u32, ..Object::plain(shape) });
-        self.0.materials.push(material);
+    fn object(mut self, shape: Shape, texture: Plain) -> Self {
+        let index = self.0.textures.len() as u32;
+        self.0.objects.push(Object { texture: index, ..Object::plain(shape) });
+        self.0.textures.push(Texture::Plain(texture));
         self
     }
 
-    fn sphere(mut self, centre: [f64; 3], radius: f64, material: Material) -> Self {
+    fn sphere(mut self, centre: [f64; 3], radius: f64, texture: Plain) -> Self {
         self.0.spheres.push(Sphere { centre: Vector::from_array(centre), radius });
         let shape = Shape::Sphere(self.0.spheres.len() as u32 - 1);
-        self.object(shape, material)
+        self.object(shape, texture)
     }
 
-    fn plane(mut self, normal: UnitVector, distance: f64, material: Material) -> Self {
+    fn plane(mut self, normal: UnitVector, distance: f64, texture: Plain) -> Self {
         self.0.planes.push(Plane { normal, distance });
         let shape = Shape::Plane(self.0.planes.len() as u32 - 1);
-        self.object(shape, material)
+        self.object(shape, texture)
     }
 
-    fn cube(mut self, centre: [f64; 3], half_width: f64, material: Material) -> Self {
+    fn cube(mut self, centre: [f64; 3], half_width: f64, texture: Plain) -> Self {
         self.0.boxes.push(Box_ {
             centre: Vector::from_array(centre),
             normals: [UnitVector::X, UnitVector::Y, UnitVector::Z],
             half_widths: [half_width; 3],
         });
         let shape = Shape::Box(self.0.boxes.len() as u32 - 1);
-        self.object(shape, material)
+        self.object(shape, texture)
     }
 
     fn light(mut self, position: [f64; 3], intensity: f64) -> Self {
@@ -114,22 +143,19 @@ impl Built {
 }
 
 /// Two mirrors that face each other across the camera, which looks straight at one.
-fn corridor(material: &Material) -> Built {
-    Built::default().plane(UnitVector::Z, -3.0, material.clone()).plane(
+fn corridor(texture: &Plain) -> Built {
+    Built::default().plane(UnitVector::Z, -3.0, texture.clone()).plane(
         -UnitVector::Z,
         -3.0,
-        material.clone(),
+        texture.clone(),
     )
 }
 
 /// A bit of everything.
 fn varied() -> World {
     let mut ground = matte(1.0, 1.0, 1.0);
-    ground.pigment = Pigment::Patterned {
-        pattern: Pattern::Checker,
-        pattern_from_texture: Map::IDENTITY,
-        map: vec![(0.0, Color::WHITE), (1.0, Color::opaque(Rgb::new(0.2, 0.3, 0.4)))],
-    };
+    let squares = vec![(0.0, Color::WHITE), (1.0, Color::opaque(Rgb::new(0.2, 0.3, 0.4)))];
+    ground.pigment = ramp(Kind::Checker(Checker {}), vec![], squares);
     let mut shiny = matte(1.0, 0.5, 0.2);
     let lobe = Lobe { kind: LobeKind::Phong, weight: 0.7, exponent: 30.0, metallic: 0.5 };
     shiny.finish.lobes.push(lobe);

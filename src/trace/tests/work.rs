@@ -54,7 +54,7 @@ fn one_sphere_and_one_plane_are_solved_for_just_the_rays_that_may_meet_them() {
     }
     // A lamp above shadows nothing but the plane below the sphere: a shadow ray tries what it meets.
     let mut lit = world;
-    lit.materials[1] = matte(1.0, 1.0, 1.0);
+    lit.textures[1] = Texture::Plain(matte(1.0, 1.0, 1.0));
     lit.lights = Built::default().light([0.0, 50.0, 0.0], 1.0).0.lights;
     let counters = counted(&lit, 1, options(width, height, Antialias::Off));
     assert!(counters.shadow > 0 && counters.work.root_solves > solves);

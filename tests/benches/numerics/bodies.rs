@@ -3,13 +3,14 @@
 
 use std::sync::Arc;
 
-use lucarne::function::{Binary, Builder, Closed, TooLong, Unary};
+use lucarne::function::{Binary, Builder, TooLong, Unary};
 use lucarne::math::{UnitVector, Vector};
 use lucarne::shape::isosurface::Container;
 use lucarne::shape::mesh::Face;
 use lucarne::shape::{
     Algebraic, Body, Cone, Crossing, Cylinder, Disc, Mesh, Parametric, Placed, Ray, Torus,
 };
+use lucarne::texture::Closed;
 
 use crate::dice::Dice;
 use crate::naive::{V32, V64, double, single};

@@ -7,7 +7,7 @@ use std::marker::PhantomData;
 use std::ops::{Add, Div, Mul, Sub};
 use std::sync::Arc;
 
-use lucarne::function::{Binary, Builder, Closed, TooLong, Unary};
+use lucarne::function::{Binary, Builder, TooLong, Unary};
 use lucarne::math::double::Double;
 use lucarne::math::terms::exponents;
 use lucarne::math::{Matrix, Vector};
@@ -18,6 +18,7 @@ use lucarne::shape::{
     Algebraic, Blob, Body, Isosurface, JuliaFractal, Lathe, Memory, Ovus, Prism, Sor, SphereSweep,
     Superellipsoid, blob, sor, sphere_sweep,
 };
+use lucarne::texture::Closed;
 
 use crate::bodies::Form;
 use crate::naive::{V32, V64, double, single};

@@ -26,7 +26,9 @@ impl Albedo {
     /// Converts albedos to the weights of the brightest direction.
     pub fn spend(self, finish: &mut ClassicFinish) {
         if self.diffuse {
-            finish.diffuse *= (finish.brilliance + 1.0) / 2.0;
+            let factor = (finish.brilliance + 1.0) / 2.0;
+            finish.diffuse *= factor;
+            finish.behind *= factor;
         }
         if self.phong {
             finish.phong *= (finish.phong_size + 1.0) / 2.0;

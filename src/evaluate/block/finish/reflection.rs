@@ -79,7 +79,7 @@ impl Evaluator<'_> {
 
     /// Reads `exponent`: POV-Ray 3.7 raises light to its reciprocal, so that 0 leaves no reflected light
     /// (measured).
-    fn exponent(&mut self, token: &Token) -> Outcome<f64> {
+    pub(super) fn exponent(&mut self, token: &Token) -> Outcome<f64> {
         let given = self.number_after(token, "a number")?;
         if given.value > 0.0 {
             return Ok(given.value);

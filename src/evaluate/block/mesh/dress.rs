@@ -5,7 +5,7 @@
 use std::collections::HashMap;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{FinishId, PigmentId, TextureId, TransformId};
+use crate::scene::{FinishId, PigmentId, TextureId, TextureKind};
 use crate::vocabulary::Word;
 
 use super::super::super::lint::is_literal;
@@ -26,7 +26,8 @@ pub(super) struct Dress {
 #[derive(Debug, Default)]
 pub(super) struct Textures {
     list: Vec<TextureId>,
-    known: HashMap<(PigmentId, FinishId, Vec<TransformId>), u32>,
+    /// The textures that share a pigment, a finish and their parts, to be compared for equality.
+    known: HashMap<(PigmentId, FinishId, Vec<TextureId>), Vec<u32>>,
 }
 
 impl Textures {
@@ -74,11 +75,20 @@ impl Evaluator<'_> {
     /// Returns the index of a texture in a mesh's list, adding it if it is new.
     fn number_of_texture(&self, id: TextureId, all: &mut Textures) -> u32 {
         let texture = &self.scene.textures[id.index()];
-        let key = (texture.pigment, texture.finish, texture.transforms.clone());
-        *all.known.entry(key).or_insert_with(|| {
-            all.list.push(id);
-            all.list.len() as u32 - 1
-        })
+        let parts = match &texture.kind {
+            TextureKind::Plain { .. } => Vec::new(),
+            TextureKind::Blend { entries, .. } => entries.iter().map(|(_, id)| *id).collect(),
+            TextureKind::Layers(layers) => layers.clone(),
+        };
+        let key = (texture.kind.first_pigment(), texture.kind.first_finish(), parts);
+        let alike = all.known.entry(key).or_default();
+        let same = |at: &&u32| self.scene.textures[all.list[**at as usize].index()] == *texture;
+        if let Some(known) = alike.iter().find(same) {
+            return *known;
+        }
+        all.list.push(id);
+        alike.push(all.list.len() as u32 - 1);
+        all.list.len() as u32 - 1
     }
 
     /// Reads `texture { … }`, which cannot have layers here.

@@ -139,13 +139,13 @@ impl Evaluator<'_> {
         for color in &mut colors {
             color.rgb = color.rgb.map(|light| gamma.of_light(light));
         }
-        let clear = if colors.iter().any(|color| color.is_clear()) { vec![site] } else { vec![] };
+        let clear = colors.iter().any(|color| color.is_clear()).then_some(site);
         self.add_pigment(Pigment {
             kind: PigmentKind::Faces(colors.into()),
-            transforms: Vec::new(),
+            steps: Vec::new(),
             site,
-            pattern: Vec::new(),
             clear,
+            has_own_colors: false,
         })
     }
 
@@ -191,8 +191,8 @@ impl Evaluator<'_> {
     /// Returns the texture from the file of the mesh read last, which precedes all modifiers.
     pub(in super::super) fn paint_of_file(&mut self) -> Option<Modifier> {
         let (pigment, site) = self.meshes.painted.take()?;
-        let finish = self.scene.textures[self.default_texture.index()].finish;
-        let texture = self.add_texture(Texture { pigment, finish, transforms: Vec::new() });
+        let finish = self.scene.textures[self.default_texture.index()].kind.first_finish();
+        let texture = self.add_texture(Texture::plain(pigment, finish));
         Some(Modifier { kind: ModifierKind::Texture(texture), site })
     }
 }

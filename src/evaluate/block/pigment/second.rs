@@ -140,7 +140,7 @@ impl Evaluator<'_> {
                 let told = diagnostic(message, "one colour too many").help("leave it out");
                 self.gone_from(told, first.site, item)
             }
-            (Some(of), None) if written.map.is_none() => {
+            (Some(of), None) if !written.is_map => {
                 let name = of.name();
                 let message = format!("the colours of `{name}` stand in a `color_map`");
                 let told =

@@ -53,15 +53,24 @@ impl Evaluator<'_> {
         match block {
             Word::Pigment => {
                 let open = bare.pigment.take();
-                let mut open = open.unwrap_or_else(|| self.open_pigment(token, texture.pigment));
+                let mut open =
+                    open.unwrap_or_else(|| self.open_pigment(token, texture.kind.first_pigment()));
                 open.begin_anew();
                 self.item_of_pigment(token, &mut open);
                 bare.pigment = Some(open);
             }
             Word::Finish => {
                 let open = bare.finish.take();
-                let mut open = open.unwrap_or_else(|| self.open_finish(token, texture.finish));
+                let mut open =
+                    open.unwrap_or_else(|| self.open_finish(token, texture.kind.first_finish()));
                 self.item_of_finish(token, &mut open);
+                bare.finish = Some(open);
+            }
+            Word::Crand => {
+                let open = bare.finish.take();
+                let mut open =
+                    open.unwrap_or_else(|| self.open_finish(token, texture.kind.first_finish()));
+                self.bare_crand(token, &mut open);
                 bare.finish = Some(open);
             }
             _ => {
@@ -79,8 +88,12 @@ impl Evaluator<'_> {
     pub(super) fn close_bare(&mut self, texture: &mut Texture, bare: &mut Bare) -> Outcome<()> {
         let pigment = bare.pigment.take().map(|open| self.close_pigment(open)).transpose();
         let finish = bare.finish.take().map(|open| self.close_finish(open)).transpose();
-        texture.finish = finish?.unwrap_or(texture.finish);
-        texture.pigment = pigment?.unwrap_or(texture.pigment);
+        if let Some(finish) = finish? {
+            texture.set_finish(finish);
+        }
+        if let Some(pigment) = pigment? {
+            texture.set_pigment(pigment);
+        }
         Ok(())
     }
 

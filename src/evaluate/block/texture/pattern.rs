@@ -1,15 +1,17 @@
 //! Patterned textures, whose parts are textures in a `texture_map` or after the pattern.
 //!
-//! **In:** the pattern items of a `texture`, and items beside them. **Out:** the mistakes in them; such
-//! textures are unsupported.
+//! **In:** the pattern items of a `texture`, and items beside them. **Out:** the pattern and its textures, and
+//! the mistakes in them.
 //!
 //! **Source:** POV-Ray 3.7 manual, 3.4.7.3 "Texture Maps", and what the program refuses.
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::block::pattern::OpenPattern;
 use crate::evaluate::block::pigment::colors_of;
 use crate::evaluate::stream::{Token, TokenKind};
-use crate::evaluate::value::{Poison, Value};
+use crate::evaluate::value::Value;
 use crate::evaluate::{Evaluator, Outcome, Reported};
+use crate::scene::TextureId;
 use crate::source::{Site, Span};
 use crate::vocabulary::{Family, Word};
 
@@ -23,7 +25,9 @@ pub(super) struct Written {
     /// The last `pigment`.
     pub(super) painted: Option<Site>,
     /// Whether its map, or the textures after it, were present.
-    parts: bool,
+    pub(super) parts: bool,
+    /// The textures of its map, or after it.
+    pub(super) entries: Option<Vec<(f64, TextureId)>>,
     /// A mistake has been reported: further ones count as the same.
     told: bool,
 }
@@ -34,18 +38,23 @@ impl Evaluator<'_> {
         &mut self,
         token: &Token,
         word: Word,
+        open: &mut OpenPattern,
         written: &mut Written,
     ) -> Option<Outcome<()>> {
         match word {
             Word::ImageMap | Word::BumpMap => Some(self.picture_in_texture(token, word)),
-            // A block of two textures.
-            Word::Tiles | Word::Tile2 => {
-                self.pass_not_built(token, word);
-                self.set_poison(Poison::new(word, token.here.site(token.span)));
-                Some(Ok(()))
+            Word::Tiles => Some(self.tiles(token, open, written)),
+            Word::Object => {
+                let read = self.object_pattern(token, |evaluator, _| {
+                    evaluator.list_of_textures(token, (word, 2), written);
+                    Ok(())
+                });
+                Some(read.map(|(source, ())| open.choose(source, self.whole(token))))
             }
-            _ if word.family() == Family::Pattern => {
-                Some(self.pattern_of_textures(token, word, written))
+            Word::MaterialMap => Some(self.material_map(token, open, written)),
+            // `cubic` is first of all a shape.
+            _ if word.family() == Family::Pattern || word == Word::Cubic => {
+                Some(self.pattern_of_textures(token, word, open, written))
             }
             Word::ColorMap | Word::PigmentMap | Word::NormalMap | Word::SlopeMap => {
                 let pattern = written.pattern.clone()?;
@@ -58,11 +67,7 @@ impl Evaluator<'_> {
                     Some(count) => {
                         Some(self.map_of_list(token, (pattern, count), &opener, written))
                     }
-                    // It belongs to its pattern.
-                    None => {
-                        self.pass_not_built(token, word);
-                        Some(Ok(()))
-                    }
+                    None => Some(self.texture_map(token, open, written)),
                 }
             }
             Word::Pigment | Word::Normal | Word::Finish => {
@@ -83,7 +88,6 @@ impl Evaluator<'_> {
         if written.parts || written.told || colors_of(*pattern).is_some() {
             return Ok(());
         }
-        self.forget_pattern(*pattern);
         let name = pattern.name();
         let message = format!("a texture of the pattern `{name}` lacks its `texture_map`");
         let diagnostic = Diagnostic::new(Code::MissingPart, message)
@@ -94,15 +98,11 @@ impl Evaluator<'_> {
         Err(self.report(&opener.here, diagnostic))
     }
 
-    /// Discards the poison of a pattern that was not meant as a pattern of textures.
-    fn forget_pattern(&mut self, pattern: Word) {
-        self.poison = self.poison.filter(|poison| poison.word != pattern);
-    }
-
     fn pattern_of_textures(
         &mut self,
         token: &Token,
         pattern: Word,
+        open: &mut OpenPattern,
         written: &mut Written,
     ) -> Outcome<()> {
         let name = pattern.name();
@@ -119,14 +119,13 @@ impl Evaluator<'_> {
             self.report(&token.here, diagnostic);
         }
         written.pattern = Some((pattern, token.clone()));
-        let outer = self.poison.take();
-        match colors_of(pattern).filter(|_| pattern != Word::Object) {
-            Some(count) => self.list_of_textures(token, (pattern, count), written),
-            None => self.pass_not_built(token, pattern),
+        let source = self.pattern_source(token, pattern);
+        let site = self.whole(token);
+        if let Some(count) = colors_of(pattern) {
+            self.list_of_textures(token, (pattern, count), written);
         }
-        self.poison = outer;
-        if !written.told {
-            self.set_poison(Poison::new(pattern, token.here.site(token.span)));
+        if let Some(source) = source {
+            open.choose(source?, site);
         }
         if before.is_some() { Err(Reported) } else { Ok(()) }
     }
@@ -138,12 +137,19 @@ impl Evaluator<'_> {
         (pattern, count): (Word, usize),
         written: &mut Written,
     ) {
+        let mut textures = Vec::new();
         for _ in 0..count {
             self.skip_commas();
             let Some(next) = self.next_texture() else { break };
             written.parts = true;
-            let _: Outcome<_> = self.one_texture(&next);
+            if let Ok(texture) = self.one_texture(&next) {
+                textures.push(self.add_texture(texture));
+            }
         }
+        let black = self.default_texture;
+        textures.resize(count, black);
+        let entries = textures.into_iter().enumerate();
+        written.entries = Some(entries.map(|(at, id)| (at as f64, id)).collect());
         let name = pattern.name();
         let told = match self.peek().cloned() {
             Some(extra) if matches!(extra.kind, TokenKind::Word(Word::Texture)) => {
@@ -204,7 +210,6 @@ impl Evaluator<'_> {
                 .help("replace it with `texture_map`")
                 .fix(token.span, "texture_map")
         } else {
-            self.forget_pattern(*pattern);
             let outer = if map == Word::NormalMap || map == Word::SlopeMap {
                 Word::Normal.name()
             } else {
@@ -271,14 +276,13 @@ impl Evaluator<'_> {
         let outer = self.poison.take();
         match word {
             Word::Pigment => drop(self.pigment(token)),
-            Word::Finish => drop(self.finish(token)),
-            _ => self.pass_not_built(token, word),
+            Word::Normal => drop(self.normal(token)),
+            _ => drop(self.finish(token)),
         }
         self.poison = outer;
         if std::mem::replace(&mut written.told, true) {
             return Err(Reported);
         }
-        self.forget_pattern(pattern);
         let (name, other) = (pattern.name(), word.name());
         let message = format!("a texture of the pattern `{name}` has no `{other}` of its own");
         let diagnostic = Diagnostic::new(Code::ExtraPart, message)
@@ -292,10 +296,7 @@ impl Evaluator<'_> {
 
     /// Reports an image in a texture: `texture { image_map { … } }`.
     fn picture_in_texture(&mut self, token: &Token, word: Word) -> Outcome<()> {
-        let outer = self.poison.take();
-        self.pass_not_built(token, word);
-        self.poison = outer;
-        self.set_poison(Poison::new(word, token.here.site(token.span)));
+        let _: Outcome<_> = self.image(token, word);
         let whole = self.whole(token).span;
         let home = if word == Word::BumpMap { Word::Normal.name() } else { Word::Pigment.name() };
         let name = word.name();

@@ -9,10 +9,8 @@ use crate::syntax::ast::ExpressionId;
 use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::super::stream::{Token, TokenKind};
-use super::super::super::value::Value;
 use super::super::super::{Evaluator, Outcome};
 use super::super::Place;
-use super::super::pigment::colors_of;
 use super::super::place::home;
 use super::ranges;
 
@@ -37,7 +35,6 @@ fn numbers(item: Word, block: Word) -> Option<(usize, usize)> {
         (W::Scattering, W::Eccentricity | W::Extinction) => (1, 1),
         (W::Fog, W::Distance | W::FogType | W::FogOffset | W::FogAlt) => (1, 1),
         (W::Rainbow, W::ArcAngle | W::FalloffAngle | W::Width | W::Angle | W::Distance) => (1, 1),
-        (W::Irid, W::Thickness | W::Turbulence) => (1, 1),
         _ => return None,
     })
 }
@@ -60,19 +57,8 @@ fn is_of_fog(item: Word) -> bool {
 /// Returns whether an item that is not specific to a block is valid in it.
 fn is_also_of(item: Word, block: Word) -> bool {
     match block {
-        Word::Normal => {
-            let of_pigments = matches!(
-                item,
-                Word::ImageMap | Word::ColorMap | Word::PigmentMap | Word::TextureMap
-            );
-            matches!(item.family(), Family::Pattern | Family::PatternItem | Family::Transform)
-                && !of_pigments
-                || matches!(item, Word::NormalMap | Word::SlopeMap | Word::BumpMap | Word::BumpSize)
-        }
-        Word::ImageMap => matches!(
-            item,
-            Word::MapType | Word::Once | Word::Interpolate | Word::Filter | Word::Transmit
-        ),
+        Word::Normal => Place::NORMAL.holds(item) || matches!(item, Word::SlopeMap | Word::BumpMap),
+        Word::ImageMap => Place::IMAGE.holds(item),
         Word::Media => item == Word::Density || item.family() == Family::Transform,
         Word::Radiosity => item == Word::Normal || item == Word::Media,
         Word::Fog => is_of_fog(item),
@@ -80,9 +66,6 @@ fn is_also_of(item: Word, block: Word) -> bool {
         _ => false,
     }
 }
-
-/// Number of tiling patterns; the manual has 24 of them.
-const TILINGS: f64 = 27.0;
 
 /// Returns whether an item of `block` takes a colour.
 fn takes_color(item: Word, block: Word) -> bool {
@@ -100,7 +83,6 @@ impl Evaluator<'_> {
                 | Word::Scattering
                 | Word::Fog
                 | Word::Rainbow
-                | Word::Irid
         )
     }
 
@@ -216,43 +198,6 @@ impl Evaluator<'_> {
         self.skip_values();
     }
 
-    /// Reports a colour in a `texture_map`, where a texture is expected: `[0.5 color Red]`.
-    pub(super) fn entry_of_textures(&mut self) {
-        if self.is_before_value() {
-            let Some(Token { kind: TokenKind::Expression(id), here, .. }) = self.next() else {
-                return;
-            };
-            self.run_expression(&here, id);
-        }
-        self.skip_commas();
-        let Some(first) = self.peek().cloned() else { return };
-        let is_color = match first.kind {
-            TokenKind::Word(word) => word.family() == Family::Color,
-            TokenKind::Expression(id) => {
-                matches!(self.named(&first.here, id), Some(Value::Color(_)))
-            }
-            _ => false,
-        };
-        if !is_color {
-            return;
-        }
-        let outer = self.poison.take();
-        let read: Outcome<()> = self.color_after(&first, "a colour").map(drop);
-        self.poison = outer;
-        if read.is_err() {
-            return;
-        }
-        let whole = self.whole(&first);
-        let text = self.sources.text(whole.span).to_owned();
-        let right = format!("pigment {{ {text} }}");
-        let message = "an entry of a `texture_map` is a texture, and no colour";
-        let diagnostic = Diagnostic::new(Code::WrongType, message)
-            .at(whole.span, "expected a texture, or what is in one")
-            .help(format!("write `{right}`"))
-            .fix(whole.span, right);
-        self.report(&first.here, diagnostic);
-    }
-
     /// Returns whether a value comes next, with or without a comma before it; an undeclared name does not
     /// count.
     pub(in crate::evaluate::block) fn is_before_value(&mut self) -> bool {
@@ -299,7 +244,12 @@ impl Evaluator<'_> {
     }
 
     /// Reports an undeclared name that resembles a word of the block: `extinct 0.9`.
-    pub(super) fn misspelt_item(&mut self, token: &Token, id: ExpressionId, block: Word) -> bool {
+    pub(in crate::evaluate::block) fn misspelt_item(
+        &mut self,
+        token: &Token,
+        id: ExpressionId,
+        block: Word,
+    ) -> bool {
         if self.unknown_name(&token.here, id).is_none() {
             return false;
         }
@@ -330,82 +280,5 @@ impl Evaluator<'_> {
             None => self.skip_values(),
         }
         true
-    }
-
-    /// Reads the numbers or colours after an unsupported pattern.
-    pub(super) fn pattern_not_built(&mut self, token: &Token, pattern: Word) {
-        let outer = self.poison.take();
-        if pattern == Word::Tiling {
-            if let Ok(given) = self.number_after(token, "a number")
-                && !(1.0..=TILINGS).contains(&given.value)
-            {
-                let wanted = format!("a number from 1 to {TILINGS}");
-                self.out_of_range(&given, pattern, &wanted);
-            }
-        } else if let Word::ImageMap | Word::ImagePattern | Word::BumpMap = pattern
-            && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
-                self.peek().cloned()
-        {
-            self.next();
-            self.inside_block(&here, contents, span, Self::picture_not_built);
-        } else if let Some(most) = colors_of(pattern).filter(|_| pattern != Word::Object) {
-            self.colors_not_built(token, pattern, most);
-        } else {
-            self.poison = outer;
-            return match self.is_before_block() {
-                true => self.skip_arguments(pattern),
-                false => self.skip_values(),
-            };
-        }
-        self.poison = outer;
-    }
-
-    /// Reads the colours of an unsupported pattern and reports surplus ones: `hexagon rgb 1, rgb 0, rgb x,
-    /// rgb z`.
-    fn colors_not_built(&mut self, token: &Token, pattern: Word, most: usize) {
-        for _ in 0..most {
-            self.skip_commas();
-            match self.peek().map(|next| next.kind.clone()) {
-                Some(TokenKind::Word(
-                    word @ (Word::Pigment | Word::Texture | Word::Normal | Word::Density),
-                )) => {
-                    self.next();
-                    self.skip_arguments(word);
-                }
-                Some(TokenKind::Word(word)) if word.family() != Family::Color => return,
-                _ if self.is_before_value() || self.at_color() => {
-                    if self.color_after(token, "a colour").is_err() {
-                        self.skip_values();
-                        return self.skip_colors(token);
-                    }
-                }
-                _ => return,
-            }
-        }
-        let is_color = |token: &Token| matches!(token.kind, TokenKind::Word(word) if word.family() == Family::Color);
-        let is_value = self.is_before_value();
-        let extra = self.peek().cloned();
-        let Some(extra) = extra.filter(|extra| is_value || is_color(extra)) else { return };
-        let name = pattern.name();
-        let message = format!("`{name}` takes {most} colours, and here is one more");
-        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
-            .at(extra.span, "one colour too many")
-            .also(token.span, "for this")
-            .help("leave it out");
-        self.report(&token.here, diagnostic);
-        self.skip_colors(token);
-    }
-
-    /// Skips the remaining colours of a pattern in which one was reported.
-    fn skip_colors(&mut self, token: &Token) {
-        let before = self.told();
-        while self.at_color() {
-            if self.color_after(token, "a colour").is_err() {
-                self.skip_values();
-                break;
-            }
-            self.skip_commas();
-        }
-        self.take_back(before);
     }
 }

@@ -4,26 +4,10 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::vocabulary::Word;
 
 use super::super::super::stream::{Token, TokenKind};
-use super::super::super::value::Poison;
 use super::super::super::{Evaluator, Outcome};
 use super::super::Place;
 
 impl Evaluator<'_> {
-    /// Reads `crand`, `caustics` (additional light) and `refraction` in a finish. The latter is a factor of
-    /// the transmitted light, besides that of the pigment (measured).
-    pub(in super::super) fn old_finish_word(&mut self, token: &Token, word: Word) -> Outcome<()> {
-        let value = self.number_after(token, "a number")?.value;
-        match word {
-            Word::Caustics if value != 0.0 => self.not_simulated(token),
-            Word::Refraction if value != 1.0 => self.not_simulated(token),
-            Word::Crand if value != 0.0 => {
-                self.set_poison(Poison::new(word, token.here.site(token.span)));
-            }
-            _ => {}
-        }
-        Ok(())
-    }
-
     /// Reads `radiosity { importance n }` of an object: its relative number of samples.
     pub(in super::super) fn importance(&mut self, token: &Token) -> Outcome<()> {
         self.block(token, Word::Radiosity, |evaluator| {

@@ -58,12 +58,8 @@ pub(super) fn of_item(item: Word, block: Word) -> Option<Range> {
 /// Returns the range of the number after a modifier of a pattern or of an interior.
 fn of_modifier(word: Word) -> Option<Range> {
     Some(match word {
-        Word::MapType => {
-            Range { holds: |n| [0.0, 1.0, 2.0, 5.0].contains(&n), wanted: "0, 1, 2 or 5" }
-        }
-        Word::Interpolate => Range { holds: |n| [2.0, 3.0, 4.0].contains(&n), wanted: "2, 3 or 4" },
-        Word::NoiseGenerator => {
-            Range { holds: |n| (0.0..4.0).contains(&n), wanted: "0, 1, 2 or 3" }
+        Word::Tiling => {
+            Range { holds: |n| (1.0..28.0).contains(&n), wanted: "a number from 1 to 27" }
         }
         Word::DispersionSamples => Range { holds: |n| n >= 2.0, wanted: "2 or more" },
         Word::NumberOfSides => {

@@ -1,0 +1,139 @@
+//! Maps of things over the values of a pattern: `pigment_map`, `normal_map`, `texture_map`.
+//!
+//! **In:** entries `[value thing]`, or the names of declared things' maps. **Out:** the entries, sorted by
+//! value. In the map of an `average`, the value is a weight, and may be missing.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::block::Place;
+use crate::evaluate::stream::{Token, TokenKind};
+use crate::evaluate::value::Value;
+use crate::evaluate::{Evaluator, Outcome, Reported};
+use crate::scene::{NormalId, PigmentId, TextureId};
+use crate::vocabulary::Word;
+
+/// What an entry of a map holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Entry {
+    Pigment(PigmentId),
+    Normal(NormalId),
+    Texture(TextureId),
+    /// A height and a slope.
+    Slope([f64; 2]),
+}
+
+/// A declared map: its word, and its entries.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlendMap {
+    pub word: Word,
+    pub entries: Arc<[(f64, Entry)]>,
+}
+
+impl Evaluator<'_> {
+    /// Reads a map whose entries `read` reads, up to their end, after the number.
+    pub(super) fn blend_map(
+        &mut self,
+        token: &Token,
+        map: Word,
+        average: bool,
+        mut read: impl FnMut(&mut Self, &Token) -> Outcome<Entry>,
+    ) -> Outcome<Vec<(f64, Entry)>> {
+        let place = Place { word: Some(map), families: &[], others: &[] };
+        let mut entries: Vec<(f64, Entry)> = Vec::new();
+        let opener = token.clone();
+        self.block(token, map, |evaluator| {
+            let mut failed = false;
+            while let Some(token) = evaluator.next() {
+                match &token.kind {
+                    TokenKind::Entry(items) => {
+                        let here = token.here.clone();
+                        let entry = evaluator.inside(&here, *items, |evaluator| {
+                            let value = evaluator.value_of_entry(&token, average)?;
+                            read(evaluator, &token).map(|of| (value, of))
+                        });
+                        match entry {
+                            Ok(entry) => entries.push(entry),
+                            Err(Reported) => failed = true,
+                        }
+                    }
+                    TokenKind::Comma => {}
+                    TokenKind::Expression(id) => match evaluator.declared(&token, *id) {
+                        Some(Value::BlendMap(declared)) if declared.word == map => {
+                            entries.extend_from_slice(&declared.entries);
+                        }
+                        Some(Value::Broken) => failed = true,
+                        Some(Value::Poison(poison)) => evaluator.set_poison(poison),
+                        _ => {
+                            evaluator.unexpected(&token, place);
+                            failed = true;
+                        }
+                    },
+                    _ => {
+                        evaluator.unexpected(&token, place);
+                        failed = true;
+                    }
+                }
+            }
+            if failed {
+                return Err(Reported);
+            }
+            if entries.is_empty() {
+                if evaluator.poison.is_some() {
+                    return Err(Reported);
+                }
+                let message = format!("this `{}` is empty", map.name());
+                let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                    .at(opener.span, "expected entries in square brackets");
+                return Err(evaluator.report(&opener.here, diagnostic));
+            }
+            if !average {
+                entries.sort_by(|a, b| a.0.total_cmp(&b.0));
+            }
+            Ok(entries)
+        })
+    }
+
+    /// Reads `pigment_map { … }` and the like as a value, after its keyword.
+    pub(super) fn map_value(&mut self, token: &Token, word: Word) -> Outcome<Value> {
+        let entries = self.entries_of(token, word, false)?;
+        Ok(Value::BlendMap(BlendMap { word, entries: entries.into() }))
+    }
+
+    /// Reads the entries of a map by its keyword.
+    pub(super) fn entries_of(
+        &mut self,
+        token: &Token,
+        word: Word,
+        average: bool,
+    ) -> Outcome<Vec<(f64, Entry)>> {
+        self.blend_map(token, word, average, |evaluator, opener| match word {
+            Word::PigmentMap => evaluator.pigment_of_entry(opener).map(Entry::Pigment),
+            Word::NormalMap => {
+                let default = evaluator.default_texture.index();
+                let start = evaluator.scene.textures[default].kind.first_normal();
+                evaluator.normal_of_items(opener, start, false).map(Entry::Normal)
+            }
+            Word::SlopeMap => evaluator.slope_of_entry(opener).map(Entry::Slope),
+            _ => evaluator.texture_of_entry().map(Entry::Texture),
+        })
+    }
+
+    /// Reads the number that begins an entry.
+    fn value_of_entry(&mut self, entry: &Token, average: bool) -> Outcome<f64> {
+        let next = self.peek().cloned();
+        let begins_with_word =
+            matches!(next.as_ref().map(|next| &next.kind), Some(TokenKind::Word(_)));
+        if begins_with_word && average {
+            return Ok(1.0);
+        }
+        if let Some(Token { kind: TokenKind::Word(word), here, span }) = next {
+            let message = format!("expected a number before `{}`", word.name());
+            let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                .at(span, "an entry of a map begins with a number")
+                .help(format!("write `[0.5 {} …]`", word.name()));
+            return Err(self.report(&here, diagnostic));
+        }
+        Ok(self.number_after(entry, "a number")?.value)
+    }
+}

@@ -1,0 +1,46 @@
+//! `irid { amount thickness … turbulence … }` in a finish: a thin film.
+
+use crate::evaluate::block::{Given, Place};
+use crate::evaluate::stream::{Token, TokenKind};
+use crate::evaluate::{Evaluator, Outcome};
+use crate::scene::Irid;
+use crate::vocabulary::Word;
+
+impl Evaluator<'_> {
+    /// Reads `irid`. What is not specified keeps its value from `before`, a negative amount has no effect, and
+    /// of a vector of `turbulence` the x counts alone, as in POV-Ray 3.7 (measured).
+    pub(super) fn irid(&mut self, token: &Token, before: Option<Irid>) -> Outcome<Irid> {
+        let generator = self.noise;
+        let opener = token.clone();
+        self.block(token, Word::Irid, |evaluator| {
+            let given = evaluator.number_after(&opener, "a number")?;
+            let amount = given.value;
+            if amount < 0.0 {
+                let read = "it has no effect";
+                evaluator.out_of_range_but_read(&given, Word::Irid, "0 or more", read)?;
+            }
+            let (thickness, turbulence) =
+                before.map_or((0.0, 0.0), |irid| (irid.thickness, irid.turbulence));
+            let mut irid = Irid { amount, thickness, turbulence, generator };
+            while let Some(token) = evaluator.next() {
+                match token.kind {
+                    TokenKind::Word(Word::Thickness) => {
+                        irid.thickness = evaluator.number_after(&token, "a number")?.value;
+                    }
+                    TokenKind::Word(Word::Turbulence) => {
+                        let given = evaluator.given(&token, "a number")?;
+                        let numbers = given.value.numbers();
+                        let Some(&[first, ..]) = numbers.as_ref().map(|numbers| numbers.as_slice())
+                        else {
+                            let Given { here, span, value, .. } = &given;
+                            return Err(evaluator.wrong_type(here, *span, "a number", value));
+                        };
+                        irid.turbulence = first;
+                    }
+                    _ => evaluator.unexpected(&token, Place::IRID),
+                }
+            }
+            Ok(irid)
+        })
+    }
+}

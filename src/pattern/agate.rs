@@ -1,0 +1,59 @@
+//! `agate`: bands across z, bent by turbulence of their own.
+
+use std::f64::consts::TAU;
+
+use super::finite::finite;
+use super::parameter::parameters;
+use super::{Pattern, Sample};
+use crate::math::elementary::{pow, sin};
+
+parameters! {
+    /// A wave along z, shifted by turbulence with the octaves, lambda and omega of the block, 0 … 1. The
+    /// turbulence of the block displaces points as usual.
+    ///
+    /// **Source:** POV-Ray manual, section 3.4.7.1.1 "Agate Pattern"; the formula was found by experiment on
+    /// POV-Ray 3.7.
+    pub struct Agate {
+        "agate_turb" turbulence: f64 = 1.0, "the amount of its own turbulence";
+    }
+}
+
+impl Pattern for Agate {
+    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [1.0; 3]), (0.5, [0.95, 0.75, 0.5]), (0.5, [0.9, 0.7, 0.5]), (0.6, [0.9, 0.7, 0.4]), (0.6, [1.0, 0.7, 0.4]), (1.0, [0.6, 0.3, 0.0])];
+    /// The amount is in single precision.
+    fn canonical(self) -> Self {
+        let greatest = f64::from(f32::MAX);
+        let amount = finite(self.turbulence).clamp(-greatest, greatest);
+        Self { turbulence: f64::from(amount as f32) }
+    }
+
+    fn value(&self, sample: &Sample) -> f64 {
+        let Sample { point, setting, .. } = *sample;
+        let shift = match self.turbulence == 0.0 {
+            true => 0.0,
+            false => self.turbulence * finite(setting.turbulence.number(setting.noise, point)),
+        };
+        let angle = finite(TAU * (1.1 * point.z + 1.3 * shift));
+        pow((1.0 + sin(angle)) / 2.0, 0.77)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Vector;
+    use crate::pattern::measured::{assert_close, rows, setting};
+
+    #[test]
+    fn values_are_those_of_pov_ray() {
+        let rows = rows(include_str!("measured/agate.txt"));
+        assert!(rows.len() >= 30);
+        for [noise, lambda, omega, octaves, turbulence, x, y, z, measured] in rows {
+            let setting = setting([noise, lambda, omega, octaves, 0.0, 0.0, 0.0]);
+            let agate = Agate { turbulence }.canonical();
+            let point = Vector::new(x, y, z);
+            let value = agate.value(&Sample { point, error: Vector::ZERO, setting: &setting });
+            assert_close(value, measured, 1e-11, &(agate, setting, point));
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! `bumps`: another word for `bozo`.
+
+use super::parameter::parameters;
+use super::{Bozo, Pattern, Sample, Setting};
+use crate::math::Vector;
+use crate::math::interval::Interval;
+use crate::noise::vector_noise;
+
+parameters! {
+    /// The values of [`Bozo`].
+    ///
+    /// **Source:** POV-Ray manual, section 3.4.7.1.3 "Bozo Pattern"; measured on POV-Ray 3.7.
+    pub struct Bumps {}
+}
+
+impl Pattern for Bumps {
+    #[inline]
+    fn value(&self, sample: &Sample) -> f64 {
+        Bozo {}.value(sample)
+    }
+
+    fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
+        Bozo {}.bounds(point, reach, setting)
+    }
+
+    /// Returns the vector noise.
+    ///
+    /// **Source:** measured on POV-Ray 3.7; frequency, phase and wave have no effect.
+    fn displacement(&self, _normal: Vector, sample: &Sample) -> Option<Vector> {
+        Some(vector_noise(sample.point))
+    }
+}

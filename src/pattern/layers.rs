@@ -1,0 +1,89 @@
+//! Noise as patterns use it: over a box, and in layers of doubled frequency.
+
+use super::Setting;
+use crate::math::Vector;
+use crate::math::interval::Interval;
+use crate::noise::{self, NoiseGenerator, noises};
+
+/// Returns an interval that contains the noise at each point within `reach` of `point` along each axis.
+pub(super) fn noise_bounds(generator: NoiseGenerator, point: Vector, reach: Vector) -> Interval {
+    let (low, high) = (point - reach, point + reach);
+    let axis = |i: usize| Interval { low: low[i].next_down(), high: high[i].next_up() };
+    noise::bounds(generator, [axis(0), axis(1), axis(2)])
+}
+
+/// Returns noise with the spread of generator 1: that of the others is stretched to twice its range around
+/// 0.5, and clamped.
+///
+/// **Source:** measured on POV-Ray 3.7, in `granite` and `wrinkles`.
+#[inline(always)]
+fn spread(generator: NoiseGenerator, noise: f64) -> f64 {
+    match generator {
+        NoiseGenerator::Plateaus => noise,
+        NoiseGenerator::RangeCorrected | NoiseGenerator::Perlin => {
+            (2.0 * noise - 0.5).clamp(0.0, 1.0)
+        }
+    }
+}
+
+/// A sum of layers of noise, each of twice the frequency and half the amplitude of the one before.
+pub(super) struct Layers {
+    /// The frequency of the first layer.
+    pub frequency: f64,
+    /// The amplitude of the first layer.
+    pub amplitude: f64,
+    /// Half the number of layers.
+    pub pairs: u32,
+    /// Whether a layer is the distance of noise from 0.5, instead of noise.
+    pub is_folded: bool,
+}
+
+impl Layers {
+    /// Returns the sum of the layers, which are evaluated in pairs.
+    pub fn value(&self, point: Vector, setting: &Setting) -> f64 {
+        let generator = setting.noise;
+        let layer = |noise: f64| {
+            let noise = spread(generator, noise);
+            if self.is_folded { (0.5 - noise).abs() } else { noise }
+        };
+        let mut sum = 0.0;
+        for pair in 0..self.pairs {
+            let scale = f64::from(1u32 << (2 * pair));
+            let [frequency, amplitude] = [self.frequency * scale, self.amplitude / scale];
+            let (near, next) = (point * frequency, point * (2.0 * frequency));
+            let pair = [[near.x, next.x], [near.y, next.y], [near.z, next.z]];
+            let [one, other] = noises(generator, pair);
+            sum += layer(one) * amplitude;
+            sum += layer(other) * (0.5 * amplitude);
+        }
+        sum
+    }
+
+    /// Returns an interval that contains the value at each point within `reach` of `point`, cut to `range`.
+    pub fn bounds(
+        &self,
+        point: Vector,
+        reach: Vector,
+        setting: &Setting,
+        range: Interval,
+    ) -> Interval {
+        let generator = setting.noise;
+        let layer = |frequency: f64| {
+            let Interval { low, high } =
+                noise_bounds(generator, point * frequency, reach * frequency);
+            let noise = Interval { low: spread(generator, low), high: spread(generator, high) };
+            match self.is_folded {
+                true => Interval { low: 0.5 - noise.high, high: 0.5 - noise.low }.abs(),
+                false => noise,
+            }
+        };
+        let [low, high] = [self.sum(|f| layer(f).low), self.sum(|f| layer(f).high)];
+        // The sums and the differences are rounded.
+        Interval { low: (low - 1e-14).max(range.low), high: (high + 1e-14).min(range.high) }
+    }
+
+    fn sum(&self, layer: impl Fn(f64) -> f64) -> f64 {
+        let halves = (0..2 * self.pairs).map(|i| f64::from(1u32 << i));
+        halves.map(|scale| layer(self.frequency * scale) * (self.amplitude / scale)).sum()
+    }
+}

@@ -1,0 +1,24 @@
+//! `spotted`: another word for `bozo`.
+
+use super::parameter::parameters;
+use super::{Bozo, Pattern, Sample, Setting};
+use crate::math::Vector;
+use crate::math::interval::Interval;
+
+parameters! {
+    /// The values of [`Bozo`].
+    ///
+    /// **Source:** POV-Ray manual, section 3.4.7.1.3 "Bozo Pattern"; measured on POV-Ray 3.7.
+    pub struct Spotted {}
+}
+
+impl Pattern for Spotted {
+    #[inline]
+    fn value(&self, sample: &Sample) -> f64 {
+        Bozo {}.value(sample)
+    }
+
+    fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
+        Bozo {}.bounds(point, reach, setting)
+    }
+}

@@ -1,0 +1,126 @@
+//! Functions of points and numbers, with all noise, splines and pigments that they call.
+
+use std::sync::Arc;
+
+use super::pigment::Pigment;
+use crate::color::Color;
+use crate::function::{self, Ask, NoiseFunction, Sloped};
+use crate::math::Vector;
+use crate::math::interval::Interval;
+use crate::noise::NoiseGenerator;
+use crate::spline::Spline;
+
+/// A function that contains everything it calls.
+pub type Closed = function::Closed<Asked>;
+
+/// Something that a function calls, in self-contained form.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Asked {
+    Noise {
+        function: NoiseFunction,
+        /// The generator of the scene.
+        generator: NoiseGenerator,
+    },
+    /// One component of a spline's value.
+    Spline { spline: Spline, component: usize },
+    /// One component of a pigment's colour at a point.
+    Pigment { pigment: Arc<Pigment>, component: Component },
+}
+
+/// A number of a colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Component {
+    /// Red in double precision: the value of a pattern.
+    Value,
+    Red,
+    Green,
+    Blue,
+    Filter,
+    Transmit,
+    Gray,
+}
+
+impl Component {
+    /// Returns this component of a colour in single precision, as functions give it.
+    pub fn of(self, color: Color) -> f64 {
+        if self == Self::Value {
+            return color.rgb.red;
+        }
+        let color = color.single();
+        match self {
+            Self::Value | Self::Red => color.rgb.red,
+            Self::Green => color.rgb.green,
+            Self::Blue => color.rgb.blue,
+            Self::Filter => color.filter,
+            Self::Transmit => color.transmit,
+            Self::Gray => color.rgb.brightness(),
+        }
+    }
+}
+
+impl Ask for Asked {
+    fn value(&self, arguments: &[f64]) -> f64 {
+        let argument = |at: usize| arguments.get(at).copied().unwrap_or(0.0);
+        match self {
+            Self::Noise { function, generator } => function.value(*generator, arguments),
+            Self::Spline { spline, component } => {
+                spline.at(argument(0)).get(*component).copied().unwrap_or(f64::NAN)
+            }
+            Self::Pigment { pigment, component } => {
+                let point = Vector::new(argument(0), argument(1), argument(2));
+                component.of(pigment.color_at(point))
+            }
+        }
+    }
+
+    fn bounds(&self, arguments: &[Interval]) -> Interval {
+        match self {
+            Self::Noise { function, generator } => function.bounds(*generator, arguments),
+            Self::Spline { spline, component } => {
+                let over = arguments.first().copied().unwrap_or(Interval::EVERYTHING);
+                spline.bounds(*component, over)
+            }
+            Self::Pigment { pigment, component } => pigment.bounds(arguments, *component),
+        }
+    }
+
+    fn sloped<const N: usize>(&self, arguments: &[Sloped<N>]) -> Sloped<N> {
+        match self {
+            Self::Noise { function, generator } => function.sloped(*generator, arguments),
+            Self::Spline { .. } | Self::Pigment { .. } => {
+                let values: Vec<_> = arguments.iter().map(|argument| argument.value).collect();
+                Sloped::anyhow(self.bounds(&values), arguments.iter().all(Sloped::is_level))
+            }
+        }
+    }
+}
+
+impl Pigment {
+    /// Returns an interval that contains a component of its colour at each point of a box.
+    fn bounds(&self, sides: &[Interval], component: Component) -> Interval {
+        let values = match self {
+            Self::Ramp(blend) => blend.values_in(sides),
+            _ => Interval::EVERYTHING,
+        };
+        let Self::Ramp(blend) = self else {
+            let mut range: Option<Interval> = None;
+            self.for_each_color(&mut |color| {
+                let part = Interval::point(component.of(color));
+                range = Some(range.map_or(part, |range| range.hull(part)));
+            });
+            return widened(range.unwrap_or(Interval::EVERYTHING));
+        };
+        let part = |color: Color| Interval::point(component.of(color));
+        let at = |value| blend.color_of(value).map(part);
+        let inner = blend.entries.iter().filter(|(position, _)| values.contains(*position));
+        let inner = inner.map(|(_, color)| part(*color));
+        let all = inner.chain(at(values.low)).chain(at(values.high));
+        widened(all.reduce(Interval::hull).unwrap_or(Interval::EVERYTHING))
+    }
+}
+
+/// Widens an interval by the rounding of colours that are interpolated.
+fn widened(Interval { low, high }: Interval) -> Interval {
+    let off = 4.0 * f64::from(f32::EPSILON) * low.abs().max(high.abs());
+    Interval { low: low - off, high: high + off }
+}

@@ -1,0 +1,175 @@
+//! Textures in canonical form, and their values at points of a surface.
+//!
+//! A pattern blends things: colours, pigments, normals or whole textures ([`Blend`]). Nodes are trees whose
+//! equal branches are shared; so a function that evaluates a pigment contains all that it needs.
+//!
+//! **Invariant:** no default is missing, no number is infinite; blends have at least one entry, sorted by
+//! position; trees are at most [`DEEPEST`] nodes deep, so evaluation may recurse.
+
+pub mod blend;
+pub mod density;
+pub mod finish;
+pub mod function;
+pub mod image;
+pub mod normal;
+pub mod picture;
+pub mod pigment;
+pub mod region;
+pub mod slope;
+pub mod space;
+
+use std::sync::Arc;
+
+use smallvec::SmallVec;
+
+pub use self::image::ImageMap;
+pub use blend::{Blend, Pattern, Source};
+pub use finish::{Extras, Finish, Irid, Lobe, LobeKind, Reflection};
+pub use function::{Asked, Closed};
+pub use normal::Normal;
+pub use pigment::Pigment;
+pub use space::{Paint, Place, Space, Step, Surroundings};
+
+use crate::color::Color;
+
+/// The most nodes on a path from the root of a texture, and of a pigment, to a leaf.
+pub const DEEPEST: usize = 64;
+
+/// What a surface looks like.
+#[expect(clippy::large_enum_variant, reason = "nearly all are plain, and shared")]
+#[derive(Debug, Clone, PartialEq)]
+pub enum Texture {
+    Plain(Plain),
+    Blend(Blend<Arc<Texture>>),
+    /// The mean of textures by their weights, which sum to 1.
+    Average {
+        space: Space,
+        entries: Vec<(f64, Arc<Texture>)>,
+    },
+    /// At least two, the last on top.
+    Layers(Vec<Arc<Texture>>),
+    /// Those of a mesh's faces, by corner, `shape::mesh::Skin::paint`, or of a blob's components. At least one;
+    /// never within another.
+    Faces(Vec<Arc<Texture>>),
+}
+
+/// The textures of a face, each with its share, the shares summing to 1.
+pub type Shares<'a> = SmallVec<[(&'a Texture, f64); 3]>;
+
+/// Returns the textures that count at a point of a face or a blob. A point alone does not identify the face.
+pub fn at_face<'a>(textures: &'a [Arc<Texture>], around: &dyn Surroundings) -> Shares<'a> {
+    let mut shares = Shares::new();
+    for (index, weight) in around.paint().unwrap_or_else(|| Paint::from_slice(&[(0, 1.0)])) {
+        let Some(texture) = textures.get(index as usize).filter(|_| weight > 0.0) else { continue };
+        let texture = &**texture;
+        match shares.iter_mut().find(|(known, _)| std::ptr::eq(*known, texture)) {
+            Some((_, share)) => *share += weight,
+            None => shares.push((texture, weight)),
+        }
+    }
+    shares
+}
+
+/// A texture without parts that are textures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plain {
+    pub pigment: Pigment,
+    pub normal: Option<Normal>,
+    pub finish: Finish,
+}
+
+impl Texture {
+    /// Returns the textures that it is made of, in written order.
+    fn children(&self) -> Vec<&Self> {
+        match self {
+            Self::Plain(_) => Vec::new(),
+            Self::Blend(Blend { entries, .. }) | Self::Average { entries, .. } => {
+                entries.iter().map(|(_, texture)| &**texture).collect()
+            }
+            Self::Layers(all) | Self::Faces(all) => all.iter().map(|texture| &**texture).collect(),
+        }
+    }
+
+    /// Returns whether any of the textures that it is made of is as `suits` tests.
+    fn any_child(&self, suits: impl Fn(&Self) -> bool) -> bool {
+        match self {
+            Self::Plain(_) => false,
+            Self::Blend(Blend { entries, .. }) | Self::Average { entries, .. } => {
+                entries.iter().any(|(_, texture)| suits(texture))
+            }
+            Self::Layers(all) | Self::Faces(all) => all.iter().any(|texture| suits(texture)),
+        }
+    }
+
+    /// Calls `visit` for each plain texture in it, in written order.
+    pub fn for_each_plain<'a>(&'a self, visit: &mut dyn FnMut(&'a Plain)) {
+        match self {
+            Self::Plain(plain) => visit(plain),
+            _ => self.children().into_iter().for_each(|texture| texture.for_each_plain(visit)),
+        }
+    }
+
+    /// Returns its plain textures in written order.
+    pub fn plains(&self) -> Vec<&Plain> {
+        let mut plains = Vec::new();
+        self.for_each_plain(&mut |plain| plains.push(plain));
+        plains
+    }
+
+    /// Returns whether any of its plain textures is as `suits` tests.
+    pub fn any(&self, suits: impl Fn(&Plain) -> bool) -> bool {
+        match self {
+            Self::Plain(plain) => suits(plain),
+            _ => self.plains().into_iter().any(suits),
+        }
+    }
+
+    /// Returns whether it depends on the point.
+    pub fn is_patterned(&self) -> bool {
+        match self {
+            Self::Plain(plain) => plain.pigment.is_patterned(),
+            Self::Blend(_) => true,
+            _ => self.any_child(Self::is_patterned),
+        }
+    }
+
+    /// Returns whether any part of it has layers.
+    pub fn has_layers(&self) -> bool {
+        matches!(self, Self::Layers(_)) || self.any_child(Self::has_layers)
+    }
+
+    /// Returns whether it follows the native rules; see [`Finish::seed`].
+    pub fn is_seed(&self) -> bool {
+        matches!(self, Self::Plain(plain) if plain.finish.seed)
+    }
+
+    /// Returns whether light passes through it anywhere: through all of its layers, or one of its entries.
+    pub fn is_clear(&self) -> bool {
+        match self {
+            Self::Plain(plain) => plain.pigment.is_clear(),
+            Self::Layers(layers) => layers.iter().all(|layer| layer.is_clear()),
+            _ => self.any_child(Self::is_clear),
+        }
+    }
+
+    /// Returns its colours, without positions in maps.
+    pub fn colors(&self) -> Vec<Color> {
+        let mut colors = Vec::new();
+        self.for_each_plain(&mut |plain| plain.pigment.for_each_color(&mut |c| colors.push(c)));
+        colors
+    }
+
+    /// Returns the spaces of its nodes in written order, the ones in blends included.
+    pub fn for_each_space<'a>(&'a self, visit: &mut dyn FnMut(&'a Space, Option<&'a Pattern>)) {
+        match self {
+            Self::Plain(plain) => {
+                plain.pigment.for_each_space(visit);
+                plain.normal.iter().for_each(|normal| normal.for_each_space(visit));
+            }
+            Self::Blend(blend) => visit(&blend.space, Some(&blend.pattern)),
+            Self::Average { space, .. } => visit(space, None),
+            Self::Layers(_) | Self::Faces(_) => {}
+        }
+        self.children().into_iter().for_each(|texture| texture.for_each_space(visit));
+    }
+}

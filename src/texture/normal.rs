@@ -1,0 +1,165 @@
+//! Normals: how `normal { … }` perturbs the normal of a surface, so that it looks bumpy.
+//!
+//! **In:** a smooth normal, turned toward the viewer. **Out:** the perturbed normal, of length 1, finite for
+//! every point and parameter. **Invariant:** a perturbed normal is the sum of the normal and a vector, in the
+//! space of the pattern (see [`Frame`]). That vector is the amount times the displacement that a pattern has:
+//! its own, or that of [`bump`].
+
+pub mod blend;
+pub mod bump;
+pub mod bump_map;
+mod frame;
+pub mod slope_map;
+
+use std::sync::Arc;
+
+pub use frame::Frame;
+
+use super::blend::{Blend, Mix, Pattern, Source};
+use super::image::ImageMap;
+use super::space::{Place, Space, Surroundings};
+use crate::math::{Matrix, Vector};
+use crate::pattern::{Measured, Sample};
+
+/// The normals of a surface.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Normal {
+    /// Bumps of a pattern.
+    Bumps(Bumps),
+    /// Bumps of a picture.
+    Image { space: Space, image: Arc<ImageMap>, amount: f64, keeps_depth: bool },
+    /// Normals over a pattern.
+    Blend { blend: Blend<Arc<Normal>>, keeps_depth: bool },
+    /// The mean of normals by their weights.
+    Average { space: Space, entries: Vec<(f64, Arc<Normal>)>, keeps_depth: bool },
+}
+
+/// Bumps whose height is the value of a pattern.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bumps {
+    pub space: Space,
+    pub pattern: Pattern,
+    /// How steep they are; may be negative.
+    pub amount: f64,
+    /// The distance at which the pattern is sampled for its slope.
+    pub accuracy: f64,
+    /// Heights over the pattern's value; empty for the value itself.
+    pub slopes: Vec<slope_map::Entry>,
+    /// `no_bump_scale`.
+    pub keeps_depth: bool,
+}
+
+impl Normal {
+    /// Returns the perturbed normal of a surface. `normal` has length 1 and points toward the viewer.
+    pub fn perturbed(
+        &self,
+        normal: Vector,
+        outer: Option<&Place>,
+        around: &dyn Surroundings,
+    ) -> Vector {
+        frame::unit(self.entry(normal, (outer, None), around), normal)
+    }
+
+    /// As [`Self::perturbed`], not of length 1 where bumps keep their depth. `within` is the point in the space
+    /// of the normal around it, which has turned `normal`; a texture around it has not.
+    fn entry(
+        &self,
+        normal: Vector,
+        (outer, within): (Option<&Place>, Option<&Place>),
+        around: &dyn Surroundings,
+    ) -> Vector {
+        match self {
+            Self::Bumps(bumps) => bumps.entry(normal, (outer, within), around),
+            Self::Image { space, image, amount, keeps_depth } => {
+                let place = Place::new(space, outer, around);
+                let frame = Frame::new(turned(&place, within), *keeps_depth);
+                frame.entry(normal, |normal| match image.heights(place.point) {
+                    Some(heights) => bump_map::displacement(normal, heights) * *amount,
+                    None => Vector::ZERO,
+                })
+            }
+            Self::Blend { blend, keeps_depth } => {
+                let (place, mix) = blend.at(outer, around);
+                let frame = Frame::new(turned(&place, within), *keeps_depth);
+                frame.entry(normal, |normal| {
+                    let inside =
+                        |inner: &Normal| inner.entry(normal, (Some(&place), Some(&place)), around);
+                    match mix {
+                        None => Vector::ZERO,
+                        Some(Mix::One(one)) => inside(one) - normal,
+                        Some(Mix::Two(low, high, weight)) => {
+                            blend::between(inside(low), inside(high), weight, normal) - normal
+                        }
+                    }
+                })
+            }
+            Self::Average { space, entries, keeps_depth } => {
+                let place = Place::new(space, outer, around);
+                let frame = Frame::new(turned(&place, within), *keeps_depth);
+                frame.entry(normal, |normal| {
+                    let entries = entries.iter().map(|(weight, inner)| {
+                        (*weight, inner.entry(normal, (Some(&place), Some(&place)), around))
+                    });
+                    blend::average(entries, normal) - normal
+                })
+            }
+        }
+    }
+
+    /// Calls `visit` for the space of each of its nodes, with the pattern that is evaluated in it.
+    pub fn for_each_space<'a>(&'a self, visit: &mut dyn FnMut(&'a Space, Option<&'a Pattern>)) {
+        match self {
+            Self::Bumps(bumps) => visit(&bumps.space, Some(&bumps.pattern)),
+            Self::Blend { blend, .. } => {
+                visit(&blend.space, Some(&blend.pattern));
+                blend.entries.iter().for_each(|(_, normal)| normal.for_each_space(visit));
+            }
+            Self::Image { space, .. } => visit(space, None),
+            Self::Average { space, entries, .. } => {
+                visit(space, None);
+                entries.iter().for_each(|(_, normal)| normal.for_each_space(visit));
+            }
+        }
+    }
+}
+
+/// Returns the map of directions from the space around a node to its own.
+fn turned(place: &Place, outer: Option<&Place>) -> Matrix {
+    match outer {
+        // Both are relative to the world.
+        Some(outer) => place.directions() * outer.directions().inverse(),
+        None => place.directions(),
+    }
+}
+
+impl Bumps {
+    fn entry(
+        &self,
+        normal: Vector,
+        (outer, within): (Option<&Place>, Option<&Place>),
+        around: &dyn Surroundings,
+    ) -> Vector {
+        let place = Place::new(&self.space, outer, around);
+        let frame = Frame::new(turned(&place, within), self.keeps_depth);
+        frame.entry(normal, |normal| self.displacement(normal, &place))
+    }
+
+    fn displacement(&self, normal: Vector, place: &Place) -> Vector {
+        if let Source::Kind(kind) = &self.pattern.source {
+            let setting = &self.pattern.setting;
+            let sample = Sample { point: place.point, error: Vector::ZERO, setting };
+            if let Some(own) = kind.displacement(normal, &sample) {
+                let amount = if kind.word() == "facets" { 1.0 } else { self.amount };
+                return own * amount;
+            }
+        }
+        let height = |point: Vector| {
+            let Measured { value, .. } = self.pattern.measured(&place.moved_to(point));
+            match self.slopes.is_empty() {
+                true => value,
+                false => slope_map::height(&self.slopes, value),
+            }
+        };
+        bump::displacement(place.point, self.accuracy, height) * self.amount
+    }
+}

@@ -1,0 +1,34 @@
+//! How rays leave a surface whose normal a texture perturbs.
+//!
+//! The smooth normal, without perturbation, is first turned toward the viewer, and then perturbed; the result
+//! is never turned. So bumps are the same from both sides, and a perturbed normal may point away from the
+//! viewer. Light is diffused by the cosine between the perturbed normal and the light, if it is positive,
+//! even if the light is behind the smooth surface; only shadows of objects keep it away. Highlights are those
+//! of the perturbed normal, and zero where it faces away from the light. The angle of a Fresnel reflection is
+//! that at the perturbed normal; it is a right angle where that faces away from the viewer, so all is
+//! reflected. A ray is refracted at the perturbed normal, turned toward the ray.
+//!
+//! Each layer of a texture perturbs the smooth normal anew; a texture map blends colours, not normals.
+//! `slope` and `aoi` in a pigment see the perturbed normal, in a normal the smooth one.
+//!
+//! **Source:** measured on POV-Ray 3.7.
+
+use super::reflection::mirrored;
+use crate::math::Vector;
+
+/// Returns the direction of the reflected ray. `direction` is that of the ray toward the surface, `smooth` is
+/// the normal before perturbation, toward the viewer; all of length 1.
+///
+/// A ray is mirrored at the perturbed normal. If it would continue below the smooth surface, it is mirrored
+/// at that once more; but if the perturbed normal points away from the viewer, the ray is mirrored at the
+/// smooth surface only. The same holds for total internal reflection.
+pub(super) fn reflected(direction: Vector, perturbed: Vector, smooth: Vector) -> Vector {
+    let once = mirrored(direction, perturbed);
+    if once.dot(smooth) >= 0.0 {
+        once
+    } else if direction.dot(perturbed) <= 0.0 {
+        mirrored(once, smooth)
+    } else {
+        mirrored(direction, smooth)
+    }
+}
