@@ -194,15 +194,15 @@ pub struct Interior {
     pub fade_distance: f64,
     pub fade_power: f64,
     pub fade_color: Rgb,
-    /// The removable source piece of each `fade_distance` that has an effect.
-    pub fade_sites: Vec<Site>,
+    /// The last `fade_distance`, with its value.
+    pub fade_site: Option<Site>,
     /// The index of refraction of violet light over that of red light.
     pub dispersion: f64,
     pub dispersion_samples: u32,
-    /// The removable source piece of each `dispersion` that has an effect.
-    pub dispersion_sites: Vec<Site>,
-    /// The removable source piece of each `ior`, and of those it replaces.
-    pub sites: Vec<Site>,
+    /// The last `dispersion`, likewise.
+    pub dispersion_site: Option<Site>,
+    /// The last `ior`, likewise.
+    pub ior_site: Option<Site>,
     /// Of the light in its shadow.
     pub caustics: Option<f64>,
 }
@@ -215,11 +215,11 @@ impl Default for Interior {
             fade_distance: 0.0,
             fade_power: 0.0,
             fade_color: Rgb::BLACK,
-            fade_sites: Vec::new(),
+            fade_site: None,
             dispersion: 1.0,
             dispersion_samples: 7,
-            dispersion_sites: Vec::new(),
-            sites: Vec::new(),
+            dispersion_site: None,
+            ior_site: None,
             caustics: None,
         }
     }
@@ -237,7 +237,7 @@ pub struct SkySphere {
     pub pigments: Vec<PigmentId>,
     pub transforms: Vec<TransformId>,
     pub site: Site,
-    /// The removable source piece of each pigment.
+    /// The site of each pigment, with its block.
     pub items: Vec<Site>,
 }
 

@@ -75,19 +75,17 @@ pub struct Origins {
     pub objects: Vec<Site>,
     /// The operations that make the CSG solids, as written: several may make one.
     pub operations: Vec<OperationOrigin>,
-    /// The removable source piece of each light.
+    /// The whole item of each light: its block, or the use of a declared one.
     pub lights: Vec<Site>,
-    /// The pieces to remove for each light not to shine: usually the whole light.
-    pub light_pieces: Vec<Vec<Site>>,
-    /// Each keyword that attenuates a light, likewise.
+    /// The keywords that attenuate the lights, with their values.
     pub attenuation: Vec<Site>,
     pub textures: Vec<TextureOrigin>,
     /// What all textures and the sky consist of, each place once.
     pub surfaces: Vec<SurfaceOrigin>,
     pub interiors: Vec<InteriorOrigin>,
-    /// Each `no_image` and `no_reflection` that applies to a solid, likewise.
+    /// Each `no_image` and `no_reflection` that applies to a solid.
     pub hidden: Vec<Site>,
-    /// Each `double_illuminate`, likewise.
+    /// Each `double_illuminate` that applies to a solid.
     pub double_illuminate: Vec<Site>,
     pub camera: Option<Site>,
     pub sky: Option<SkyOrigin>,
@@ -101,8 +99,8 @@ pub struct Origins {
     pub expansions: Expansions,
 }
 
-/// The origins of a texture's parts. Each site of a list is a removable source piece, such as `phong 0.4`;
-/// without all of them the texture has no such part.
+/// The origins of a texture's parts. Each site is a keyword with its values, such as `phong 0.4`; equal
+/// textures share one list.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TextureOrigin {
     /// The keyword `pigment` of its first use; `None` for a default.
@@ -139,7 +137,8 @@ pub struct SurfaceOrigin {
     pub site: Option<Site>,
 }
 
-/// The origins of an interior's parts: the source pieces to remove for it not to have that part.
+/// The origins of an interior's parts: keywords with their values, such as `ior 1.5`; equal interiors share one
+/// list.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct InteriorOrigin {
     pub ior: Vec<Site>,

@@ -40,6 +40,28 @@ impl Surface {
         }
         all
     }
+
+    /// Returns the sites of the patterns that select among its textures.
+    pub fn patterns(&self, scene: &scene::Scene) -> Vec<Site> {
+        let mut sites = Vec::new();
+        let textures = self.faces.iter().flat_map(|parts| parts.textures()).copied();
+        textures.chain([self.texture]).for_each(|id| add_patterns(scene, id, &mut sites));
+        sites
+    }
+}
+
+/// Adds the site of each pattern that selects among textures.
+fn add_patterns(scene: &scene::Scene, id: TextureId, sites: &mut Vec<Site>) {
+    match &scene.textures[id.index()].kind {
+        TextureKind::Plain { .. } => {}
+        TextureKind::Blend { pattern, entries, .. } => {
+            sites.extend((pattern.source != scene::Source::Average).then_some(pattern.site));
+            entries.iter().for_each(|(_, id)| add_patterns(scene, *id, sites));
+        }
+        TextureKind::Layers(layers) => {
+            layers.iter().for_each(|id| add_patterns(scene, *id, sites));
+        }
+    }
 }
 
 /// Adds the pigment and the finish of each part of a texture.
@@ -133,9 +155,7 @@ impl Lowering<'_, '_> {
         let (pigment, polish) = surface.plain(self.scene);
         let origin = self.origin(pigment, polish);
         let index = self.index(lowered, origin);
-        for (pigment, finish) in surface.all(self.scene) {
-            self.note_plain(index, pigment, finish);
-        }
+        self.note_texture(index, surface);
         self.textures.of_faces.insert(key, index);
         Ok(index)
     }

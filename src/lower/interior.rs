@@ -9,6 +9,7 @@ use super::{Fault, Lowering};
 use crate::color::Rgb;
 use crate::scene::{self, ClassicFinish, Finish, FinishId, InteriorId};
 use crate::source::Site;
+use crate::vocabulary::Word;
 use crate::world::{
     Absorption, CameraKind, Dispersion, Interior, InteriorOrigin, Object, Plain, World,
 };
@@ -33,8 +34,7 @@ impl Lowering<'_, '_> {
         let ior = old.or(written.map(|interior| interior.ior))?;
         let lowered = lowered(ior, old.is_some(), written);
         let Some((lowered, key)) = lowered else {
-            let sites = self.interior_sites((interior, finish));
-            let site = sites.first().copied().unwrap_or(object);
+            let site = self.ior_site((interior, finish)).unwrap_or(object);
             self.reporter.fault(Fault::not_finite("this interior"), site);
             return None;
         };
@@ -61,23 +61,14 @@ impl Lowering<'_, '_> {
         if exponent.is_finite() { exponent } else { 0.0 }
     }
 
-    /// Returns the source pieces that give an object its index of refraction: for one other than air, the pieces to
-    /// remove to be rid of it.
-    fn interior_sites(&self, (interior, finish): Filling) -> Vec<Site> {
-        let written = interior.map(|id| &self.scene.interiors[id.index()]);
-        let of_interior = || written.map_or(vec![], |interior| interior.sites.clone());
-        let Finish::Classic(ClassicFinish { ior: Some(old), .. }) =
-            self.scene.finishes[finish.index()]
-        else {
-            return of_interior();
-        };
-        let origin = self.scene.finish_origins.get(finish.index());
-        let mut sites = origin.map_or(vec![], |origin| origin.ior.clone());
-        // Without it the interior's own `ior` applies again.
-        if old != 1.0 && written.is_some_and(|interior| interior.ior != 1.0) {
-            sites.extend(of_interior());
+    /// Returns the `ior` that gives an object its index of refraction.
+    fn ior_site(&self, (interior, finish): Filling) -> Option<Site> {
+        match self.scene.finishes[finish.index()] {
+            Finish::Classic(ClassicFinish { ior: Some(_), .. }) => {
+                self.scene.finish_origins.get(finish.index())?.of(Word::Ior)
+            }
+            _ => self.scene.interiors[interior?.index()].ior_site,
         }
-        sites
     }
 
     /// Drops the interiors that no ray can reveal, and records that.
@@ -115,20 +106,18 @@ impl Lowering<'_, '_> {
             if !noted.insert((filling, kept)) {
                 continue;
             }
-            let ior = self.interior_sites(filling);
+            let ior = self.ior_site(filling);
             let written = filling.0.map(|id| &self.scene.interiors[id.index()]);
             let interior = old[index as usize];
-            let sites = |of: fn(&scene::Interior) -> &Vec<Site>, has: bool| {
-                written.filter(|_| has).map_or(vec![], |written| of(written).clone())
-            };
-            let absorption = sites(|it| &it.fade_sites, interior.absorption.is_some());
-            let dispersion = sites(|it| &it.dispersion_sites, interior.dispersion.is_some());
+            let absorption = interior.absorption.and(written).and_then(|it| it.fade_site);
+            let dispersion = interior.dispersion.and(written).and_then(|it| it.dispersion_site);
+            let sites = [ior, absorption, dispersion];
             match new {
                 Some(new) if kept => {
                     let origin = &mut self.origins.interiors[new as usize];
                     let lists = [&mut origin.ior, &mut origin.absorption, &mut origin.dispersion];
-                    for (list, sites) in lists.into_iter().zip([ior, absorption, dispersion]) {
-                        list.extend(sites.into_iter().filter(|s| listed.insert((new, s.span))));
+                    for (list, site) in lists.into_iter().zip(sites) {
+                        list.extend(site.filter(|site| listed.insert((new, site.span))));
                     }
                 }
                 Some(_) => {}
@@ -137,8 +126,8 @@ impl Lowering<'_, '_> {
                         true => "no light goes into what it fills",
                         false => "an `ior` of 1 bends no light",
                     };
-                    let sites = [ior, absorption, dispersion].concat();
-                    sites.into_iter().for_each(|site| self.drop_part(site, "interior", why));
+                    let sites = sites.into_iter().flatten();
+                    sites.for_each(|site| self.drop_part(site, "interior", why));
                 }
             }
         }

@@ -19,19 +19,16 @@ impl Lowering<'_, '_> {
         if matches!(light.kind, LightKind::Cylinder { beam, .. } if beam.falloff <= 0.0) {
             return self.drop_part(site, "light_source", "its cylinder has no width");
         }
-        let LightSource { color_sites, beam_sites, fade_sites, .. } = light;
+        let LightSource { beam_site, fade_site, .. } = *light;
         let spent = self.aim(light).and_then(|aim| spend(light, map, &aim));
         let Some(light) = self.reporter.made(spent, site) else { return };
         if let Some(Attenuation { beam, fade }) = light.attenuation {
-            let beam = beam_sites.iter().map(|(_, site)| site).filter(|_| beam.is_some());
-            let fade = fade_sites.iter().filter(|_| fade.is_some());
-            self.origins.attenuation.extend(beam.chain(fade));
+            let sites = [beam.and(beam_site), fade.and(fade_site)];
+            self.origins.attenuation.extend(sites.into_iter().flatten());
         }
         self.world.lights.push(light);
         self.lamps.push(site);
         self.origins.lights.push(item);
-        let pieces = if color_sites.is_empty() { vec![item] } else { color_sites.clone() };
-        self.origins.light_pieces.push(pieces);
     }
 
     /// Returns the map that takes a light's `point_at` to where all of the light's transforms would have

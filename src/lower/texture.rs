@@ -21,6 +21,7 @@ use crate::scene::{
 use crate::source::{Site, Span};
 use crate::texture::space::Start;
 use crate::texture::{Blend, DEEPEST};
+use crate::vocabulary::Word;
 use crate::world::{
     Extras, FaceCoordinates, Finish, Pigment, Plain, Sky, SkyOrigin, SurfacePart, Texture,
     TextureOrigin, World,
@@ -216,13 +217,17 @@ impl<'s> Lowering<'s, '_> {
 
     /// Records another surface that lowers to the texture `index`: each site is listed once, however many
     /// loops and macros visit it.
-    fn note_texture(&mut self, index: u32, surface: &Surface) {
+    pub(super) fn note_texture(&mut self, index: u32, surface: &Surface) {
+        let patterns = surface.patterns(self.scene).into_iter();
+        let noted = &mut self.textures.noted;
+        let new = patterns.filter(|site| noted.insert((index, Part::Pattern, site.span)));
+        self.origins.textures[index as usize].pattern.extend(new);
         for (pigment, finish) in surface.all(self.scene) {
             self.note_plain(index, pigment, finish);
         }
     }
 
-    pub(super) fn note_plain(&mut self, index: u32, pigment: PigmentId, finish: FinishId) {
+    fn note_plain(&mut self, index: u32, pigment: PigmentId, finish: FinishId) {
         let pigments = pigments_in(self.scene, pigment);
         let origin = &mut self.origins.textures[index as usize];
         let noted = &mut self.textures.noted;
@@ -234,13 +239,18 @@ impl<'s> Lowering<'s, '_> {
             note(Part::Pattern, &mut origin.pattern, &mut pattern_site(pigment).into_iter());
             note(Part::Clear, &mut origin.clear, &mut pigment.clear.into_iter());
         }
-        let Some(finish) = self.scene.finish_origins.get(finish.index()) else { return };
-        let mut highlights = finish.highlights.iter().map(|(_, site)| *site);
-        note(Part::Highlights, &mut origin.highlights, &mut highlights);
-        note(Part::Reflection, &mut origin.reflection, &mut finish.reflection.iter().copied());
-        note(Part::Behind, &mut origin.behind, &mut finish.behind.iter().copied());
-        for &(word, site) in &finish.zeros {
-            self.drop_part(site, word.name(), "its weight is zero");
+        let Some(written) = self.scene.finish_origins.get(finish.index()) else { return };
+        let finish = &self.scene.finishes[finish.index()];
+        let calls = |word: &Word| written.of(*word).filter(|_| finish.has_weight(*word));
+        let shining = [Word::Phong, Word::Specular, Word::Ks];
+        note(Part::Highlights, &mut origin.highlights, &mut shining.iter().filter_map(calls));
+        let reflecting = [Word::Reflection, Word::Ks];
+        note(Part::Reflection, &mut origin.reflection, &mut reflecting.iter().filter_map(calls));
+        note(Part::Behind, &mut origin.behind, &mut calls(&Word::Diffuse).into_iter());
+        for &(word, site) in &written.words {
+            if !finish.has_weight(word) && !matches!(word, Word::Diffuse | Word::Ior) {
+                self.drop_part(site, word.name(), "its weight is zero");
+            }
         }
     }
 

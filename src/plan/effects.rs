@@ -287,11 +287,10 @@ impl Census<'_> {
         }
     }
 
-    /// Returns the locations that make the lights selected by `calls` shine.
+    /// Returns the locations of the lights selected by `calls`.
     fn lights(&self, calls: impl Fn(&Light) -> bool) -> Vec<Site> {
-        let lights = self.world.lights.iter().zip(&self.origins.light_pieces);
-        let calling = lights.filter(|(light, _)| calls(light));
-        calling.flat_map(|(_, pieces)| pieces).copied().collect()
+        let lights = self.world.lights.iter().zip(&self.origins.lights);
+        lights.filter(|(light, _)| calls(light)).map(|(_, site)| *site).collect()
     }
 
     /// Returns whether any part of a texture is as `suits` tests.

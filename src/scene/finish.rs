@@ -14,26 +14,48 @@ pub enum Finish {
     Classic(ClassicFinish),
 }
 
-/// The origin of a finish. Each site is the smallest piece that can be removed from the source, such as
-/// `phong 0.4`; pieces that it overrides are listed too if they would apply again.
+/// The origin of a finish.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FinishOrigin {
     /// The keyword `finish`.
     pub site: Option<Site>,
-    /// Each highlight with its keyword.
-    pub highlights: Vec<(Word, Site)>,
-    pub reflection: Vec<Site>,
-    /// The second number of `diffuse 0.6, 0.3`, with its comma.
-    pub behind: Vec<Site>,
-    /// The sites of the old `ior` in a finish.
-    pub ior: Vec<Site>,
-    /// Keywords whose last value is a weight of zero.
-    pub zeros: Vec<(Word, Site)>,
-    /// Removing the listed pieces leaves none of the native keywords.
-    pub all_of_seed: bool,
+    /// The last of each keyword that calls for an effect, with its values, such as `phong 0.4`. For
+    /// `diffuse 0.6, 0.3` it is the second number.
+    pub words: Vec<(Word, Site)>,
     /// The first native keyword, and the first of POV-Ray's.
     pub seed: Option<(Word, Site)>,
     pub classic: Option<(Word, Site)>,
+}
+
+impl FinishOrigin {
+    /// Returns the last site of a keyword.
+    pub fn of(&self, word: Word) -> Option<Site> {
+        self.words.iter().find(|(other, _)| *other == word).map(|(_, site)| *site)
+    }
+
+    /// Records a keyword; its earlier site no longer counts.
+    pub fn set(&mut self, word: Word, site: Site) {
+        self.words.retain(|(other, _)| *other != word);
+        self.words.push((word, site));
+    }
+}
+
+impl Finish {
+    /// Returns whether the weight that a keyword sets is more than zero; for `diffuse`, that of light from
+    /// behind.
+    pub fn has_weight(&self, word: Word) -> bool {
+        match (self, word) {
+            (Self::Seed { ks, .. }, Word::Ks) => *ks != 0.0,
+            (Self::Classic(classic), Word::Phong) => classic.phong > 0.0,
+            (Self::Classic(classic), Word::Specular) => classic.specular > 0.0,
+            (Self::Classic(classic), Word::Diffuse) => classic.behind > 0.0,
+            (Self::Classic(classic), Word::Reflection) => {
+                let reflection = classic.reflection.as_ref();
+                reflection.is_some_and(|r| r.minimum.gives_light() || r.maximum.gives_light())
+            }
+            _ => false,
+        }
+    }
 }
 
 /// POV-Ray's finish (manual, section 3.4.7.3 "Finish").

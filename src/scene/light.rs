@@ -4,7 +4,6 @@ use super::TransformId;
 use crate::color::Rgb;
 use crate::math::Vector;
 use crate::source::Site;
-use crate::vocabulary::Word;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightSource {
@@ -19,30 +18,24 @@ pub struct LightSource {
     pub shadowless: bool,
     /// `None`: equally bright at any distance.
     pub fade: Option<Fade>,
-    /// The removable pieces of its colour without which it is black; empty if only removing the whole light
-    /// does that.
-    pub color_sites: Vec<Site>,
-    /// Each keyword that gives it a beam (`spotlight`, `cylinder`), as a removable source piece.
-    pub beam_sites: Vec<(Word, Site)>,
-    /// Each `fade_distance`, likewise; without them it does not fade.
-    pub fade_sites: Vec<Site>,
+    /// The last `spotlight` or `cylinder`.
+    pub beam_site: Option<Site>,
+    /// The last `fade_distance`, with its value.
+    pub fade_site: Option<Site>,
 }
 
 impl LightSource {
     /// Returns a light of this kind and colour, without other settings.
     pub fn new(kind: LightKind, color: Rgb) -> Self {
-        let (color_sites, beam_sites, fade_sites) = (Vec::new(), Vec::new(), Vec::new());
-        let (shadowless, fade, color_site, aimed_after) = (false, None, None, Vec::new());
         Self {
             color,
-            color_site,
+            color_site: None,
             kind,
-            aimed_after,
-            shadowless,
-            fade,
-            color_sites,
-            beam_sites,
-            fade_sites,
+            aimed_after: Vec::new(),
+            shadowless: false,
+            fade: None,
+            beam_site: None,
+            fade_site: None,
         }
     }
 }

@@ -163,7 +163,7 @@ union {{ }}
         "phong: its weight is zero  (a.scene:5:69)",
         "reflection: its weight is zero  (a.scene:6:42)",
         "specular: its weight is zero  (a.scene:6:72)",
-        "ks: its weight is zero  (a.scene:7:42)",
+        "ks: its weight is zero  (a.scene:7:49)",
         "union: it is empty  (a.scene:8:1)",
         "light_source: its colour is black  (a.scene:10:16)",
         "#declare Wood: nothing uses it  (a.scene:9:10)",

@@ -4,22 +4,21 @@
 
 use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::source::{Site, Span};
+use crate::source::Span;
 use crate::vocabulary::{Dialect, Family, Role, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Given;
-use super::pieces::WrittenColor;
 
 impl Evaluator<'_> {
     /// Reads the colour that starts with `token`, a word of the colour family.
-    pub(super) fn color_from(&mut self, token: &Token) -> Outcome<WrittenColor> {
+    pub(super) fn color_from(&mut self, token: &Token) -> Outcome<Color> {
         let TokenKind::Word(word) = token.kind else {
-            return self.written_color_after(token, "a colour").map(|given| given.value);
+            return self.color_after(token, "a colour").map(|given| given.value);
         };
-        let (color, piece) = match word {
+        let color = match word {
             Word::Color if self.lacks_color() => {
                 return self.black_for_missing(token, "a colour").map(|black| black.value);
             }
@@ -27,12 +26,12 @@ impl Evaluator<'_> {
                 Some(TokenKind::Word(next)) if is_component(*next) => {
                     let first = self.peek().cloned();
                     let first = first.as_ref().unwrap_or(token);
-                    return self.color_of_components(first, WrittenColor::of_components());
+                    return self.color_of_components(first, Color::BLACK);
                 }
                 Some(TokenKind::Word(next)) if next.family() == Family::Color => {
                     return match self.next() {
                         Some(next) => self.color_from(&next),
-                        None => Ok(WrittenColor::new(Color::BLACK, None)),
+                        None => Ok(Color::BLACK),
                     };
                 }
                 _ => {
@@ -41,36 +40,22 @@ impl Evaluator<'_> {
                     }
                     let given = self.given(token, "a colour")?;
                     self.bare_components(Some(token), &given)?;
-                    (self.plain_color(&given, "a colour")?, given.site())
+                    self.plain_color(&given, "a colour")?
                 }
             },
-            whole if is_whole(whole) => {
-                let color = self.color_vector(token, whole)?;
-                (color, self.whole(token))
-            }
+            whole if is_whole(whole) => self.color_vector(token, whole)?,
             component if is_component(component) => {
-                let mut color = WrittenColor::of_components();
+                let mut color = Color::BLACK;
                 self.color_component(token, component, &mut color)?;
                 return self.color_of_components(token, color);
             }
             _ => return Err(self.word_not_built(token, word)),
         };
-        self.color_components(color, piece)
+        self.color_components(color)
     }
 
     /// Reads a colour, with or without `color` and its variants.
     pub(super) fn color_after(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Color>> {
-        let given = self.written_color_after(after, wanted)?;
-        let color = given.value.color();
-        Ok(given.with(color))
-    }
-
-    /// As [`Self::color_after`], but returns the colour as it is written.
-    pub(super) fn written_color_after(
-        &mut self,
-        after: &Token,
-        wanted: &str,
-    ) -> Outcome<Given<WrittenColor>> {
         self.skip_commas();
         if self.lacks_color() {
             return self.black_for_missing(after, wanted);
@@ -98,9 +83,7 @@ impl Evaluator<'_> {
             self.bare_components(None, &given)?;
         }
         let color = self.plain_color(&given, wanted)?;
-        let bare = !matches!(given.value, Value::Color(_));
-        let mut color = self.color_components(color, given.site())?;
-        color.bare = bare;
+        let color = self.color_components(color)?;
         Ok(given.with(color))
     }
 
@@ -116,15 +99,14 @@ impl Evaluator<'_> {
             }
     }
 
-    fn black_for_missing(&mut self, after: &Token, wanted: &str) -> Outcome<Given<WrittenColor>> {
+    fn black_for_missing(&mut self, after: &Token, wanted: &str) -> Outcome<Given<Color>> {
         let span = self.taken.map_or(after.span, |taken| taken.span);
         let text = self.describe(after);
         let message = format!("expected {wanted} after {text}; it is black");
         let diagnostic = Diagnostic::new(Code::MissingPart, message)
             .at(span.after(), format!("{wanted} is missing here"));
         self.opinion(&after.here, diagnostic)?;
-        let value = WrittenColor::new(Color::BLACK, None);
-        Ok(Given { value, span, here: after.here.clone(), expression: None })
+        Ok(Given { value: Color::BLACK, span, here: after.here.clone(), expression: None })
     }
 
     /// Converts a value without a keyword before it to a colour.
@@ -254,11 +236,7 @@ impl Evaluator<'_> {
     }
 
     /// Reads what may follow a colour: `red 1`, `filter 0.5` …, each replacing one component.
-    pub(super) fn color_components(&mut self, base: Color, piece: Site) -> Outcome<WrittenColor> {
-        self.more_components(WrittenColor::new(base, Some(piece)))
-    }
-
-    fn more_components(&mut self, mut color: WrittenColor) -> Outcome<WrittenColor> {
+    pub(super) fn color_components(&mut self, mut color: Color) -> Outcome<Color> {
         while let Some(Token { kind: TokenKind::Word(word), .. }) = self.peek_on() {
             let word = *word;
             if !is_component(word) {
@@ -272,18 +250,13 @@ impl Evaluator<'_> {
     }
 
     /// Reads a colour that consists of named components only.
-    fn color_of_components(&mut self, first: &Token, color: WrittenColor) -> Outcome<WrittenColor> {
-        let color = self.more_components(color)?;
-        self.lint_color_range(&first.here, first.span, color.color().rgb);
+    fn color_of_components(&mut self, first: &Token, color: Color) -> Outcome<Color> {
+        let color = self.color_components(color)?;
+        self.lint_color_range(&first.here, first.span, color.rgb);
         Ok(color)
     }
 
-    fn color_component(
-        &mut self,
-        token: &Token,
-        word: Word,
-        color: &mut WrittenColor,
-    ) -> Outcome<()> {
+    fn color_component(&mut self, token: &Token, word: Word, color: &mut Color) -> Outcome<()> {
         let has_number = matches!(
             self.peek().map(|next| &next.kind),
             Some(TokenKind::Expression(_) | TokenKind::Literal(_))
@@ -316,7 +289,13 @@ impl Evaluator<'_> {
                 if matches!(word, Word::Filter | Word::Transmit) {
                     self.lint_clear_percentage(&number.here, number.span, word);
                 }
-                color.set(word, number.value, self.whole(token));
+                match word {
+                    Word::Red => color.rgb.red = number.value,
+                    Word::Green => color.rgb.green = number.value,
+                    Word::Blue => color.rgb.blue = number.value,
+                    Word::Filter => color.filter = number.value,
+                    _ => color.transmit = number.value,
+                }
             }
             Err(reported) => {
                 self.skip_color_components();

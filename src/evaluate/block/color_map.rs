@@ -14,7 +14,6 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
-use super::pieces::WrittenColor;
 
 /// A `color_map`, and the first colour in it that lets light through.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +23,7 @@ pub struct WrittenMap {
 }
 
 /// The values and colours of an entry.
-type Entries = Vec<(f64, WrittenColor)>;
+type Entries = Vec<(f64, Color)>;
 
 /// Maximum number of entries in a map: more are a mistake, and would soon exhaust memory.
 const MOST_ENTRIES: usize = 1 << 20;
@@ -80,10 +79,10 @@ impl Evaluator<'_> {
                         });
                         match read {
                             Ok(read) => {
-                                entries.extend(read.iter().map(|(at, color)| (*at, color.color())));
-                                if read.iter().any(|(_, color)| color.color().is_clear()) {
+                                if read.iter().any(|(_, color)| color.is_clear()) {
                                     clear = clear.or(Some(here.site(token.span)));
                                 }
+                                entries.extend(read);
                             }
                             Err(Reported) => failed = true,
                         }
@@ -177,7 +176,7 @@ impl Evaluator<'_> {
         self.skip_commas();
         let starts_color = matches!(self.peek(), Some(Token { kind: TokenKind::Word(_), .. }));
         if starts_color {
-            let color = self.written_color_after(token, "a colour")?.value;
+            let color = self.color_after(token, "a colour")?.value;
             self.end_of_entry(token)?;
             return Ok(vec![(from, color)]);
         }
@@ -192,13 +191,13 @@ impl Evaluator<'_> {
         let entries = match second.value {
             Value::Number(to) => {
                 rise.entry(second.with(to), self.sources);
-                let first = self.written_color_after(token, "a colour")?.value;
+                let first = self.color_after(token, "a colour")?.value;
                 if let Some(diagnostic) = self.decimal_comma(first_number)
                     && self.peek().is_none()
                 {
                     return Err(self.report(&token.here, diagnostic));
                 }
-                let last = self.written_color_after(token, "a second colour")?.value;
+                let last = self.color_after(token, "a second colour")?.value;
                 // POV-Ray's manual lists it as a current form.
                 if self.options.dialect == Dialect::Scene {
                     self.lint_legacy(
@@ -212,7 +211,7 @@ impl Evaluator<'_> {
             }
             _ => {
                 let color = self.plain_color(&second, "a colour")?;
-                vec![(from, self.color_components(color, second.site())?)]
+                vec![(from, self.color_components(color)?)]
             }
         };
         self.end_of_entry(token)?;
@@ -227,7 +226,7 @@ impl Evaluator<'_> {
             return None;
         }
         let before = self.told();
-        let read = self.written_color_after(entry, "a colour");
+        let read = self.color_after(entry, "a colour");
         if read.is_err() {
             return Some(Reported);
         }

@@ -15,7 +15,6 @@ use crate::vocabulary::{Dialect, Family, Word};
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
-use super::pieces::WrittenColor;
 use super::{Given, Place};
 use whole::Written;
 
@@ -30,13 +29,6 @@ pub(super) struct OpenFinish {
     failed: bool,
     /// Number of messages before it.
     told: usize,
-}
-
-/// Adds a site unless it is listed: a loop may visit one position repeatedly.
-pub(super) fn list_once(sites: &mut Vec<Site>, item: Site) {
-    if sites.iter().all(|site| site.span != item.span) {
-        sites.push(item);
-    }
 }
 
 impl Evaluator<'_> {
@@ -82,15 +74,11 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn close_finish(&mut self, open: OpenFinish) -> Outcome<FinishId> {
-        let OpenFinish { opener, mut finish, mut written, failed, told } = open;
+        let OpenFinish { opener, mut finish, written, failed, told } = open;
         // The missing word may be in the item that failed.
         if failed && written.classic.is_none() {
             return Err(Reported);
         }
-        let before = match finish {
-            Finish::Seed { ks, .. } => Some(ks),
-            Finish::Classic(_) => None,
-        };
         self.whole_finish(&opener, &mut finish, &written)?;
         if let Some(ambient) = &written.ambient {
             self.lint_ambient(ambient, &finish);
@@ -102,21 +90,21 @@ impl Evaluator<'_> {
         if let Finish::Classic(classic) = &mut finish {
             written.albedo.spend(classic);
         }
-        if let Finish::Seed { ks, .. } = finish {
-            written.weigh_seed(ks, before);
-        }
         if failed {
             return Err(Reported);
         }
         let here = |word: (Word, Span)| (word.0, opener.here.site(word.1));
         let mut origin = written.origin;
+        // One vocabulary replaces the default's words of the other.
+        let is_seed = matches!(finish, Finish::Seed { .. });
+        origin.words.retain(|(word, _)| (*word == Word::Ks) == is_seed);
         origin.seed = origin.seed.or(written.seed.map(here));
         origin.classic = origin.classic.or(written.classic.map(here));
         let site = Some(opener.here.site(opener.span));
-        let sites = (origin.highlights.len() + origin.reflection.len()) * size_of::<Site>();
+        let words = size_of_val(&origin.words[..]);
         self.scene.finish_origins.resize(self.scene.finishes.len(), FinishOrigin::default());
         self.scene.finish_origins.push(FinishOrigin { site, ..origin });
-        self.stored += (size_of::<Finish>() + size_of::<FinishOrigin>() + sites) as u64;
+        self.stored += (size_of::<Finish>() + size_of::<FinishOrigin>() + words) as u64;
         self.scene.finishes.push(finish);
         Ok(FinishId(self.scene.finishes.len() as u32 - 1))
     }
@@ -174,17 +162,14 @@ impl Evaluator<'_> {
             Word::Kd | Word::Ks | Word::PhongExponent => {
                 written.seed.get_or_insert((word, token.span));
                 let number = self.at_least_zero(token, word)?;
-                let item = self.whole(token);
                 match word {
                     Word::Kd => written.kd = Some(number),
                     Word::Ks => {
                         written.ks = Some(number);
-                        written.ks_items.push((number, item));
+                        written.origin.set(word, self.whole(token));
                     }
                     _ => written.phong_exponent = Some(number),
                 }
-                written.seed_item =
-                    Some(written.seed_item.map_or(item, |first| self.joined(first, item)));
                 return Ok(());
             }
             _ => {}
@@ -194,7 +179,6 @@ impl Evaluator<'_> {
             // POV-Ray's words replace a seed finish that came from the default.
             Finish::Seed { .. } => ClassicFinish::default(),
         };
-        written.pieces = None;
         let known = self.classic_item(token, word, &mut classic, written)?;
         if known {
             if matches!(word, Word::Roughness | Word::PhongSize | Word::Specular | Word::Phong) {
@@ -202,19 +186,8 @@ impl Evaluator<'_> {
             }
             written.classic.get_or_insert((word, token.span));
             self.lint_word_twice(token, word, &mut written.said);
-            let weightless = match word {
-                Word::Phong => Some(classic.phong <= 0.0),
-                Word::Specular => Some(classic.specular <= 0.0),
-                Word::Reflection => classic
-                    .reflection
-                    .as_ref()
-                    .map(|r| !r.minimum.gives_light() && !r.maximum.gives_light()),
-                Word::Ior => Some(false),
-                _ => None,
-            };
-            if let Some(weightless) = weightless {
-                let pieces = written.pieces.take();
-                written.weigh(word, weightless, self.whole(token), pieces);
+            if matches!(word, Word::Phong | Word::Specular | Word::Reflection | Word::Ior) {
+                written.origin.set(word, self.whole(token));
             }
             if written.seed.is_none() {
                 *finish = Finish::Classic(classic);
@@ -244,8 +217,9 @@ impl Evaluator<'_> {
                 finish.diffuse = self.strength_after(token, word)?;
                 let behind = self.back_side(token)?;
                 finish.behind = behind.map_or(0.0, |(strength, _)| strength);
-                let sites = behind.filter(|(strength, _)| *strength > 0.0).map(|(_, site)| site);
-                written.origin.behind = sites.into_iter().collect();
+                if let Some((_, site)) = behind {
+                    written.origin.set(word, site);
+                }
             }
             Word::Brilliance => finish.brilliance = self.power_after(token, word)?,
             Word::Phong => {
@@ -261,17 +235,11 @@ impl Evaluator<'_> {
             Word::Metallic => finish.metallic = self.optional_number(token, 1.0)?,
             Word::Reflection => {
                 let before = finish.reflection.take();
-                let (reflection, pieces) = self.reflection(token, before)?;
-                finish.reflection = Some(reflection);
-                written.pieces = pieces;
+                finish.reflection = Some(self.reflection(token, before)?);
             }
             Word::ConserveEnergy => finish.conserve_energy = true,
             Word::Ior => {
-                let before = finish.ior.replace(self.index_of_refraction(token)?);
-                // An index like that of air hides the one before it.
-                if before == Some(1.0) || finish.ior == Some(1.0) {
-                    written.origin.ior.clear();
-                }
+                finish.ior = Some(self.index_of_refraction(token)?);
                 let help = "write `interior { ior … }` beside the texture";
                 self.lint_legacy(&token.here, token.span, "`ior` in a finish is an old form", help);
             }
@@ -317,17 +285,12 @@ impl Evaluator<'_> {
 
     /// Reads a light colour, or a number for white light.
     fn intensity_after(&mut self, token: &Token) -> Outcome<Given<Rgb>> {
-        let given = self.written_intensity_after(token)?;
-        let light = given.value.color().rgb;
-        Ok(given.with(light))
-    }
-
-    fn written_intensity_after(&mut self, token: &Token) -> Outcome<Given<WrittenColor>> {
-        let given = self.written_color_after(token, "a number or a colour")?;
+        let given = self.color_after(token, "a number or a colour")?;
+        let light = given.value.rgb;
         if let TokenKind::Word(word) = token.kind {
-            self.lint_strength(&given.here, given.span, word, given.value.color().rgb);
+            self.lint_strength(&given.here, given.span, word, light);
         }
-        Ok(given)
+        Ok(given.with(light))
     }
 
     /// Reads the second number of `diffuse front, behind`, for light from behind; also returns its site.

@@ -2,25 +2,15 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Interior, InteriorId};
-use crate::source::Site;
 use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::{Material, Value};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
-use super::finish::list_once;
 
 /// The most rays that one ray is split into by dispersion.
 const MOST_SAMPLES: f64 = 65_535.0;
-
-/// Lists a piece that enables an effect, or forgets those before one that disables it.
-fn note(sites: &mut Vec<Site>, piece: Site, enables: bool) {
-    match enables {
-        true => list_once(sites, piece),
-        false => sites.clear(),
-    }
-}
 
 impl Evaluator<'_> {
     /// Reads `interior { [Name] ior … fade_distance … dispersion … }`.
@@ -40,19 +30,13 @@ impl Evaluator<'_> {
     fn interior_item(&mut self, token: &Token, interior: &mut Interior) -> Outcome<()> {
         match token.kind {
             TokenKind::Word(Word::Ior) => {
-                let before = interior.ior;
                 interior.ior = self.index_of_refraction(token)?;
                 interior.is_refractive = true;
-                // An index like that of air hides the one before it.
-                if before == 1.0 || interior.ior == 1.0 {
-                    interior.sites.clear();
-                }
-                list_once(&mut interior.sites, self.whole(token));
+                interior.ior_site = Some(self.whole(token));
             }
             TokenKind::Word(Word::FadeDistance) => {
-                let given = self.number_after(token, "a number")?;
-                interior.fade_distance = given.value;
-                note(&mut interior.fade_sites, self.whole(token), given.value != 0.0);
+                interior.fade_distance = self.number_after(token, "a number")?.value;
+                interior.fade_site = Some(self.whole(token));
             }
             TokenKind::Word(Word::FadePower) => {
                 interior.fade_power = self.number_after(token, "a number")?.value;
@@ -61,9 +45,8 @@ impl Evaluator<'_> {
                 interior.fade_color = self.color_after(token, "a color")?.value.rgb;
             }
             TokenKind::Word(Word::Dispersion) => {
-                let given = self.number_after(token, "a number")?;
-                interior.dispersion = given.value;
-                note(&mut interior.dispersion_sites, self.whole(token), given.value != 1.0);
+                interior.dispersion = self.number_after(token, "a number")?.value;
+                interior.dispersion_site = Some(self.whole(token));
             }
             TokenKind::Word(Word::DispersionSamples) => {
                 let given = self.number_after(token, "a number")?;

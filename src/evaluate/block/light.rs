@@ -106,21 +106,16 @@ impl Evaluator<'_> {
         let late = self.late_color(opener);
         let color = match late {
             // Reported where it appears, or as missing.
-            Some(_) => Ok((Rgb::BLACK, None, None)),
-            None => self.written_color_after(opener, "a colour for the light").map(|given| {
-                let black = given.value.without(|color| color.rgb.is_black());
+            Some(_) => Ok((Rgb::BLACK, None)),
+            None => self.color_after(opener, "a colour for the light").map(|given| {
                 let first = given.site();
                 let all = self.joined(first, self.taken.unwrap_or(first));
-                (given.value.color().rgb, Some(all), black)
+                (given.value.rgb, Some(all))
             }),
         };
         let light = kind.and_then(|kind| {
-            let (color, color_site, black) = color?;
-            Ok(LightSource {
-                color_site,
-                color_sites: black.unwrap_or_default(),
-                ..LightSource::new(kind, color)
-            })
+            let (color, color_site) = color?;
+            Ok(LightSource { color_site, ..LightSource::new(kind, color) })
         });
         (light, late)
     }
@@ -174,10 +169,7 @@ impl Evaluator<'_> {
                     if let Some(light) = &mut light
                         && word != Word::Parallel
                     {
-                        let piece = self.whole(&token);
-                        if light.beam_sites.iter().all(|(_, site)| site.span != piece.span) {
-                            light.beam_sites.push((word, piece));
-                        }
+                        light.beam_site = Some(self.whole(&token));
                     }
                     self.kind_without_braces(&token)
                 }
@@ -199,7 +191,9 @@ impl Evaluator<'_> {
                     cone.say(&token, word, &given);
                     written.say(word, given);
                     if word == Word::FadeDistance {
-                        written.distances.push((written.fade.distance, self.whole(&token)));
+                        if let Some(light) = &mut light {
+                            light.fade_site = Some(self.whole(&token));
+                        }
                         self.power_behind_distance(&token);
                     }
                 }),

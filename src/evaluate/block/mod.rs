@@ -38,7 +38,6 @@ mod object;
 mod outline;
 mod part;
 mod pattern;
-mod pieces;
 mod pigment;
 mod place;
 mod polynomial;
@@ -256,9 +255,7 @@ impl Evaluator<'_> {
             Word::Spline => self.spline(token),
             Word::Function => self.function(token),
             Word::SkySphere => self.sky_sphere(token),
-            _ if word.family() == Family::Color => {
-                self.color_from(token).map(|color| Value::Color(color.color()))
-            }
+            _ if word.family() == Family::Color => self.color_from(token).map(Value::Color),
             _ if opens_object(word) => self.object(token, word),
             _ if !word.is_built() || word == Word::Background => {
                 let poison = Poison::new(word, token.here.site(token.span));

@@ -94,7 +94,7 @@ impl Evaluator<'_> {
                 Some(Ok(kind)) => {
                     if let Some(kind) = kind {
                         let site = match kind {
-                            // With its `on`, as a removable piece.
+                            // With its `on`.
                             ModifierKind::NoImage(_)
                             | ModifierKind::NoReflection(_)
                             | ModifierKind::DoubleIlluminate(_) => self.whole(&token),

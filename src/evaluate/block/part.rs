@@ -32,8 +32,8 @@ impl<T> Given<T> {
 }
 
 impl Evaluator<'_> {
-    /// Returns the span from the start of `opener` to the end of the item taken last, as a removable piece of
-    /// text. If a directive separates the two, it includes all items that contain both.
+    /// Returns the span from the start of `opener` to the end of the item taken last. If a directive separates
+    /// the two, it includes all items that contain both.
     pub(super) fn whole(&self, opener: &Token) -> Site {
         let opener = opener.here.site(opener.span);
         self.joined(opener, self.taken.unwrap_or(opener))
@@ -64,7 +64,7 @@ impl Evaluator<'_> {
         Some(Site { span: Span { start, end: start + inside.len() as u32, ..span }, expansion })
     }
 
-    /// Records the site of an object in the scene or a union, as a removable piece.
+    /// Records the site of a whole object in the scene or a union.
     pub(super) fn note_item(&mut self, object: ObjectId, token: &Token) {
         let whole = self.whole(token);
         self.scene.objects[object.index()].item = Some(whole);

@@ -168,7 +168,7 @@ impl Evaluator<'_> {
             TokenKind::Word(word) if word.family() == Family::Color => {
                 let color = self.color_from(token)?;
                 self.alone_in_pigment(token, None, &mut open.written)?;
-                self.color_of(open, color.color(), token);
+                self.color_of(open, color, token);
             }
             TokenKind::Expression(id) => {
                 let id = *id;
@@ -201,9 +201,9 @@ impl Evaluator<'_> {
                         let (span, here) = (token.span, token.here.clone());
                         let given = Given { value, span, here, expression: Some(id) };
                         let color = self.plain_color(&given, "a colour")?;
-                        let color = self.color_components(color, given.site())?;
+                        let color = self.color_components(color)?;
                         self.alone_in_pigment(token, None, &mut open.written)?;
-                        self.color_of(open, color.color(), token);
+                        self.color_of(open, color, token);
                     }
                     // Not an error: what it lacks is reported where it is needed.
                     Value::Poison(poison) => {

@@ -12,7 +12,6 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
-use super::finish::list_once;
 
 /// The maximum `max_trace_level` that POV-Ray uses; it warns of more.
 const DEEPEST: f64 = 256.0;
@@ -182,7 +181,7 @@ impl Evaluator<'_> {
         match token.kind {
             TokenKind::Word(Word::Pigment) => {
                 sky.pigments.push(self.pigment(token)?);
-                list_once(&mut sky.items, self.whole(token));
+                sky.items.push(self.whole(token));
             }
             TokenKind::Expression(id) => match self.declared(token, id) {
                 Some(Value::Broken) => return Err(Reported),

@@ -11,7 +11,7 @@ impl Build {
     fn interior(&mut self, ior: f64) -> ModifierKind {
         self.0.interiors.push(Interior {
             ior,
-            sites: vec![site(700 + self.0.interiors.len())],
+            ior_site: Some(site(700 + self.0.interiors.len())),
             ..Interior::default()
         });
         ModifierKind::Interior(InteriorId(self.0.interiors.len() as u32 - 1))

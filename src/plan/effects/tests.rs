@@ -53,7 +53,6 @@ fn lit_mirror() -> (World, Origins) {
     let origins = Origins {
         objects: vec![site(1)],
         lights: vec![site(20)],
-        light_pieces: vec![vec![site(20)]],
         textures: vec![TextureOrigin {
             clear: vec![],
             filter: vec![],
@@ -224,7 +223,6 @@ fn single_lights_and_what_lowering_dropped_are_listed_with_their_places() {
     let (mut world, mut origins) = lit_mirror();
     world.lights.push(Light { casts_shadows: false, ..world.lights[0] });
     origins.lights.push(site(22));
-    origins.light_pieces.push(vec![site(22)]);
     origins.dropped.push(Dropped {
         site: site(50),
         what: "light_source".to_owned(),

@@ -1,13 +1,12 @@
 //! `reflection` in a finish: a colour, or two for the limits of the angle.
 
-use crate::color::Rgb;
+use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::evaluate::block::pieces::{WrittenColor, without_light};
 use crate::evaluate::block::{Given, Place};
 use crate::evaluate::stream::{Token, TokenKind};
 use crate::evaluate::{Evaluator, Outcome, Reported};
 use crate::scene::Reflection;
-use crate::source::{Site, Span};
+use crate::source::Span;
 use crate::vocabulary::Word;
 
 /// An `exponent` below this counts as 0: light to the power of a million vanishes.
@@ -15,13 +14,12 @@ const NEARLY_NOTHING: f64 = 1e-6;
 
 impl Evaluator<'_> {
     /// Reads `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`. Properties that are not
-    /// specified keep their values from `before`, as in POV-Ray. Also returns the pieces whose removal makes
-    /// the reflection black, if less than all of it is enough.
+    /// specified keep their values from `before`, as in POV-Ray.
     pub(super) fn reflection(
         &mut self,
         token: &Token,
         before: Option<Reflection>,
-    ) -> Outcome<(Reflection, Option<Vec<Site>>)> {
+    ) -> Outcome<Reflection> {
         let plain = |color: Rgb| {
             let (falloff, exponent, metallic) =
                 before.as_ref().map_or((1.0, 1.0, 0.0), |r| (r.falloff, r.exponent, r.metallic));
@@ -29,28 +27,25 @@ impl Evaluator<'_> {
             Reflection { minimum: color, maximum: color, falloff, fresnel, exponent, metallic }
         };
         if !matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) {
-            let given = self.written_intensity_after(token)?.value;
+            let color = self.intensity_after(token)?.value;
             if let Some(reported) = self.ends_without_braces(token) {
                 return Err(reported);
             }
-            return Ok((plain(given.color().rgb), given.without(|color| color.rgb.is_black())));
+            return Ok(plain(color));
         }
         let opener = token.clone();
         self.block(token, Word::Reflection, |evaluator| {
             if let Some(reported) = evaluator.named_ends() {
                 return Err(reported);
             }
-            let light = |given: &Given<WrittenColor>| given.clone().with(given.value.color().rgb);
-            let (least, first) = evaluator.end_of_reflection(&opener)?;
-            let mut reflection = plain(least.value.color().rgb);
+            let least = evaluator.intensity_after(&opener)?;
+            let mut reflection = plain(least.value);
             evaluator.skip_commas();
             let both = evaluator.at_color();
-            let mut pieces = least.value.without(|color| color.rgb.is_black());
             if both {
-                let (most, second) = evaluator.end_of_reflection(&opener)?;
-                evaluator.lint_reflection_order(&light(&least), &light(&most));
-                reflection.maximum = most.value.color().rgb;
-                pieces = without_light([(&least.value, first), (&most.value, second)]);
+                let most = evaluator.intensity_after(&opener)?;
+                evaluator.lint_reflection_order(&least, &most);
+                reflection.maximum = most.value;
             }
             while let Some(token) = evaluator.next() {
                 match token.kind {
@@ -73,7 +68,7 @@ impl Evaluator<'_> {
             if reflection.fresnel && !both {
                 reflection.minimum = Rgb::BLACK;
             }
-            Ok((reflection, pieces))
+            Ok(reflection)
         })
     }
 
@@ -101,7 +96,7 @@ impl Evaluator<'_> {
         if !is_number && !second.starts_with("rgb") && !second.starts_with("color") {
             return None;
         }
-        let _: Outcome<Given<WrittenColor>> = self.written_color_after(token, "a number");
+        let _: Outcome<Given<Color>> = self.color_after(token, "a number");
         let whole = self.whole(token).span;
         let both = Span { start: token.span.end, ..whole };
         let text = self.sources.text(both);
@@ -156,15 +151,6 @@ impl Evaluator<'_> {
             self.next();
         }
         Some(reported)
-    }
-
-    /// Reads the reflection at one limit of the angle; also returns its site.
-    fn end_of_reflection(&mut self, opener: &Token) -> Outcome<(Given<WrittenColor>, Site)> {
-        self.skip_commas();
-        let first = self.peek().cloned();
-        let given = self.written_intensity_after(opener)?;
-        let item = self.whole(first.as_ref().unwrap_or(opener));
-        Ok((given, item))
     }
 }
 

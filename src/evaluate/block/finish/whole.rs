@@ -2,7 +2,6 @@
 //! including those of the finish from which it starts.
 
 use super::albedo::Albedo;
-use super::list_once;
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::block::Given;
@@ -19,15 +18,9 @@ pub(super) struct Written {
     pub ks: Option<f64>,
     pub phong_exponent: Option<f64>,
     pub seed: Option<(Word, Span)>,
-    /// Span from the first to the last of the seed's keywords.
-    pub seed_item: Option<Site>,
-    /// Each `ks`, with its site.
-    pub ks_items: Vec<(f64, Site)>,
     pub classic: Option<(Word, Span)>,
     /// Each of POV-Ray's keywords.
     pub said: Vec<(Word, Site)>,
-    /// The pieces of the last item whose removal makes its weight zero, if not the whole item.
-    pub pieces: Option<Vec<Site>>,
     pub albedo: Albedo,
     /// The last `ambient`.
     pub ambient: Option<Given<Rgb>>,
@@ -38,68 +31,6 @@ pub(super) struct Written {
 }
 
 impl Written {
-    /// Records that an item set the weight of `word`. If removing `pieces` of it makes the weight zero, the
-    /// rest still hides what was set before.
-    pub fn weigh(&mut self, word: Word, weightless: bool, item: Site, pieces: Option<Vec<Site>>) {
-        let Self { origin, .. } = self;
-        origin.zeros.retain(|(other, _)| *other != word);
-        if weightless || pieces.is_some() {
-            match word {
-                Word::Ior => origin.ior.clear(),
-                Word::Reflection => origin.reflection.clear(),
-                _ => origin.highlights.retain(|(other, _)| *other != word),
-            }
-        }
-        let pieces = match weightless {
-            true => {
-                origin.zeros.push((word, item));
-                Vec::new()
-            }
-            false => pieces.unwrap_or(vec![item]),
-        };
-        for piece in pieces {
-            match word {
-                Word::Ior => list_once(&mut origin.ior, piece),
-                Word::Reflection => list_once(&mut origin.reflection, piece),
-                _ => origin.list_highlight(word, piece),
-            }
-        }
-    }
-
-    /// Records that the seed's keywords complete a finish of weight `ks`, starting from one with the weight
-    /// `before`.
-    pub fn weigh_seed(&mut self, ks: f64, before: Option<f64>) {
-        let Self { origin, .. } = self;
-        let Some(item) = self.seed_item else { return };
-        origin.zeros.clear();
-        let zero = self.ks_items.iter().rposition(|(weight, _)| *weight == 0.0);
-        if ks == 0.0 || before == Some(0.0) || (before.is_some() && zero.is_some()) {
-            // The earlier words stay hidden, or have no weight.
-            origin.highlights.clear();
-            origin.reflection.clear();
-            origin.all_of_seed = false;
-        }
-        let pieces: Vec<Site> = match before {
-            _ if ks == 0.0 => {
-                origin.zeros.push((Word::Ks, item));
-                return;
-            }
-            Some(_) if !origin.all_of_seed => {
-                let since = self.ks_items.iter().skip(zero.map_or(0, |zero| zero + 1));
-                since.map(|(_, item)| *item).collect()
-            }
-            // All of them, or some would remain alone.
-            _ => {
-                origin.all_of_seed = true;
-                vec![item]
-            }
-        };
-        for piece in pieces {
-            origin.list_highlight(Word::Ks, piece);
-            list_once(&mut origin.reflection, piece);
-        }
-    }
-
     /// Returns the diagnostic for both vocabularies in one finish, at the later keyword.
     fn mixed(&self) -> Option<Diagnostic> {
         let earlier = |word: Option<(Word, Site)>| word.map(|(word, site)| (word, site.span));
@@ -115,14 +46,6 @@ impl Written {
             None => diagnostic.at(seed_span, of_seed).also(classic_span, of_classic),
         };
         Some(diagnostic.help("`kd`, `ks` and `phong_exponent` stand alone; else use `diffuse`, `specular`, `reflection` and their kin"))
-    }
-}
-
-impl FinishOrigin {
-    fn list_highlight(&mut self, word: Word, item: Site) {
-        if self.highlights.iter().all(|(_, site)| site.span != item.span) {
-            self.highlights.push((word, item));
-        }
     }
 }
 

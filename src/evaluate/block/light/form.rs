@@ -48,7 +48,7 @@ impl Evaluator<'_> {
         };
         let place = self.light_place(opener);
         self.semicolon_for_comma();
-        let color = self.written_color_after(opener, "a colour for the light");
+        let color = self.color_after(opener, "a colour for the light");
         if place.is_err() || color.is_err() {
             return Some((Err(Reported), None));
         }

@@ -59,7 +59,7 @@ impl Evaluator<'_> {
                 .at(token.span, "expected one colour, right after the light's place");
             return Err(self.report(&token.here, diagnostic));
         };
-        light.color = color.color().rgb;
+        light.color = color.rgb;
         let site = self.whole(token);
         let after = match light.kind {
             LightKind::Direction { .. } => "direction",

@@ -4,11 +4,9 @@
 
 use crate::math::Vector;
 use crate::scene::{Beam, Dialect, Fade, LightKind, LightSource, TransformId};
-use crate::source::Site;
 use crate::vocabulary::Word;
 
 use super::super::super::stream::Token;
-use super::super::finish::list_once;
 use super::super::part::Given;
 
 /// Settings of a light.
@@ -28,8 +26,6 @@ pub(super) struct Written {
     pub tightness: f64,
     /// No fading if the distance or the power is 0 or less.
     pub fade: Fade,
-    /// Each `fade_distance`, with the site of the whole item.
-    pub distances: Vec<(f64, Site)>,
     /// The numbers as written.
     pub numbers: Vec<(Word, Given<f64>)>,
     /// Keywords that are invalid for a light without a position.
@@ -56,7 +52,6 @@ impl Written {
             falloff: None,
             tightness: 0.0,
             fade: light.and_then(|light| light.fade).unwrap_or(Fade { distance: 0.0, power: 0.0 }),
-            distances: Vec::new(),
             numbers: Vec::new(),
             of_a_place: Vec::new(),
         };
@@ -106,30 +101,9 @@ impl Written {
         (round == Word::Cylinder || !parallel).then_some(round)
     }
 
-    /// Records the pieces whose removal stops the light from fading: fading needs a distance and a power, and
-    /// half of a fade does not outlast its block (measured on POV-Ray 3.7).
-    fn note_fade(&self, light: &mut LightSource) {
-        let zero = self.distances.iter().rposition(|(distance, _)| *distance == 0.0);
-        let since = self.distances.iter().skip(zero.map_or(0, |zero| zero + 1));
-        if zero.is_some() || light.fade.is_none() {
-            // The earlier fade is hidden, or none.
-            light.fade_sites.clear();
-        } else if self.said(Word::FadePower).is_none() {
-            // It combines with the earlier power.
-            return;
-        }
-        since.for_each(|(_, piece)| list_once(&mut light.fade_sites, *piece));
-    }
-
     /// Applies the settings to the light; returns the keyword that needs another `point_at`.
     pub fn spend(self, light: &mut LightSource) -> Option<Token> {
         let round = self.round(light);
-        let parallel = matches!(light.kind, LightKind::Parallel { .. });
-        if parallel || self.shapes.contains(&Word::Parallel) {
-            // A parallel light is not a spotlight.
-            light.beam_sites.retain(|(word, _)| *word == Word::Cylinder);
-        }
-        self.note_fade(light);
         let Self { shapes, last, point_at, radius, falloff, tightness, fade, .. } = self;
         light.aimed_after = self.aimed_after;
         light.fade = (fade.distance > 0.0 && fade.power > 0.0).then_some(fade);
