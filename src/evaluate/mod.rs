@@ -130,6 +130,7 @@ struct Evaluator<'a> {
     waves: usize,
     /// Pictures that were read.
     pictures: block::Pictures,
+    grids: block::Grids,
     streams: RandomStreams,
     /// Files that `#fopen` has opened.
     opened: Vec<file::Opened>,
@@ -300,6 +301,7 @@ impl<'a> Evaluator<'a> {
             says_noise: false,
             waves: 10,
             pictures: block::Pictures::default(),
+            grids: block::Grids::default(),
             streams: RandomStreams::default(),
             opened: Vec::new(),
             unwritten: BTreeSet::new(),

@@ -2,7 +2,7 @@
 //!
 //! **Out:** the same as in a World, or a diagnostic if the part cannot be built.
 
-use super::pigment::{Nodes, Pigments};
+use super::pigment::{Branches, Nodes};
 use super::transform::Transforms;
 use super::{Fault, Reporter};
 use crate::diagnostic::Diagnostics;
@@ -15,8 +15,8 @@ use crate::texture::space::Start;
 /// Returns a pigment in its World form; reports what is wrong with it.
 pub fn pigment(scene: &Scene, id: PigmentId, diagnostics: &mut Diagnostics) -> Option<Pigment> {
     let transforms = &mut Transforms::new(&scene.transforms);
-    let pigments = &mut Pigments::default();
-    let lowered = Nodes { scene, transforms, pigments }.pigment(id, Start::Outer, &[], 0);
+    let branches = &mut Branches::default();
+    let lowered = Nodes { scene, transforms, branches }.pigment(id, Start::Outer, &[], 0);
     Reporter::new(scene, diagnostics).made(lowered, scene.pigments[id.index()].site)
 }
 

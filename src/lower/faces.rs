@@ -3,6 +3,8 @@
 
 use std::sync::Arc;
 
+use rustc_hash::FxHashSet;
+
 use super::finish::lower_finish;
 use super::object::Inherited;
 use super::pigment::faces;
@@ -29,12 +31,13 @@ impl Surface {
     }
 
     /// Returns the pigments and finishes of all textures that may be visible: those of faces, in their order,
-    /// and then its own.
+    /// and then its own. An entry of a blend that several share counts once.
     pub fn all(&self, scene: &scene::Scene) -> Vec<(PigmentId, FinishId)> {
         let mut all = Vec::new();
+        let mut entries = FxHashSet::default();
         let textures = self.faces.iter().flat_map(|parts| parts.textures());
-        textures.for_each(|id| add_plains(scene, *id, &mut all));
-        add_plains(scene, self.texture, &mut all);
+        textures.for_each(|id| add_plains(scene, *id, &mut entries, &mut all));
+        add_plains(scene, self.texture, &mut FxHashSet::default(), &mut all);
         if let Some(own) = all.last_mut() {
             *own = (self.pigment.unwrap_or(own.0), self.finish.unwrap_or(own.1));
         }
@@ -64,14 +67,25 @@ fn add_patterns(scene: &scene::Scene, id: TextureId, sites: &mut Vec<Site>) {
     }
 }
 
-/// Adds the pigment and the finish of each part of a texture.
-fn add_plains(scene: &scene::Scene, id: TextureId, all: &mut Vec<(PigmentId, FinishId)>) {
+/// Adds the pigment and the finish of each part of a texture, of the entries of blends each once.
+fn add_plains(
+    scene: &scene::Scene,
+    id: TextureId,
+    entries: &mut FxHashSet<TextureId>,
+    all: &mut Vec<(PigmentId, FinishId)>,
+) {
     match &scene.textures[id.index()].kind {
         TextureKind::Plain { pigment, finish, .. } => all.push((*pigment, *finish)),
-        TextureKind::Blend { entries, .. } => {
-            entries.iter().for_each(|(_, id)| add_plains(scene, *id, all));
+        TextureKind::Blend { entries: parts, .. } => {
+            for &(_, id) in parts {
+                if entries.insert(id) {
+                    add_plains(scene, id, entries, all);
+                }
+            }
         }
-        TextureKind::Layers(layers) => layers.iter().for_each(|id| add_plains(scene, *id, all)),
+        TextureKind::Layers(layers) => {
+            layers.iter().for_each(|id| add_plains(scene, *id, entries, all));
+        }
     }
 }
 

@@ -82,7 +82,7 @@ pub fn lower(
         origins: Origins::default(),
         reporter: Reporter::new(&scene, diagnostics),
         textures: texture::Textures::default(),
-        pigments: pigment::Pigments::default(),
+        branches: pigment::Branches::default(),
         transforms: transform::Transforms::new(&scene.transforms),
         last_surface: None,
         dropped: HashMap::new(),
@@ -113,8 +113,8 @@ pub fn lower(
     lowering.doubled();
     lowering.lint();
     lowering.prune_interiors();
-    let Lowering { world, mut origins, pigments, .. } = lowering;
-    origins.surfaces = pigments.parts;
+    let Lowering { world, mut origins, branches, .. } = lowering;
+    origins.surfaces = branches.parts;
     origins.expansions = scene.expansions;
     (world, origins)
 }
@@ -133,7 +133,7 @@ struct Lowering<'s, 'd> {
     origins: Origins,
     reporter: Reporter<'s, 'd>,
     textures: texture::Textures,
-    pigments: pigment::Pigments,
+    branches: pigment::Branches,
     transforms: transform::Transforms<'s>,
     /// The last texture that was set without a transform.
     last_surface: Option<(TextureId, surface::Surface)>,

@@ -71,10 +71,13 @@ impl Nodes<'_, '_> {
     }
 
     fn note(&mut self, pattern: &scene::Pattern, word: &'static str) {
-        self.pigments.note(SurfacePart::Normal, word, Some(pattern.site));
+        self.branches.note(SurfacePart::Normal, word, Some(pattern.site));
     }
 
     fn inner_normal(&mut self, id: NormalId, depth: usize) -> Result<Arc<Normal>, Fault> {
+        if let Some(known) = self.branches.normals.get(id, depth) {
+            return Ok(known);
+        }
         let normal = self.normal(id, Start::Outer, &[], depth)?;
         // A flat one: the mean of nothing.
         let flat = || Normal::Average {
@@ -82,6 +85,6 @@ impl Nodes<'_, '_> {
             entries: Vec::new(),
             keeps_depth: false,
         };
-        Ok(Arc::new(normal.unwrap_or_else(flat)))
+        Ok(self.branches.normals.add(id, depth, normal.unwrap_or_else(flat)))
     }
 }

@@ -3,6 +3,7 @@
 //! **Invariant:** a pigment of a single colour has no pattern; equal branches of one written pigment are
 //! shared; every number is finite.
 
+use std::hash::Hash;
 use std::sync::Arc;
 
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -16,23 +17,51 @@ use crate::math::double::Double;
 use crate::math::placement::Map;
 use crate::pattern::{Setting, Warp, Wave, warp};
 use crate::scene::texture::Layers;
-use crate::scene::{self, ColorMap, Colors, PigmentId, PigmentKind, Scene, TransformId};
+use crate::scene::{
+    self, ColorMap, Colors, NormalId, PigmentId, PigmentKind, Scene, TextureId, TransformId,
+};
 use crate::source::{Site, Span};
 use crate::texture::space::Start;
-use crate::texture::{self, Blend, DEEPEST, Pattern, Pigment, Space, Step};
+use crate::texture::{self, Blend, DEEPEST, Normal, Pattern, Pigment, Space, Step, Texture};
 use crate::vocabulary::Word;
 use crate::world::{SurfaceOrigin, SurfacePart};
 
-/// The pigments inside of others that are lowered so far.
+/// The nodes inside of others that are lowered so far.
 #[derive(Default)]
-pub struct Pigments {
-    inner: FxHashMap<PigmentId, Arc<Pigment>>,
+pub struct Branches {
+    pigments: Known<PigmentId, Pigment>,
+    pub(super) normals: Known<NormalId, Normal>,
+    pub(super) textures: Known<TextureId, Texture>,
     /// What all textures consist of, each place once.
     pub(super) parts: Vec<SurfaceOrigin>,
     noted: FxHashSet<(SurfacePart, &'static str, Option<Span>)>,
 }
 
-impl Pigments {
+/// Nodes by what is written, each with the greatest depth at which it was lowered: further down, what it contains
+/// may be too deep.
+pub(super) struct Known<Id, T>(FxHashMap<Id, (Arc<T>, usize)>);
+
+impl<Id: Eq + Hash, T> Known<Id, T> {
+    pub(super) fn get(&self, id: Id, depth: usize) -> Option<Arc<T>> {
+        let (node, at) = self.0.get(&id)?;
+        (depth <= *at).then(|| node.clone())
+    }
+
+    /// Adds a node, and returns it as a branch.
+    pub(super) fn add(&mut self, id: Id, depth: usize, node: T) -> Arc<T> {
+        let node = Arc::new(node);
+        self.0.insert(id, (node.clone(), depth));
+        node
+    }
+}
+
+impl<Id, T> Default for Known<Id, T> {
+    fn default() -> Self {
+        Self(FxHashMap::default())
+    }
+}
+
+impl Branches {
     pub(super) fn note(&mut self, part: SurfacePart, word: &'static str, site: Option<Site>) {
         if self.noted.insert((part, word, site.map(|site| site.span))) {
             self.parts.push(SurfaceOrigin { part, word, site });
@@ -44,7 +73,7 @@ impl Pigments {
 pub(super) struct Nodes<'a, 's> {
     pub scene: &'s Scene,
     pub transforms: &'a mut Transforms<'s>,
-    pub pigments: &'a mut Pigments,
+    pub branches: &'a mut Branches,
 }
 
 impl Nodes<'_, '_> {
@@ -73,7 +102,7 @@ impl Nodes<'_, '_> {
                     Colors::Image => Word::ImageMap.name(),
                     _ => pattern.source.word(),
                 };
-                self.pigments.note(SurfacePart::Pigment, word, Some(pattern.site));
+                self.branches.note(SurfacePart::Pigment, word, Some(pattern.site));
                 let space = self.space(start, &written.steps, outer, Some(pattern))?;
                 self.patterned(pattern, colors, space, depth)?
             }
@@ -115,12 +144,11 @@ impl Nodes<'_, '_> {
     }
 
     fn inner_pigment(&mut self, id: PigmentId, depth: usize) -> Result<Arc<Pigment>, Fault> {
-        if let Some(known) = self.pigments.inner.get(&id) {
-            return Ok(known.clone());
+        if let Some(known) = self.branches.pigments.get(id, depth) {
+            return Ok(known);
         }
-        let pigment = Arc::new(self.pigment(id, Start::Outer, &[], depth)?);
-        self.pigments.inner.insert(id, pigment.clone());
-        Ok(pigment)
+        let pigment = self.pigment(id, Start::Outer, &[], depth)?;
+        Ok(self.branches.pigments.add(id, depth, pigment))
     }
 
     /// Returns a pattern of `count` entries with its parameters in canonical form.
@@ -145,8 +173,10 @@ impl Nodes<'_, '_> {
             scene::Source::Object(region) => texture::Source::Object(region.clone()),
             scene::Source::Slope(slope) => texture::Source::Slope(*slope),
             scene::Source::Aoi => texture::Source::Aoi,
-            // It has no values of its own.
-            scene::Source::Average => texture::Source::Kind(crate::pattern::Kind::all()[0]),
+            scene::Source::Average => {
+                let message = "`average` has no values of its own";
+                return Err(Fault::new(Code::WrongType, message).label("expected what it is of"));
+            }
         };
         let usual = source.wave();
         let frequency = modifiers.frequency.unwrap_or(usual.frequency());

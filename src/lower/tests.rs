@@ -9,5 +9,6 @@ mod gap;
 mod interior;
 mod mesh;
 mod seed_rules;
+mod shared;
 mod spelling;
 mod texture;

@@ -152,12 +152,12 @@ impl<'s> Lowering<'s, '_> {
                     space.start = Start::UvTurned(slot);
                 }
                 let entries = entries.iter().map(|&(value, id)| {
-                    let texture = self.node(Written::own(id), &[], None, depth + 1)?;
-                    entry(value, Arc::new(texture)).map_err(|fault| (fault, site))
+                    let texture = self.inner_texture(id, depth + 1)?;
+                    entry(value, texture).map_err(|fault| (fault, site))
                 });
                 let mut entries = entries.collect::<Result<Vec<_>, _>>()?;
                 let word = pattern.source.word();
-                self.pigments.note(SurfacePart::Texture, word, Some(pattern.site));
+                self.branches.note(SurfacePart::Texture, word, Some(pattern.site));
                 if pattern.source == scene::Source::Average {
                     mean(&mut entries).map_err(|fault| (fault, site))?;
                     return Ok(Texture::Average { space, entries });
@@ -171,7 +171,7 @@ impl<'s> Lowering<'s, '_> {
                 let first =
                     layers.first().map(|id| scene.textures[id.index()].kind.first_pigment());
                 let site = first.and_then(|id| scene.pigments[id.index()].written());
-                self.pigments.note(SurfacePart::Layers, "layers", site);
+                self.branches.note(SurfacePart::Layers, "layers", site);
                 let mut lowered = Vec::with_capacity(layers.len());
                 for (place, id) in layers.iter().enumerate() {
                     let layer = Written::own(*id);
@@ -185,8 +185,21 @@ impl<'s> Lowering<'s, '_> {
         }
     }
 
+    /// Returns an entry of a blend.
+    fn inner_texture(
+        &mut self,
+        id: TextureId,
+        depth: usize,
+    ) -> Result<Arc<Texture>, (Fault, Option<Site>)> {
+        if let Some(known) = self.branches.textures.get(id, depth) {
+            return Ok(known);
+        }
+        let texture = self.node(Written::own(id), &[], None, depth)?;
+        Ok(self.branches.textures.add(id, depth, texture))
+    }
+
     fn nodes(&mut self) -> Nodes<'_, 's> {
-        Nodes { scene: self.scene, transforms: &mut self.transforms, pigments: &mut self.pigments }
+        Nodes { scene: self.scene, transforms: &mut self.transforms, branches: &mut self.branches }
     }
 
     /// Returns the origin of a texture with this pigment and finish.

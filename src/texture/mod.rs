@@ -17,7 +17,9 @@ pub mod pigment;
 pub mod region;
 pub mod slope;
 pub mod space;
+pub mod walk;
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use smallvec::SmallVec;
@@ -31,6 +33,7 @@ pub use pigment::Pigment;
 pub use space::{Paint, Place, Space, Step, Surroundings};
 
 use crate::color::Color;
+use walk::Node;
 
 /// The most nodes on a path from the root of a texture, and of a pigment, to a leaf.
 pub const DEEPEST: usize = 64;
@@ -78,64 +81,38 @@ pub struct Plain {
     pub finish: Finish,
 }
 
+// No number in them is NaN; and so `Arc` compares the pointers of shared branches before it compares what they
+// contain.
+impl Eq for Texture {}
+impl Eq for Pigment {}
+impl Eq for Normal {}
+
 impl Texture {
-    /// Returns the textures that it is made of, in written order.
-    fn children(&self) -> Vec<&Self> {
-        match self {
-            Self::Plain(_) => Vec::new(),
-            Self::Blend(Blend { entries, .. }) | Self::Average { entries, .. } => {
-                entries.iter().map(|(_, texture)| &**texture).collect()
-            }
-            Self::Layers(all) | Self::Faces(all) => all.iter().map(|texture| &**texture).collect(),
-        }
-    }
-
-    /// Returns whether any of the textures that it is made of is as `suits` tests.
-    fn any_child(&self, suits: impl Fn(&Self) -> bool) -> bool {
-        match self {
-            Self::Plain(_) => false,
-            Self::Blend(Blend { entries, .. }) | Self::Average { entries, .. } => {
-                entries.iter().any(|(_, texture)| suits(texture))
-            }
-            Self::Layers(all) | Self::Faces(all) => all.iter().any(|texture| suits(texture)),
-        }
-    }
-
-    /// Calls `visit` for each plain texture in it, in written order.
-    pub fn for_each_plain<'a>(&'a self, visit: &mut dyn FnMut(&'a Plain)) {
-        match self {
-            Self::Plain(plain) => visit(plain),
-            _ => self.children().into_iter().for_each(|texture| texture.for_each_plain(visit)),
-        }
-    }
-
-    /// Returns its plain textures in written order.
-    pub fn plains(&self) -> Vec<&Plain> {
-        let mut plains = Vec::new();
-        self.for_each_plain(&mut |plain| plains.push(plain));
-        plains
+    /// Returns its plain textures in written order, a shared one once.
+    pub fn plains(&self) -> impl Iterator<Item = &Plain> {
+        self.nodes().into_iter().filter_map(|node| match node {
+            Self::Plain(plain) => Some(plain),
+            _ => None,
+        })
     }
 
     /// Returns whether any of its plain textures is as `suits` tests.
     pub fn any(&self, suits: impl Fn(&Plain) -> bool) -> bool {
-        match self {
-            Self::Plain(plain) => suits(plain),
-            _ => self.plains().into_iter().any(suits),
-        }
+        self.plains().any(suits)
     }
 
     /// Returns whether it depends on the point.
     pub fn is_patterned(&self) -> bool {
-        match self {
+        self.nodes().into_iter().any(|node| match node {
             Self::Plain(plain) => plain.pigment.is_patterned(),
             Self::Blend(_) => true,
-            _ => self.any_child(Self::is_patterned),
-        }
+            Self::Average { .. } | Self::Layers(_) | Self::Faces(_) => false,
+        })
     }
 
     /// Returns whether any part of it has layers.
     pub fn has_layers(&self) -> bool {
-        matches!(self, Self::Layers(_)) || self.any_child(Self::has_layers)
+        self.nodes().into_iter().any(|node| matches!(node, Self::Layers(_)))
     }
 
     /// Returns whether it follows the native rules; see [`Finish::seed`].
@@ -145,31 +122,44 @@ impl Texture {
 
     /// Returns whether light passes through it anywhere: through all of its layers, or one of its entries.
     pub fn is_clear(&self) -> bool {
-        match self {
-            Self::Plain(plain) => plain.pigment.is_clear(),
-            Self::Layers(layers) => layers.iter().all(|layer| layer.is_clear()),
-            _ => self.any_child(Self::is_clear),
+        self.is_clear_beside(&mut HashMap::new())
+    }
+
+    /// As [`Self::is_clear`]; `known` are the answers of textures with parts.
+    fn is_clear_beside(&self, known: &mut HashMap<*const Self, bool>) -> bool {
+        if let Self::Plain(plain) = self {
+            return plain.pigment.is_clear();
         }
+        if let Some(&clear) = known.get(&std::ptr::from_ref(self)) {
+            return clear;
+        }
+        let mut parts = self.children().into_iter().map(|part| part.is_clear_beside(known));
+        let clear = match self {
+            Self::Layers(_) => parts.all(|clear| clear),
+            _ => parts.any(|clear| clear),
+        };
+        known.insert(self, clear);
+        clear
     }
 
     /// Returns its colours, without positions in maps.
     pub fn colors(&self) -> Vec<Color> {
-        let mut colors = Vec::new();
-        self.for_each_plain(&mut |plain| plain.pigment.for_each_color(&mut |c| colors.push(c)));
-        colors
+        self.plains().flat_map(|plain| plain.pigment.colors()).collect()
     }
 
-    /// Returns the spaces of its nodes in written order, the ones in blends included.
+    /// Calls `visit` for the space of each of its nodes in written order, the ones in blends included; of a
+    /// shared one once.
     pub fn for_each_space<'a>(&'a self, visit: &mut dyn FnMut(&'a Space, Option<&'a Pattern>)) {
-        match self {
-            Self::Plain(plain) => {
-                plain.pigment.for_each_space(visit);
-                plain.normal.iter().for_each(|normal| normal.for_each_space(visit));
+        for node in self.nodes() {
+            match node {
+                Self::Plain(plain) => {
+                    plain.pigment.for_each_space(visit);
+                    plain.normal.iter().for_each(|normal| normal.for_each_space(visit));
+                }
+                Self::Blend(blend) => visit(&blend.space, Some(&blend.pattern)),
+                Self::Average { space, .. } => visit(space, None),
+                Self::Layers(_) | Self::Faces(_) => {}
             }
-            Self::Blend(blend) => visit(&blend.space, Some(&blend.pattern)),
-            Self::Average { space, .. } => visit(space, None),
-            Self::Layers(_) | Self::Faces(_) => {}
         }
-        self.children().into_iter().for_each(|texture| texture.for_each_space(visit));
     }
 }

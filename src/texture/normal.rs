@@ -18,6 +18,7 @@ pub use frame::Frame;
 use super::blend::{Blend, Mix, Pattern, Source};
 use super::image::ImageMap;
 use super::space::{Place, Space, Surroundings};
+use super::walk::Node;
 use crate::math::{Matrix, Vector};
 use crate::pattern::{Measured, Sample};
 
@@ -106,18 +107,14 @@ impl Normal {
         }
     }
 
-    /// Calls `visit` for the space of each of its nodes, with the pattern that is evaluated in it.
+    /// Calls `visit` for the space of each of its nodes, with the pattern that is evaluated in it; of a shared one
+    /// once.
     pub fn for_each_space<'a>(&'a self, visit: &mut dyn FnMut(&'a Space, Option<&'a Pattern>)) {
-        match self {
-            Self::Bumps(bumps) => visit(&bumps.space, Some(&bumps.pattern)),
-            Self::Blend { blend, .. } => {
-                visit(&blend.space, Some(&blend.pattern));
-                blend.entries.iter().for_each(|(_, normal)| normal.for_each_space(visit));
-            }
-            Self::Image { space, .. } => visit(space, None),
-            Self::Average { space, entries, .. } => {
-                visit(space, None);
-                entries.iter().for_each(|(_, normal)| normal.for_each_space(visit));
+        for node in self.nodes() {
+            match node {
+                Self::Bumps(bumps) => visit(&bumps.space, Some(&bumps.pattern)),
+                Self::Blend { blend, .. } => visit(&blend.space, Some(&blend.pattern)),
+                Self::Image { space, .. } | Self::Average { space, .. } => visit(space, None),
             }
         }
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::blend::{Blend, Mix, Pattern};
 use super::image::ImageMap;
 use super::space::{Nowhere, Place, Space, Surroundings};
+use super::walk::Node;
 use crate::color::Color;
 use crate::math::Vector;
 
@@ -86,16 +87,16 @@ impl Pigment {
         self.color(None, &Nowhere::exact(point))
     }
 
-    /// Calls `visit` for each of its colours, without positions in maps.
+    /// Calls `visit` for each of its colours, without positions in maps; for those of a shared pigment once.
     pub fn for_each_color(&self, visit: &mut dyn FnMut(Color)) {
-        match self {
-            Self::Color(color) => visit(*color),
-            Self::Ramp(blend) => blend.entries.iter().for_each(|(_, color)| visit(*color)),
-            Self::Blend(Blend { entries, .. }) | Self::Average { entries, .. } => {
-                entries.iter().for_each(|(_, pigment)| pigment.for_each_color(visit));
+        for node in self.nodes() {
+            match node {
+                Self::Color(color) => visit(*color),
+                Self::Ramp(blend) => blend.entries.iter().for_each(|(_, color)| visit(*color)),
+                Self::Blend(_) | Self::Average { .. } => {}
+                Self::Image { image, .. } => image.for_each_color(visit),
+                Self::Faces(colors) => colors.iter().for_each(|color| visit(*color)),
             }
-            Self::Image { image, .. } => image.for_each_color(visit),
-            Self::Faces(colors) => colors.iter().for_each(|color| visit(*color)),
         }
     }
 
@@ -118,19 +119,15 @@ impl Pigment {
         !matches!(self, Self::Color(_) | Self::Faces(_))
     }
 
-    /// Calls `visit` for the space of each of its nodes, with the pattern that is evaluated in it.
+    /// Calls `visit` for the space of each of its nodes, with the pattern that is evaluated in it; of a shared one
+    /// once.
     pub fn for_each_space<'a>(&'a self, visit: &mut dyn FnMut(&'a Space, Option<&'a Pattern>)) {
-        match self {
-            Self::Color(_) | Self::Faces(_) => {}
-            Self::Ramp(blend) => visit(&blend.space, Some(&blend.pattern)),
-            Self::Blend(blend) => {
-                visit(&blend.space, Some(&blend.pattern));
-                blend.entries.iter().for_each(|(_, pigment)| pigment.for_each_space(visit));
-            }
-            Self::Image { space, .. } => visit(space, None),
-            Self::Average { space, entries } => {
-                visit(space, None);
-                entries.iter().for_each(|(_, pigment)| pigment.for_each_space(visit));
+        for node in self.nodes() {
+            match node {
+                Self::Color(_) | Self::Faces(_) => {}
+                Self::Ramp(blend) => visit(&blend.space, Some(&blend.pattern)),
+                Self::Blend(blend) => visit(&blend.space, Some(&blend.pattern)),
+                Self::Image { space, .. } | Self::Average { space, .. } => visit(space, None),
             }
         }
     }

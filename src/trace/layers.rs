@@ -53,6 +53,16 @@ struct Stack<'a> {
     through: Rgb,
 }
 
+/// The light behind a stack that is not opaque.
+struct Open {
+    /// The stack's share in the blends around it.
+    share: f64,
+    factor: Rgb,
+    weight: f64,
+    /// The normal that bends it: the top layer's.
+    top: Vector,
+}
+
 /// What comes onto a part of a texture from the parts above.
 struct Onto {
     light: Rgb,
@@ -279,7 +289,7 @@ impl<'a> Tracer<'a> {
         walk.arrived.clear();
         walk.arrived.resize(world.lights.len(), [None; 2]);
         let mut local = Rgb::BLACK;
-        let mut onward: Vec<Onward> = Vec::new();
+        let (mut mirrored, mut open) = (Vec::new(), SmallVec::<[Open; 1]>::new());
         for stack in &stacks {
             // Of `refraction` only the top layer's counts, and none in a blend (measured).
             let top = stack.parts.first().filter(|_| matches!(texture, Texture::Layers(_)));
@@ -334,7 +344,7 @@ impl<'a> Tracer<'a> {
                     let inside = (from != to && hit.leaving).then(|| Inside::of(hit));
                     let way = Way { inside, ..way.mirrored(&place, weight) };
                     let exponent = mirror.exponent;
-                    add(&mut onward, Onward { way, factor, exponent, behind: false });
+                    add(&mut mirrored, 0, Onward { way, factor, exponent, behind: false });
                 }
             }
             let factor = stack.through * others;
@@ -348,15 +358,20 @@ impl<'a> Tracer<'a> {
             }
             let factor = factor * left * (stack.share * passed);
             let top = stack.parts.first().map_or(normal, |part| part.normal);
-            for sample in 0..samples.unwrap_or(1) {
-                let (spectrum, color, [from, to]) = match samples {
-                    None => (way.spectrum, Rgb::WHITE, [from, to]),
-                    Some(samples) => {
-                        let spectrum = Some(dispersion::position(sample, samples));
-                        let color = dispersion::color(sample, samples);
-                        (spectrum, color, border.indices(world, spectrum))
-                    }
-                };
+            open.push(Open { share: stack.share, factor, weight, top });
+        }
+        let mut through: Vec<Onward> = Vec::new();
+        for sample in 0..samples.unwrap_or(1) {
+            let (spectrum, color, [from, to]) = match samples {
+                None => (way.spectrum, Rgb::WHITE, [from, to]),
+                Some(samples) => {
+                    let spectrum = Some(dispersion::position(sample, samples));
+                    let color = dispersion::color(sample, samples);
+                    (spectrum, color, border.indices(world, spectrum))
+                }
+            };
+            let since = through.len();
+            for &Open { share, factor, weight, top } in &open {
                 match bent_between(top, [from, to]) {
                     Some(bent) => {
                         let ray = Ray { origin: behind, direction: bent.direction };
@@ -364,7 +379,8 @@ impl<'a> Tracer<'a> {
                         let inside = (from != to && !hit.leaving).then(|| Inside::of(hit));
                         let way = Way { ray, weight, level, inside, spectrum, ..way };
                         let factor = factor * color;
-                        add(&mut onward, Onward { way, factor, exponent: 1.0, behind: true });
+                        let new = Onward { way, factor, exponent: 1.0, behind: true };
+                        add(&mut through, since, new);
                     }
                     // All light is thrown back.
                     None => {
@@ -376,9 +392,10 @@ impl<'a> Tracer<'a> {
                         let way = Way { ray, weight, level, mirrored: true, inside, spectrum };
                         let factor = match samples {
                             Some(_) => factor * color,
-                            None => left * stack.share,
+                            None => left * share,
                         };
-                        add(&mut onward, Onward { way, factor, exponent: 1.0, behind: false });
+                        let new = Onward { way, factor, exponent: 1.0, behind: false };
+                        add(&mut mirrored, 0, new);
                     }
                 }
             }
@@ -391,6 +408,7 @@ impl<'a> Tracer<'a> {
             walk.forks.clear();
             return (local, None);
         }
-        (local, go_on(walk, local, false, onward))
+        mirrored.append(&mut through);
+        (local, go_on(walk, local, false, mirrored))
     }
 }

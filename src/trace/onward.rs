@@ -14,8 +14,9 @@ pub(super) struct Onward {
     pub behind: bool,
 }
 
-/// Adds a ray to those that go on; rays of the same direction are one.
-pub(super) fn add(onward: &mut Vec<Onward>, new: Onward) {
+/// Adds a ray to those that go on. It is one with a ray of the same direction among those from `since` on, which
+/// are few: each is compared.
+pub(super) fn add(onward: &mut Vec<Onward>, since: usize, new: Onward) {
     let same = |old: &&mut Onward| {
         old.behind == new.behind
             && old.exponent == 1.0
@@ -23,7 +24,7 @@ pub(super) fn add(onward: &mut Vec<Onward>, new: Onward) {
             && old.way.spectrum == new.way.spectrum
             && old.way.ray.direction == new.way.ray.direction
     };
-    match onward.iter_mut().find(same) {
+    match onward[since..].iter_mut().find(same) {
         Some(old) => {
             old.factor += new.factor;
             old.way.weight = old.way.weight.max(new.way.weight);

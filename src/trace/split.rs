@@ -38,12 +38,12 @@ impl Tracer<'_> {
         if COUNTS {
             walk.counters.evaluations.dispersion += 1;
         }
-        let mut onward = Vec::new();
+        let (mut before, mut behind) = (Vec::new(), Vec::new());
         if let Some((weight, link)) = self.mirrored(way.weight, place, fresnel, local) {
             let inside = (border.from != border.to && hit.leaving).then(|| Inside::of(hit));
             let way = Way { inside, ..way.mirrored(place, weight) };
             let Link { factor, exponent, .. } = link;
-            onward.push(Onward { way, factor, exponent, behind: false });
+            before.push(Onward { way, factor, exponent, behind: false });
         }
         for sample in 0..samples {
             let spectrum = Some(dispersion::position(sample, samples));
@@ -55,7 +55,7 @@ impl Tracer<'_> {
                     let level = if from == to { way.level } else { way.level + 1 };
                     let inside = (from != to && !hit.leaving).then(|| Inside::of(hit));
                     let way = Way { ray, weight, level, inside, spectrum, ..way };
-                    onward.push(Onward { way, factor, exponent: 1.0, behind: true });
+                    behind.push(Onward { way, factor, exponent: 1.0, behind: true });
                 }
                 // It is of all colours again: the total reflections are one ray.
                 None => {
@@ -63,10 +63,11 @@ impl Tracer<'_> {
                     let inside = hit.leaving.then(|| Inside::of(hit));
                     let way = Way { inside, ..way.mirrored(place, weight) };
                     let new = Onward { way, factor, exponent: 1.0, behind: false };
-                    onward::add(&mut onward, new);
+                    onward::add(&mut before, 0, new);
                 }
             }
         }
-        onward::go_on(walk, local, place.finish.seed, onward)
+        before.append(&mut behind);
+        onward::go_on(walk, local, place.finish.seed, before)
     }
 }

@@ -222,7 +222,7 @@ vocabulary! {
         Form "form" statement built "`form <a, b, c>`: the factors of the three shortest distances in `crackle`, default <-1, 1, 0>; in `pavement`, the look of corners";
         Frequency "frequency" statement built "`frequency n`: how often a pattern runs through its map";
         GammaWord "gamma" statement built "`gamma 2.2` or `gamma srgb`: the encoding of a picture's values; without it, a height_field uses the values as heights";
-        Interpolate "interpolate" statement built "`interpolate n`: between the pixels of a picture, 2 bilinear, 3 bicubic, 4 by distance; between the values of a `density_file`, 1 linear, 2 cubic";
+        Interpolate "interpolate" statement built "`interpolate n`: between the pixels of a picture, 2 bilinear, 3 bicubic, 4 by distance; between the values of a `density_file`, 1 linear, 2 cubic; without its fraction";
         Lambda "lambda" statement built "`lambda n`: how much finer each octave of turbulence is than the one before; default 2";
         MapType "map_type" statement built "`map_type n`: how a picture is wrapped: 0 flat, 1 around a sphere, 2 around a cylinder, 5 around a torus";
         Metric "metric" statement built "`metric n`: the exponent of the distance in `crackle`; default 2";

@@ -210,7 +210,7 @@ impl Evaluator<'_> {
                             let site = token.here.site(token.span);
                             written.extend(kind.map(|kind| Modifier { kind, site }));
                             for Modifier { kind, .. } in &written[before..] {
-                                self.set_in_component(&mut texture, kind);
+                                self.modify_texture(&mut texture, kind);
                             }
                         }
                         _ => failed = true,
@@ -223,24 +223,6 @@ impl Evaluator<'_> {
             }
         }
         if failed { Err(Reported) } else { Ok((transforms, texture)) }
-    }
-
-    fn set_in_component(&mut self, texture: &mut Option<Texture>, kind: &ModifierKind) {
-        match (kind, texture) {
-            (ModifierKind::Texture(id), texture) => {
-                *texture = Some(self.scene.textures[id.index()].clone());
-            }
-            (ModifierKind::Pigment(id), Some(texture)) => {
-                self.change_top(texture, |top| top.set_pigment(*id));
-            }
-            (ModifierKind::Normal(id), Some(texture)) => {
-                self.change_top(texture, |top| top.set_normal(*id));
-            }
-            (ModifierKind::Finish(id), Some(texture)) => {
-                self.change_top(texture, |top| top.set_finish(*id));
-            }
-            _ => {}
-        }
     }
 
     /// Returns the index of a texture in a blob's list, adding it if it is not the last one.

@@ -14,6 +14,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::rising::rising;
 
 /// A `color_map`, and the first colour in it that lets light through.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,39 +28,6 @@ type Entries = Vec<(f64, Color)>;
 
 /// Maximum number of entries in a map: more are a mistake, and would soon exhaust memory.
 const MOST_ENTRIES: usize = 1 << 20;
-
-/// Returns entries in ascending order that render as POV-Ray 3.7 renders these unsorted ones.
-///
-/// **Source:** measured: from the value of the last entry on, that entry's colour; below, the interpolation
-/// between the first entry with a larger value and the entry before it.
-fn rising(entries: &[(f64, Color)]) -> Vec<(f64, Color)> {
-    let entries: Vec<_> = entries.iter().copied().filter(|(value, _)| !value.is_nan()).collect();
-    let Some(&(end, last)) = entries.last() else { return Vec::new() };
-    let mut rising = Vec::with_capacity(2 * entries.len());
-    let (mut highest, mut before) = (f64::NEG_INFINITY, None);
-    for (place, &(value, color)) in entries.iter().enumerate() {
-        if value <= highest {
-            continue;
-        }
-        let from = place.checked_sub(1).map(|before| entries[before]);
-        let at = |at: f64| match from {
-            Some((start, first)) => first.lerp(color, (at - start) / (value - start)),
-            None => color,
-        };
-        // The entries between descend.
-        if before != place.checked_sub(1) {
-            rising.push((highest, at(highest)));
-        }
-        if value >= end {
-            rising.push((end, at(end)));
-            break;
-        }
-        rising.push((value, color));
-        (highest, before) = (value, Some(place));
-    }
-    rising.push((end, last));
-    rising
-}
 
 impl Evaluator<'_> {
     /// Reads `color_map { [value color] … }` or `color_map { Name }`.
@@ -99,7 +67,7 @@ impl Evaluator<'_> {
                         }
                         Some(Value::ColorMap(map)) => {
                             let site = token.here.site(token.span);
-                            rise.named(&map.map, site);
+                            rise.named(map.map.0.iter().map(|(value, _)| *value), site);
                             entries.extend(map.map.0.iter().copied());
                             clear = clear.or(map.clear);
                         }
@@ -152,13 +120,13 @@ impl Evaluator<'_> {
                     .at(opener.span, "expected entries: `[0 rgb 0] [1 rgb 1]`");
                 return Err(evaluator.report(&opener.here, diagnostic));
             }
-            evaluator.lint_map(rise);
+            evaluator.lint_map(rise, Word::ColorMap);
             if !entries.is_sorted_by(|a, b| a.0 <= b.0) {
                 match evaluator.options.dialect {
                     // Stable: of two entries with one value, the first ends the part below, the second begins
                     // the part above.
                     Dialect::Scene => entries.sort_by(|a, b| a.0.total_cmp(&b.0)),
-                    Dialect::Pov => entries = rising(&entries),
+                    Dialect::Pov => entries = rising(&entries, |a, b, part| a.lerp(b, part)),
                 }
             }
             Ok(Value::ColorMap(Arc::new(WrittenMap { map: ColorMap(entries), clear })))

@@ -169,13 +169,13 @@ impl Evaluator<'_> {
             Word::GammaWord => {
                 open.gamma = Some(match self.take_word(Word::Srgb) {
                     Some(_) => Gamma::Srgb,
-                    None => Gamma::Power(self.number_after(token, "a gamma")?.value),
+                    None => Gamma::Power(self.number_of(token, word)?.value),
                 });
             }
             Word::Premultiplied => open.premultiplied = Some(self.optional_flag(token)?),
             Word::MapType => {
                 let given = self.number_after(token, "0, 1, 2 or 5")?;
-                match MapType::of_number(given.value as u32) {
+                match whole(&given).and_then(MapType::of_number) {
                     Some(map_type) => open.map_type = map_type,
                     None => return Err(self.out_of_range(&given, word, "0, 1, 2 or 5")),
                 }
@@ -183,13 +183,20 @@ impl Evaluator<'_> {
             Word::Once => open.once = true,
             Word::Interpolate => {
                 let given = self.number_after(token, "2, 3 or 4")?;
-                match Interpolation::of_number(given.value as u32) {
+                match whole(&given).and_then(Interpolation::of_number) {
                     Some(interpolation) => open.interpolation = interpolation,
                     None => return Err(self.out_of_range(&given, word, "2, 3 or 4")),
                 }
             }
             Word::UseColor => open.source = Source::Color,
             Word::UseIndex => open.source = Source::Index,
+            Word::UseAlpha if of != Word::ImagePattern => {
+                let message = format!("`use_alpha` has no meaning in `{}`", of.name());
+                let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+                    .at(token.span, "only the values of an `image_pattern` may be those of alpha")
+                    .help("leave it out");
+                return Err(self.report(&token.here, diagnostic));
+            }
             Word::UseAlpha => open.source = Source::Alpha,
             Word::BumpSize => open.amount = Some(self.number_after(token, "a number")?.value),
             Word::Filter | Word::Transmit => {
@@ -199,7 +206,12 @@ impl Evaluator<'_> {
                     None => Some(self.number_after(token, "the index of a colour, or `all`")?),
                 };
                 let amount = self.number_after(token, "a number")?.value;
-                let index = index.map(|Given { value, .. }| value.clamp(0.0, 255.0) as u8);
+                // POV-Ray accepts -1, as 0 (measured).
+                if let Some(given) = index.as_ref().filter(|it| !(-1.0..256.0).contains(&it.value))
+                {
+                    return Err(self.out_of_range(given, word, "an index from 0 to 255, or `all`"));
+                }
+                let index = index.map(|Given { value, .. }| value as u8);
                 open.clear.push((which, index, amount, token.clone()));
             }
             _ => {
@@ -262,4 +274,9 @@ impl Evaluator<'_> {
         self.skip_values();
         true
     }
+}
+
+/// Returns a number without its fraction; `None` below 0.
+fn whole(given: &Given<f64>) -> Option<u32> {
+    (given.value > -1.0).then_some(given.value as u32)
 }

@@ -51,6 +51,12 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::DispersionSamples) => {
                 let given = self.number_after(token, "a number")?;
                 self.within_bounds(&given, Word::DispersionSamples);
+                if given.value > MOST_SAMPLES {
+                    let wanted = format!("{MOST_SAMPLES} or less");
+                    let diagnostic = self.outside(&given, Word::DispersionSamples, &wanted);
+                    let diagnostic = diagnostic.help("it is read as that; 7 to 100 are usual");
+                    self.opinion(&given.here, diagnostic)?;
+                }
                 interior.dispersion_samples = given.value.clamp(2.0, MOST_SAMPLES) as u32;
             }
             TokenKind::Word(Word::Caustics) => {

@@ -42,6 +42,7 @@ mod pigment;
 mod place;
 mod polynomial;
 mod range;
+mod rising;
 mod settings;
 mod sheet;
 mod skip;
@@ -67,6 +68,7 @@ use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Dialect, Family, Role, Word};
 
 pub(in crate::evaluate) use self::image::Pictures;
+pub(in crate::evaluate) use self::pattern::Grids;
 use super::stream::{Token, TokenKind};
 use super::value::{Poison, Value};
 use super::{Evaluator, Here, Outcome, Reported};

@@ -237,7 +237,7 @@ impl Evaluator<'_> {
         let kind = match word {
             Word::Texture => self.texture(token).map(|texture| {
                 *textured = true;
-                Some(ModifierKind::Texture(texture))
+                Some(ModifierKind::Texture(self.layered(modifiers, used, texture)))
             }),
             Word::InteriorTexture => self
                 .layers_of(word, token)
@@ -247,8 +247,9 @@ impl Evaluator<'_> {
             }
             Word::Material => self.material(token).map(|material| {
                 *textured |= material.texture.is_some();
+                let texture = material.texture.map(|it| self.layered(modifiers, used, it));
                 let parts = [
-                    material.texture.map(ModifierKind::Texture),
+                    texture.map(ModifierKind::Texture),
                     material.interior_texture.map(ModifierKind::InteriorTexture),
                     material.interior.map(ModifierKind::Interior),
                 ];
@@ -257,16 +258,25 @@ impl Evaluator<'_> {
             }),
             Word::Pigment => {
                 start_texture(self, modifiers, textured);
+                if let Err(told) = self.plain_before(token, word, modifiers, used) {
+                    return Some(Err(told));
+                }
                 let start = self.pigment_of(modifiers, used);
                 self.pigment_from(token, start).map(|pigment| Some(ModifierKind::Pigment(pigment)))
             }
             Word::Normal => {
                 start_texture(self, modifiers, textured);
+                if let Err(told) = self.plain_before(token, word, modifiers, used) {
+                    return Some(Err(told));
+                }
                 let start = self.normal_of(modifiers, used);
                 self.normal_from(token, start).map(|normal| Some(ModifierKind::Normal(normal)))
             }
             Word::Finish => {
                 start_texture(self, modifiers, textured);
+                if let Err(told) = self.plain_before(token, word, modifiers, used) {
+                    return Some(Err(told));
+                }
                 let start = self.finish_of(modifiers, used);
                 self.finish_from(token, start).map(|finish| Some(ModifierKind::Finish(finish)))
             }

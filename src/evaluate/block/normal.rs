@@ -19,7 +19,7 @@ use super::blend_map::Entry;
 use super::pattern::OpenPattern;
 
 /// A normal during reading.
-struct OpenNormal {
+pub(super) struct OpenNormal {
     normal: Normal,
     pattern: OpenPattern,
     amount: f64,
@@ -28,6 +28,8 @@ struct OpenNormal {
     entries: Option<Vec<(f64, NormalId)>>,
     /// It is a `bump_map`.
     is_image: bool,
+    says_something: bool,
+    failed: bool,
 }
 
 impl OpenNormal {
@@ -77,32 +79,63 @@ impl Evaluator<'_> {
         start: Option<NormalId>,
         needs_pattern: bool,
     ) -> Outcome<NormalId> {
+        let mut open = self.open_normal(opener, start);
+        while let Some(token) = self.next() {
+            self.item_of_normal(&token, &mut open);
+        }
+        self.close_normal(opener, open, needs_pattern)
+    }
+
+    /// Returns a normal, begun by `opener`, into which items are read.
+    pub(super) fn open_normal(&self, opener: &Token, start: Option<NormalId>) -> OpenNormal {
         let site = opener.here.site(opener.span);
-        let pattern = OpenPattern::new(self.noise, self.waves);
-        let (amount, accuracy, slopes, entries) = (AMOUNT, ACCURACY, Vec::new(), None);
+        let (amount, accuracy) = (AMOUNT, ACCURACY);
         let flat = Box::new(OpenPattern::flat(site));
         let none = NormalKind::Bumps { pattern: flat, amount, accuracy, slopes: vec![] };
-        let normal = Normal { kind: none, steps: Vec::new(), site, keeps_depth: false };
-        let mut open =
-            OpenNormal { normal, pattern, amount, accuracy, slopes, entries, is_image: false };
+        let mut open = OpenNormal {
+            normal: Normal { kind: none, steps: Vec::new(), site, keeps_depth: false },
+            pattern: OpenPattern::new(self.noise, self.waves),
+            amount,
+            accuracy,
+            slopes: Vec::new(),
+            entries: None,
+            is_image: false,
+            says_something: false,
+            failed: false,
+        };
         if let Some(start) = start {
-            let start = self.scene.normals[start.index()].clone();
-            open.inherit(&start);
+            open.inherit(&self.scene.normals[start.index()]);
         }
-        let (mut failed, mut says_something) = (false, false);
-        while let Some(token) = self.next() {
-            says_something = true;
-            if self.normal_item(&token, &mut open) == Err(Reported) {
-                failed = true;
-                self.skip_values();
-            }
+        open
+    }
+
+    pub(super) fn item_of_normal(&mut self, token: &Token, open: &mut OpenNormal) {
+        open.says_something = true;
+        if self.normal_item(token, open) == Err(Reported) {
+            open.failed = true;
+            self.skip_values();
         }
-        if failed {
+    }
+
+    /// Adds the normal that was read. `needs_pattern` is as for [`Self::normal_of_items`].
+    pub(super) fn close_normal(
+        &mut self,
+        opener: &Token,
+        open: OpenNormal,
+        needs_pattern: bool,
+    ) -> Outcome<NormalId> {
+        if open.failed {
             return Err(Reported);
         }
-        let OpenNormal { mut normal, pattern, amount, accuracy, slopes, entries, is_image } = open;
+        let says_something = open.says_something;
+        let OpenNormal { mut normal, pattern, amount, accuracy, slopes, entries, is_image, .. } =
+            open;
+        let site = normal.site;
         normal.steps = pattern.steps.clone();
         match pattern.close() {
+            Some(pattern) if pattern.source == Source::Average && entries.is_none() => {
+                return Err(self.average_of_nothing(pattern.site, Word::NormalMap));
+            }
             Some(pattern) => {
                 let pattern = Box::new(pattern);
                 normal.kind = match entries {
@@ -254,10 +287,16 @@ impl Evaluator<'_> {
     /// Reads the height and the slope of an entry: `<height, slope>`.
     pub(super) fn slope_of_entry(&mut self, entry: &Token) -> Outcome<[f64; 2]> {
         let given = self.given(entry, "a height and a slope")?;
+        self.skip_commas();
+        if let Some(rest) = self.peek().cloned() {
+            let wanted = "the end of the entry: a height and a slope stand in angle brackets";
+            return Err(self.expected(wanted, Some(&rest), (&rest.here, rest.span)));
+        }
         let numbers = given.value.numbers();
         match numbers.as_ref().map(|numbers| numbers.as_slice()) {
-            Some([height]) => Ok([*height, 0.0]),
-            Some([height, slope, ..]) => Ok([*height, *slope]),
+            // As in POV-Ray, a number stands for both.
+            Some([both]) => Ok([*both, *both]),
+            Some([height, slope]) => Ok([*height, *slope]),
             _ => {
                 let wanted = "a height and a slope: `<height, slope>`";
                 Err(self.wrong_type(&given.here, given.span, wanted, &given.value))

@@ -7,18 +7,21 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::noise::{NoiseGenerator, Turbulence};
-use crate::pattern::{Argument, Kind, Parameter, Warp, WaveKind};
+use crate::pattern::{Kind, WaveKind};
 use crate::scene::texture::{Layers, Modifiers};
 use crate::scene::{ColorMap, Colors, Pattern, Pigment, PigmentId, PigmentKind, Source, Step};
 use crate::source::Site;
-use crate::vocabulary::Word;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 
+mod argument;
 mod source;
+
+pub(in crate::evaluate) use source::Grids;
 
 /// A pattern during reading.
 #[derive(Debug, Clone)]
@@ -169,6 +172,18 @@ impl Evaluator<'_> {
         })
     }
 
+    /// Reports `facets` where a pattern has values.
+    pub(super) fn only_in_normals(&mut self, token: &Token, word: Word) -> Outcome<()> {
+        if word != Word::Facets {
+            return Ok(());
+        }
+        let diagnostic =
+            Diagnostic::new(Code::MisplacedBlock, "`facets` turns normals, and has no values")
+                .at(token.span, "expected a pattern with values")
+                .help("write `normal { facets … }`; `crackle` has values, over cells of this kind");
+        Err(self.report(&token.here, diagnostic))
+    }
+
     /// Reads the exponent of `poly_wave`, which may be missing.
     fn wave_after(&mut self, token: &Token, kind: WaveKind) -> Outcome<WaveKind> {
         match kind {
@@ -177,99 +192,6 @@ impl Evaluator<'_> {
             }
             kind => Ok(kind),
         }
-    }
-
-    /// Reads `warp { … }`: the word of a warp, the values after it, and its items.
-    fn warp(&mut self, token: &Token) -> Outcome<Warp> {
-        let opener = token.clone();
-        self.block(token, Word::Warp, |evaluator| {
-            let mut warp: Option<Warp> = None;
-            while let Some(token) = evaluator.next() {
-                if matches!(token.kind, TokenKind::Comma) {
-                    continue;
-                }
-                let TokenKind::Word(word) = token.kind else {
-                    evaluator.unexpected(&token, Place::WARP);
-                    return Err(Reported);
-                };
-                let parameters = warp.as_ref().map_or(&[][..], |warp| warp.parameters());
-                let place = parameters.iter().position(|one| one.word == Some(word.name()));
-                if let (Some(place), Some(warp)) = (place, &mut warp) {
-                    let Parameter { what, default, .. } = parameters[place];
-                    let argument = match default {
-                        Argument::Switch(_) => Argument::Switch(true),
-                        _ => evaluator.pattern_argument(&token, what, default)?,
-                    };
-                    warp.set(place, argument);
-                    continue;
-                }
-                let Some(mut chosen) = Warp::of_word(word.name()).filter(|_| warp.is_none()) else {
-                    evaluator.unexpected(&token, Place::WARP);
-                    return Err(Reported);
-                };
-                for (place, parameter) in chosen.parameters().iter().enumerate() {
-                    if parameter.word.is_none() {
-                        let Parameter { what, default, .. } = *parameter;
-                        let is_optional = matches!(word, Word::Planar);
-                        if is_optional && !evaluator.is_before_value() {
-                            break;
-                        }
-                        let argument = evaluator.pattern_argument(&token, what, default)?;
-                        chosen.set(place, argument);
-                    }
-                }
-                warp = Some(chosen);
-            }
-            let Some(warp) = warp else {
-                let diagnostic = Diagnostic::new(Code::MissingPart, "this `warp` names none")
-                    .at(opener.span, "expected its kind, such as `turbulence 0.5`");
-                return Err(evaluator.report(&opener.here, diagnostic));
-            };
-            Ok(warp)
-        })
-    }
-
-    /// Reads a parameter of the chosen pattern, by the word before it.
-    fn pattern_parameter(
-        &mut self,
-        token: &Token,
-        word: Word,
-        open: &mut OpenPattern,
-    ) -> Option<Outcome<()>> {
-        let kind = open.kind()?;
-        let parameters = kind.parameters();
-        let place = parameters.iter().position(|parameter| parameter.word == Some(word.name()))?;
-        let parameter = parameters[place];
-        let argument = self.pattern_argument(token, parameter.what, parameter.default);
-        Some(argument.map(|argument| kind.set(place, argument)))
-    }
-
-    fn pattern_argument(
-        &mut self,
-        token: &Token,
-        what: &str,
-        default: Argument,
-    ) -> Outcome<Argument> {
-        Ok(match default {
-            Argument::Number(_) => {
-                let given = self.number_after(token, what)?;
-                if let TokenKind::Word(word) = token.kind {
-                    self.within_bounds(&given, word);
-                }
-                Argument::Number(given.value)
-            }
-            Argument::Vector(_) => Argument::Vector(self.vector_after(token, what)?.value),
-            Argument::Numbers(_) => {
-                let first = self.number_after(token, what)?.value;
-                Argument::Numbers([first, self.number_after(token, what)?.value])
-            }
-            Argument::Switch(_) => Argument::Switch(match self.peek().map(|next| &next.kind) {
-                Some(TokenKind::Expression(_) | TokenKind::Literal(_)) => {
-                    self.number_after(token, what)?.value != 0.0
-                }
-                _ => true,
-            }),
-        })
     }
 
     /// Reads the pattern that a word begins, with the values after it; `None` for other words. What a list
@@ -299,45 +221,6 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Reads `magnet 1 mandel 50` and the like, after its first word.
-    fn magnet(&mut self, token: &Token) -> Outcome<Source> {
-        let given = self.number_after(token, "1 or 2")?;
-        let next = self.peek().cloned();
-        let kind = match next.as_ref().map(|next| &next.kind) {
-            Some(TokenKind::Word(Word::Mandel)) => Kind::of_word("magnet_mandel"),
-            Some(TokenKind::Word(Word::Julia)) => Kind::of_word("magnet_julia"),
-            _ => {
-                let at = (&token.here, given.span.after());
-                return Err(self.expected("`mandel` or `julia`", next.as_ref(), at));
-            }
-        };
-        let (Some(mut kind), Some(next)) = (kind, self.next()) else { return Err(Reported) };
-        kind.set(0, Argument::Number(given.value));
-        self.values_after(&next, kind, 1).map(Source::Kind)
-    }
-
-    /// Reads the values that follow the word of a pattern.
-    fn kind_after(&mut self, token: &Token, kind: Kind) -> Outcome<Kind> {
-        self.values_after(token, kind, 0)
-    }
-
-    /// Reads the values that follow the word of a pattern, from one parameter on.
-    fn values_after(&mut self, token: &Token, mut kind: Kind, first: usize) -> Outcome<Kind> {
-        for (place, parameter) in kind.parameters().iter().enumerate().skip(first) {
-            if parameter.word.is_some() {
-                continue;
-            }
-            let argument = match parameter.default {
-                Argument::Vector(_) if matches!(kind, Kind::Gradient(_)) => {
-                    Argument::Vector(self.any_direction_after(token, parameter.what)?.value)
-                }
-                default => self.pattern_argument(token, parameter.what, default)?,
-            };
-            kind.set(place, argument);
-        }
-        Ok(kind)
-    }
-
     /// Reads `function { … }` as a pattern.
     fn function_pattern(&mut self, token: &Token) -> Outcome<Source> {
         let id = match self.function(token)? {
@@ -365,6 +248,8 @@ impl Evaluator<'_> {
     fn noise_generator_after(&mut self, token: &Token) -> Outcome<NoiseGenerator> {
         let given = self.number_after(token, "1, 2 or 3")?;
         match given.value as i64 {
+            // That of the scene, in POV-Ray (measured).
+            0 if self.options.dialect == Dialect::Pov => Ok(self.noise),
             1 => Ok(NoiseGenerator::Plateaus),
             2 => Ok(NoiseGenerator::RangeCorrected),
             3 => Ok(NoiseGenerator::Perlin),
@@ -389,6 +274,7 @@ impl Evaluator<'_> {
                     && let Some(source) = evaluator.pattern_source(&token, word)
                 {
                     open.choose(source?, evaluator.whole(&token));
+                    evaluator.only_in_normals(&token, word)?;
                     continue;
                 }
                 match evaluator.inert(&token, Place::PATTERN) {
@@ -407,6 +293,12 @@ impl Evaluator<'_> {
                 .at(site.span, "expected a pattern, as `gradient x`");
             return Err(self.report(&token.here, diagnostic));
         };
+        if pattern.source == Source::Average {
+            let diagnostic = Diagnostic::new(Code::WrongType, "`average` has no values of its own")
+                .at(pattern.site.span, "it is the mean of pigments, normals or textures")
+                .help("for the mean of pigments: `function { pigment { average pigment_map { … } } }`");
+            return Err(self.report_in(pattern.site.expansion, diagnostic));
+        }
         // Its values are numbers, also those of a list.
         let last = pattern.source.list().map_or(1, |count| count - 1) as f64;
         let gray = |value: f64| crate::color::Color::opaque(crate::color::Rgb::gray(value));

@@ -71,6 +71,13 @@ impl Evaluator<'_> {
                     .help(format!("write the colours behind it: `{name} rgb 0, rgb 1`"));
                 Err(self.report(&token.here, diagnostic))
             }
+            Some(Source::Average) if map != Word::PigmentMap.name() => {
+                let message = format!("`average` takes a `pigment_map`, and no `{map}`");
+                let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+                    .at(token.span, "it is the mean of pigments, and has no values for colours")
+                    .help("write the colours as pigments: `pigment_map { [1 rgb 0] [1 rgb 1] }`");
+                Err(self.report(&token.here, diagnostic))
+            }
             Some(_) => Ok(()),
             // The pattern is unsupported.
             None if self.poison.is_some() => Ok(()),
@@ -139,7 +146,7 @@ impl Evaluator<'_> {
                 open.written.clear = clear;
             }
             open.pattern.choose(source, site);
-            return Ok(());
+            return self.only_in_normals(token, word);
         }
         match &token.kind {
             TokenKind::Word(Word::ColorMap) => {
@@ -159,7 +166,7 @@ impl Evaluator<'_> {
                 open.written.is_map = false;
                 open.pattern.choose(Source::Image(Arc::new(placed.image)), site);
             }
-            TokenKind::Word(Word::PigmentMap) if Word::PigmentMap.is_built() => {
+            TokenKind::Word(Word::PigmentMap) => {
                 let average = self.is_average(open);
                 let given = self.pigment_map(token, average)?;
                 open.written.colors = Some((Colors::Pigments(given), token.clone()));

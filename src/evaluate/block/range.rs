@@ -35,7 +35,7 @@ impl Evaluator<'_> {
         self.opinion(&given.here, diagnostic)
     }
 
-    fn outside(&self, given: &Given<f64>, word: Word, wanted: &str) -> Diagnostic {
+    pub(super) fn outside(&self, given: &Given<f64>, word: Word, wanted: &str) -> Diagnostic {
         let diagnostic = Diagnostic::new(
             Code::OutOfRange,
             format!("`{}` is {}, and must be {wanted}", word.name(), given.value),

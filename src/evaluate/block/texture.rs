@@ -5,6 +5,7 @@ mod map;
 mod part;
 mod pattern;
 
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Step, Texture, TextureId, TextureKind};
 use crate::vocabulary::Word;
 
@@ -33,6 +34,19 @@ impl OpenTexture {
         self.pattern.inherit(pattern, steps);
         let uv_mapping = self.texture.uv_mapping || texture.uv_mapping;
         self.texture = Texture { uv_mapping, ..texture };
+    }
+
+    /// Moves the parts that are there already by the transforms so far, which move none that follows.
+    fn move_parts(&mut self) {
+        let Self { texture, pattern, .. } = self;
+        if matches!(texture.kind, TextureKind::Blend { .. }) || pattern.chosen.is_some() {
+            return;
+        }
+        let since = std::mem::take(&mut pattern.steps);
+        texture.transforms.extend(since.iter().filter_map(|step| match step {
+            Step::Transform(id) => Some(*id),
+            Step::Warp(_) => None,
+        }));
     }
 
     fn close(self) -> Texture {
@@ -147,10 +161,11 @@ impl Evaluator<'_> {
         bare: &mut Bare,
     ) -> Outcome<()> {
         if let Some(transform) = self.transform_from(token) {
+            self.close_bare(&mut open.texture, bare)?;
             open.pattern.steps.push(Step::Transform(transform?));
             return Ok(());
         }
-        if self.bare_item(token, &open.texture, bare).is_some() {
+        if self.bare_item(token, open, bare).is_some() {
             return Ok(());
         }
         self.close_bare(&mut open.texture, bare)?;
@@ -170,16 +185,13 @@ impl Evaluator<'_> {
         {
             return read;
         }
-        // What is there already has its transforms before any part that follows.
-        if !matches!(open.texture.kind, TextureKind::Blend { .. }) && open.pattern.chosen.is_none()
-        {
-            let since = std::mem::take(&mut open.pattern.steps);
-            open.texture.transforms.extend(since.iter().filter_map(|step| match step {
-                Step::Transform(id) => Some(*id),
-                Step::Warp(_) => None,
-            }));
-        }
+        open.move_parts();
         let OpenTexture { texture, written, .. } = open;
+        if let TokenKind::Word(word @ (Word::Pigment | Word::Normal | Word::Finish)) = token.kind
+            && let Some(pattern) = self.top_pattern(texture)
+        {
+            return Err(self.part_of_pattern(token, word, pattern));
+        }
         match token.kind {
             TokenKind::Word(Word::Pigment) => {
                 let site = token.here.site(token.span);
@@ -240,6 +252,19 @@ impl Evaluator<'_> {
         Ok(())
     }
 
+    /// Returns a texture that others may start from.
+    fn default_texture_of(&mut self, token: &Token, texture: Texture) -> Outcome<TextureId> {
+        let Some((name, span)) = self.top_pattern(&texture) else {
+            return Ok(self.add_texture(texture));
+        };
+        let message = format!("the default texture is of the pattern `{name}`");
+        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+            .at(token.span, "other textures start from its pigment, normal and finish")
+            .also(span, "the pattern")
+            .help("declare it, and name it in the objects: `texture { Name }`");
+        Err(self.report(&token.here, diagnostic))
+    }
+
     /// Reads the items of `#default { … }`, which apply to objects without a texture.
     pub(in crate::evaluate) fn default_items(&mut self) {
         let outer = self.poison.take();
@@ -247,9 +272,10 @@ impl Evaluator<'_> {
             let finishes = self.scene.finishes.len();
             let changed = match token.kind {
                 TokenKind::Word(Word::Texture) => {
-                    let texture = self.texture(&token);
+                    // Of several, POV-Ray uses the last (measured).
+                    let texture = self.one_texture(&token);
                     self.forget_words_of_finishes(finishes);
-                    texture
+                    texture.and_then(|texture| self.default_texture_of(&token, texture))
                 }
                 TokenKind::Word(Word::Pigment) => {
                     let mut texture = self.scene.textures[self.default_texture.index()].clone();

@@ -4,8 +4,8 @@ use super::is_literal;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::Evaluator;
 use crate::evaluate::block::Given;
-use crate::scene::ColorMap;
 use crate::source::{Site, Sources};
+use crate::vocabulary::Word;
 
 /// Distance outside 0 to 1 at which an entry only closes the map: `[1.001 …]` is an old habit.
 const BEYOND: f64 = 0.05;
@@ -33,9 +33,9 @@ impl Rise {
     }
 
     /// Records all entries of a declared map.
-    pub fn named(&mut self, map: &ColorMap, site: Site) {
+    pub fn named(&mut self, values: impl Iterator<Item = f64>, site: Site) {
         self.computed = true;
-        map.0.iter().for_each(|(value, _)| self.value(*value, site));
+        values.for_each(|value| self.value(value, site));
     }
 
     fn value(&mut self, value: f64, site: Site) {
@@ -48,7 +48,7 @@ impl Rise {
 }
 
 impl Evaluator<'_> {
-    pub(in crate::evaluate) fn lint_map(&mut self, rise: Rise) {
+    pub(in crate::evaluate) fn lint_map(&mut self, rise: Rise, map: Word) {
         let within = -BEYOND..=1.0 + BEYOND;
         let outside = rise.literal.iter().find(|given| !within.contains(&given.value));
         // A descent from beyond 1 is reported as out of range first.
@@ -59,7 +59,7 @@ impl Evaluator<'_> {
         };
         if let Some((before, after, site)) = fall {
             let message =
-                format!("the entries of this `color_map` go down from {before} to {after}");
+                format!("the entries of this `{}` go down from {before} to {after}", map.name());
             let diagnostic = Diagnostic::new(Code::UnsortedMap, message)
                 .at(site.span, "expected values that rise from entry to entry")
                 .help("POV-Ray reads such a map otherwise than it is written: put the entries in order");

@@ -1,5 +1,7 @@
 //! Patterns whose values come from elsewhere: an object, how the surface lies, a file of a grid.
 
+use std::collections::HashMap;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use super::OpenPattern;
@@ -14,6 +16,9 @@ use crate::scene::Source;
 use crate::texture::density::{Grid, Interpolation};
 use crate::texture::slope::{Slope, Toward};
 use crate::vocabulary::Word;
+
+/// Grids that were read, by the names of their files.
+pub(in crate::evaluate) type Grids = Rc<HashMap<String, Arc<Grid>>>;
 
 impl Evaluator<'_> {
     /// Reads `object { sphere { … } … }` as a pattern: 0 outside of the object, and 1 inside. `list` reads
@@ -103,8 +108,11 @@ impl Evaluator<'_> {
                 return self.pass_interpolation();
             }
         };
+        if let Some(known) = self.grids.get(&found.name) {
+            return Ok(Source::Density(known.clone()));
+        }
         let grid = match Grid::read(&found.bytes) {
-            Ok(grid) => grid,
+            Ok(grid) => Arc::new(grid),
             Err(reason) => {
                 let message = format!("`{name}` cannot be read as a grid: {reason}");
                 let diagnostic = Diagnostic::new(Code::UnreadableFile, message)
@@ -114,7 +122,8 @@ impl Evaluator<'_> {
             }
         };
         self.stored += 4 * found.bytes.len() as u64;
-        Ok(Source::Density(Arc::new(grid)))
+        Rc::make_mut(&mut self.grids).insert(found.name, grid.clone());
+        Ok(Source::Density(grid))
     }
 
     /// Skips the `interpolate n` of a grid that could not be read.
@@ -133,11 +142,7 @@ impl Evaluator<'_> {
     ) -> Option<Outcome<()>> {
         let Some((Source::Density(grid), _)) = &mut open.chosen else { return None };
         Some(self.number_after(token, "0, 1 or 2").map(|given| {
-            Arc::make_mut(grid).interpolation = match given.value as i64 {
-                1 => Interpolation::Linear,
-                2.. => Interpolation::Cubic,
-                _ => Interpolation::None,
-            };
+            Arc::make_mut(grid).interpolation = Interpolation::of_number(given.value);
         }))
     }
 }

@@ -4,7 +4,7 @@ use crate::color::{Color, Rgb};
 use crate::evaluate::stream::Token;
 use crate::evaluate::{Evaluator, Outcome, Reported};
 use crate::scene::{ColorMap, Colors, Pigment, PigmentId, PigmentKind, Source};
-use crate::vocabulary::Dialect;
+use crate::vocabulary::{Dialect, Word};
 
 use super::super::pattern::OpenPattern;
 use super::Written;
@@ -93,6 +93,9 @@ impl Evaluator<'_> {
                 (self.own_colors(&pattern.source), None)
             }
         };
+        if pattern.source == Source::Average && !matches!(colors, Colors::Pigments(_)) {
+            return Err(self.average_of_nothing(pattern.site, Word::PigmentMap));
+        }
         (pigment.kind, pigment.clear) =
             (PigmentKind::Patterned { pattern: Box::new(pattern), colors }, clear);
         Ok(self.add_pigment(pigment))
@@ -101,8 +104,6 @@ impl Evaluator<'_> {
     /// Returns the colours of a pattern without a map.
     fn own_colors(&self, source: &Source) -> Colors {
         match source {
-            // The mean of no pigments.
-            Source::Average => Colors::Pigments(vec![(1.0, PigmentId(0))]),
             Source::Kind(kind) => {
                 let colors = kind.colors().iter().map(|&(value, [red, green, blue])| {
                     (value, Color::opaque(Rgb::new(red, green, blue)))

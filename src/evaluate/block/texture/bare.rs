@@ -1,19 +1,22 @@
 //! Textures of versions before 3.0, in which the items of pigment, normal and finish appear without blocks.
 //!
-//! **In:** an item of a `texture`, in a `.pov` of such a version. **Out:** the pigment and the finish formed
-//! by such items; a normal is unsupported.
+//! **In:** an item of a `texture`, in a `.pov` of such a version. **Out:** the pigment, the normal and
+//! the finish formed by such items.
 //!
 //! **Source:** the output of POV-Ray 3.7, compared with that of the same items in their blocks.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::evaluate::block::finish::OpenFinish;
+use crate::evaluate::block::normal::OpenNormal;
 use crate::evaluate::block::pigment::OpenPigment;
 use crate::evaluate::stream::{Token, TokenKind};
-use crate::evaluate::value::{Poison, Value};
+use crate::evaluate::value::Value;
 use crate::evaluate::{Evaluator, Outcome};
 use crate::scene::Texture;
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Dialect, Family, Word};
+
+use super::OpenTexture;
 
 /// The version from which a texture accepts only blocks.
 const BLOCKS_SINCE: f64 = 3.0;
@@ -22,6 +25,8 @@ const BLOCKS_SINCE: f64 = 3.0;
 #[derive(Default)]
 pub(super) struct Bare {
     pigment: Option<OpenPigment>,
+    /// With the item that began it.
+    normal: Option<(OpenNormal, Token)>,
     finish: Option<OpenFinish>,
 }
 
@@ -30,7 +35,7 @@ impl Evaluator<'_> {
     pub(super) fn bare_item(
         &mut self,
         token: &Token,
-        texture: &Texture,
+        whole: &mut OpenTexture,
         bare: &mut Bare,
     ) -> Option<()> {
         if self.options.dialect != Dialect::Pov || !self.is_before(BLOCKS_SINCE) {
@@ -50,6 +55,9 @@ impl Evaluator<'_> {
                 .help("write the words of a texture in `pigment`, `normal` and `finish`");
             let _: Outcome<()> = self.opinion(&token.here, diagnostic);
         }
+        whole.move_parts();
+        self.settle(&mut whole.texture);
+        let texture = &whole.texture;
         match block {
             Word::Pigment => {
                 let open = bare.pigment.take();
@@ -74,22 +82,28 @@ impl Evaluator<'_> {
                 bare.finish = Some(open);
             }
             _ => {
-                if let TokenKind::Word(word) = token.kind {
-                    self.pass_not_built(token, word);
-                    self.skip_values();
-                }
-                self.set_poison(Poison::new(block, token.here.site(token.span)));
+                let (mut open, opener) = bare.normal.take().unwrap_or_else(|| {
+                    (self.open_normal(token, texture.kind.first_normal()), token.clone())
+                });
+                self.item_of_normal(token, &mut open);
+                bare.normal = Some((open, opener));
             }
         }
         Some(())
     }
 
-    /// Assigns the parts read so far to the texture.
+    /// Assigns the parts read so far to the texture. A transform moves those and none that follow.
     pub(super) fn close_bare(&mut self, texture: &mut Texture, bare: &mut Bare) -> Outcome<()> {
         let pigment = bare.pigment.take().map(|open| self.close_pigment(open)).transpose();
         let finish = bare.finish.take().map(|open| self.close_finish(open)).transpose();
+        let normal = bare.normal.take();
+        let normal =
+            normal.map(|(open, opener)| self.close_normal(&opener, open, true)).transpose();
         if let Some(finish) = finish? {
             texture.set_finish(finish);
+        }
+        if let Some(normal) = normal? {
+            texture.set_normal(normal);
         }
         if let Some(pigment) = pigment? {
             texture.set_pigment(pigment);
@@ -107,6 +121,8 @@ impl Evaluator<'_> {
                 Word::BumpMap | Word::NormalMap => Some(Word::Normal),
                 Word::ColorMap | Word::ImageMap | Word::QuickColor => Some(Word::Pigment),
                 Word::Ior => Some(Word::Finish),
+                // The pattern of the pigment has none in such a texture (measured).
+                Word::Frequency | Word::Phase => Some(Word::Normal),
                 // Of whole textures.
                 Word::Tiles | Word::Tile2 => None,
                 Word::Checker if self.is_before_texture() => None,

@@ -1,14 +1,18 @@
-//! What a further `pigment`, `normal` or `finish` of a texture or an object starts from: the one before it,
-//! with all transforms since.
+//! What a further `pigment`, `normal`, `finish` or `texture` of a texture or an object starts from: the one before
+//! it, with all transforms since.
 //!
-//! **Source:** measured on POV-Ray 3.7, for textures, layers and objects: such a block changes the part that is
-//! there already, of layers that of the last.
+//! **Source:** measured on POV-Ray 3.7, for textures, layers and objects: a pigment, normal or finish changes the
+//! part that is there already, of layers that of the last; it refuses one for a pattern of textures. A texture is
+//! a layer over those that the object has, from its own block or that of a declared object.
 
-use crate::evaluate::Evaluator;
+use crate::evaluate::stream::Token;
+use crate::evaluate::{Evaluator, Outcome};
 use crate::scene::{
-    FinishId, Modifier, ModifierKind, NormalId, ObjectId, ObjectKind, PigmentId, Step, Texture,
-    TextureId, TextureKind, TransformId,
+    Colors, FinishId, Modifier, ModifierKind, NormalId, ObjectId, ObjectKind, PigmentId,
+    PigmentKind, Step, Texture, TextureId, TextureKind, TransformId,
 };
+use crate::source::Span;
+use crate::vocabulary::Word;
 
 /// A part that an object has: one of its own, or that of its texture.
 enum Before<T> {
@@ -118,6 +122,118 @@ impl Evaluator<'_> {
         match before {
             Before::Part(finish) => finish,
             Before::Texture(id) => self.top_of_id(id).kind.first_finish(),
+        }
+    }
+
+    /// Returns the word and the place of the pattern of a texture, or its last layer, if it is a pattern of
+    /// textures.
+    pub(super) fn top_pattern(&self, texture: &Texture) -> Option<(&'static str, Span)> {
+        let mut of = texture;
+        loop {
+            match &of.kind {
+                TextureKind::Plain { .. } => return None,
+                TextureKind::Blend { pattern, .. } => {
+                    return Some((pattern.source.word(), pattern.site.span));
+                }
+                TextureKind::Layers(layers) => of = &self.scene.textures[layers.last()?.index()],
+            }
+        }
+    }
+
+    /// Reports a pigment, normal or finish after these modifiers, if their texture is a pattern of textures.
+    pub(in crate::evaluate::block) fn plain_before(
+        &mut self,
+        token: &Token,
+        word: Word,
+        modifiers: &[Modifier],
+        used: Option<ObjectId>,
+    ) -> Outcome<()> {
+        let (Before::Texture(id), _) = self.part_before(modifiers, used, |_| None::<()>) else {
+            return Ok(());
+        };
+        match self.top_pattern(&self.scene.textures[id.index()]) {
+            Some(pattern) => Err(self.part_of_pattern(token, word, pattern)),
+            None => Ok(()),
+        }
+    }
+
+    /// Returns a texture that is written after these modifiers, as a layer over the texture that they set.
+    pub(in crate::evaluate::block) fn layered(
+        &mut self,
+        modifiers: &[Modifier],
+        used: Option<ObjectId>,
+        texture: TextureId,
+    ) -> TextureId {
+        if self.hides(texture) {
+            return texture;
+        }
+        let mut blocks = vec![modifiers.to_vec()];
+        let mut next = used;
+        while let Some(object) = next.map(|used| &self.scene.objects[used.index()]) {
+            blocks.push(object.modifiers.clone());
+            next = match object.kind {
+                ObjectKind::Use(used) => Some(used),
+                _ => None,
+            };
+        }
+        let mut before: Option<Texture> = None;
+        for Modifier { kind, .. } in blocks.into_iter().rev().flatten() {
+            self.modify_texture(&mut before, &kind);
+        }
+        let Some(before) = before else { return texture };
+        let mut layers = self.layers_in(before);
+        let texture = self.scene.textures[texture.index()].clone();
+        layers.extend(self.layers_in(texture));
+        let kind = TextureKind::Layers(layers);
+        self.add_texture(Texture { kind, transforms: Vec::new(), uv_mapping: false })
+    }
+
+    /// Applies a modifier to the texture that the ones before it set.
+    pub(in crate::evaluate::block) fn modify_texture(
+        &mut self,
+        texture: &mut Option<Texture>,
+        kind: &ModifierKind,
+    ) {
+        match (kind, texture) {
+            (ModifierKind::Texture(id), texture) => {
+                *texture = Some(self.scene.textures[id.index()].clone());
+            }
+            (ModifierKind::Transform(id), Some(texture)) => texture.transforms.push(*id),
+            (ModifierKind::Pigment(id), Some(texture)) => {
+                self.change_top(texture, |top| top.set_pigment(*id));
+            }
+            (ModifierKind::Normal(id), Some(texture)) => {
+                self.change_top(texture, |top| top.set_normal(*id));
+            }
+            (ModifierKind::Finish(id), Some(texture)) => {
+                self.change_top(texture, |top| top.set_finish(*id));
+            }
+            _ => {}
+        }
+    }
+
+    /// Returns the layers of a texture, from the lowest up.
+    fn layers_in(&mut self, mut texture: Texture) -> Vec<TextureId> {
+        self.settle(&mut texture);
+        match texture.kind {
+            TextureKind::Layers(layers) => layers,
+            _ => vec![self.add_texture(texture)],
+        }
+    }
+
+    /// Returns whether no layer below a texture is visible.
+    fn hides(&self, texture: TextureId) -> bool {
+        match &self.scene.textures[texture.index()].kind {
+            TextureKind::Layers(layers) => layers.iter().any(|layer| self.hides(*layer)),
+            TextureKind::Blend { .. } => false,
+            TextureKind::Plain { pigment, .. } => {
+                let pigment = &self.scene.pigments[pigment.index()];
+                let colors = match &pigment.kind {
+                    PigmentKind::Patterned { colors, .. } => Some(colors),
+                    PigmentKind::Color(_) | PigmentKind::Faces(_) => None,
+                };
+                pigment.clear.is_none() && !matches!(colors, Some(Colors::Pigments(_)))
+            }
         }
     }
 

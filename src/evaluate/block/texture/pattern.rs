@@ -126,6 +126,7 @@ impl Evaluator<'_> {
         }
         if let Some(source) = source {
             open.choose(source?, site);
+            self.only_in_normals(token, pattern)?;
         }
         if before.is_some() { Err(Reported) } else { Ok(()) }
     }
@@ -273,6 +274,34 @@ impl Evaluator<'_> {
         (pattern, opener): (Word, &Token),
         written: &mut Written,
     ) -> Outcome<()> {
+        if std::mem::replace(&mut written.told, true) {
+            self.pass_part(token, word);
+            return Err(Reported);
+        }
+        Err(self.part_of_pattern(token, word, (pattern.name(), opener.span)))
+    }
+
+    /// Reports a `pigment`, `normal` or `finish` for a pattern of textures, at `opener`.
+    pub(super) fn part_of_pattern(
+        &mut self,
+        token: &Token,
+        word: Word,
+        (pattern, opener): (&str, Span),
+    ) -> Reported {
+        self.pass_part(token, word);
+        let part = word.name();
+        let message = format!("a texture of the pattern `{pattern}` has no `{part}` of its own");
+        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+            .at(token.span, "expected textures for the pattern")
+            .also(opener, "here this is a pattern of textures")
+            .help(format!(
+                "colours: `pigment {{ {pattern} color_map {{ … }} }}`; textures: `{pattern} texture_map {{ … }}`"
+            ));
+        self.report(&token.here, diagnostic)
+    }
+
+    /// Reads a part for its mistakes.
+    fn pass_part(&mut self, token: &Token, word: Word) {
         let outer = self.poison.take();
         match word {
             Word::Pigment => drop(self.pigment(token)),
@@ -280,18 +309,6 @@ impl Evaluator<'_> {
             _ => drop(self.finish(token)),
         }
         self.poison = outer;
-        if std::mem::replace(&mut written.told, true) {
-            return Err(Reported);
-        }
-        let (name, other) = (pattern.name(), word.name());
-        let message = format!("a texture of the pattern `{name}` has no `{other}` of its own");
-        let diagnostic = Diagnostic::new(Code::ExtraPart, message)
-            .at(token.span, "expected textures for the pattern")
-            .also(opener.span, "here this is a pattern of textures")
-            .help(format!(
-                "colours: `pigment {{ {name} color_map {{ … }} }}`; textures: `{name} texture_map {{ … }}`"
-            ));
-        Err(self.report(&token.here, diagnostic))
     }
 
     /// Reports an image in a texture: `texture { image_map { … } }`.

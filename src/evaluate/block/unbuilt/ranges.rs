@@ -1,4 +1,4 @@
-//! Valid ranges for the numbers of unsupported items.
+//! Valid ranges for the numbers of unsupported items, and of patterns.
 //!
 //! **Source:** what POV-Ray 3.7 refuses, tested number by number; manual, 3.4.3.3 "Radiosity", 3.4.7.6
 //! "Pattern Modifiers", 3.4.8.1 "Media".
@@ -70,6 +70,16 @@ fn of_modifier(word: Word) -> Option<Range> {
     })
 }
 
+/// Returns the range of the number by which a fractal pattern chooses a formula.
+fn of_fractal(word: Word) -> Option<Range> {
+    Some(match word {
+        Word::Exterior => Range { holds: |n| n > -1.0 && n < 9.0, wanted: "a type from 0 to 8" },
+        Word::Interior => Range { holds: |n| n > -1.0 && n < 7.0, wanted: "a type from 0 to 6" },
+        Word::Magnet => Range { holds: |n| (1.0..3.0).contains(&n), wanted: "1 or 2" },
+        _ => return None,
+    })
+}
+
 impl Evaluator<'_> {
     /// Reports a number that is invalid after `word`, except the 0 of `0,04`, which is reported as such.
     pub(super) fn within(&mut self, given: &Given<f64>, word: Word, range: &Range) {
@@ -89,6 +99,15 @@ impl Evaluator<'_> {
     pub(in crate::evaluate::block) fn within_bounds(&mut self, given: &Given<f64>, word: Word) {
         if let Some(range) = of_modifier(word) {
             self.within(given, word, &range);
+        }
+    }
+
+    /// Reports the number of a formula that a fractal pattern does not have.
+    pub(in crate::evaluate::block) fn within_formulas(&mut self, given: &Given<f64>, word: Word) {
+        if let Some(range) = of_fractal(word)
+            && !(range.holds)(given.value)
+        {
+            self.out_of_range(given, word, range.wanted);
         }
     }
 
