@@ -5,6 +5,7 @@
 
 mod web;
 
+use crate::math::finite::single;
 pub use web::{rounded, web};
 
 use std::fmt;
@@ -164,12 +165,8 @@ impl Color {
         Self { rgb: self.rgb.map(number), filter, transmit }
     }
 
-    /// Rounds each number to single precision, clamped to finite numbers.
+    /// Rounds each number to single precision, limited to finite numbers; NaN counts as 0.
     pub fn single(self) -> Self {
-        let single = |number: f64| {
-            let largest = f64::from(f32::MAX);
-            f64::from(number.clamp(-largest, largest) as f32)
-        };
         let (filter, transmit) = (single(self.filter), single(self.transmit));
         Self { rgb: self.rgb.map(single), filter, transmit }
     }

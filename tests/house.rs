@@ -8,6 +8,7 @@ use lucarne::diagnostic::Code;
 use lucarne::vocabulary::{Family, Role, Word};
 
 mod adding;
+mod modules;
 
 /// Every room of `src/`, from the ground up, and the rooms it may use. A circle cannot be written.
 const ROOMS: &[(&str, &[&str])] = &[
@@ -30,7 +31,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("scene", &["color", "math", "noise", "pattern", "source", "texture", "vocabulary"]),
     ("world", &["color", "math", "pattern", "shape", "source", "texture"]),
     ("geometry", &["math", "shape", "world"]),
-    ("plan", &["color", "math", "shape", "source", "world"]),
+    ("plan", &["color", "math", "pattern", "shape", "source", "world"]),
     ("film", &["color", "math", "plan"]),
     // Pictures of textures have an encoding.
     ("picture", &["color", "film", "texture"]),

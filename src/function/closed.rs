@@ -13,6 +13,11 @@ pub trait Ask: Clone + PartialEq + std::fmt::Debug {
     /// Returns an interval that contains the value for all arguments in these intervals.
     fn bounds(&self, arguments: &[Interval]) -> Interval;
 
+    /// Returns whether its slopes are known.
+    fn has_slopes(&self) -> bool {
+        true
+    }
+
     /// Returns the bounds with bounds on the slopes, as [`Outside::sloped`] does.
     fn sloped<const N: usize>(&self, arguments: &[Sloped<N>]) -> Sloped<N> {
         let values: Vec<_> = arguments.iter().map(|argument| argument.value).collect();
@@ -60,6 +65,11 @@ impl<A: Ask> Closed<A> {
     /// Returns whether it is certainly NaN for all arguments in these intervals.
     pub fn is_undefined(&self, arguments: &[Interval]) -> bool {
         self.needed.iter().any(|needed| needed.is_missed(arguments, self))
+    }
+
+    /// Returns whether the slopes of all that it calls are known.
+    pub fn has_slopes(&self) -> bool {
+        self.asked.iter().all(Ask::has_slopes)
     }
 
     pub fn function(&self) -> &Function {

@@ -27,8 +27,12 @@ impl Nodes<'_, '_> {
         let keeps_depth = written.keeps_depth;
         match &written.kind {
             NormalKind::Bumps { pattern, amount, accuracy, slopes } => {
-                let is_flat = pattern.source == scene::Source::Average;
-                if is_flat || *amount == 0.0 && pattern.source.word() != "facets" {
+                let is_flat = match &pattern.source {
+                    scene::Source::Average => true,
+                    scene::Source::Kind(kind) => *amount == 0.0 && kind.scales_by_amount(),
+                    _ => *amount == 0.0,
+                };
+                if is_flat {
                     return Ok(None);
                 }
                 let space = self.space(start, &written.steps, outer, Some(pattern))?;

@@ -264,7 +264,7 @@ fn turbulence(pattern: &scene::Pattern) -> Option<Warp> {
 
 /// Returns the map from the world back to a node placed by `place`.
 pub(super) fn inverse_map(place: &Affine) -> Result<Map, Fault> {
-    let map = Map { centre: place.offset().round(), matrix: place.checked()?.matrix(Double::ONE) };
+    let map = Map::new(place.offset().round(), place.checked()?.matrix(Double::ONE));
     if map.centre.is_finite() && map.matrix.is_finite() {
         Ok(map)
     } else {

@@ -6,6 +6,7 @@
 
 pub mod double;
 pub mod elementary;
+pub(crate) mod finite;
 pub mod interval;
 pub mod placement;
 pub mod power;

@@ -13,10 +13,17 @@ use super::{Matrix, Vector, reciprocal_power_of_two};
 pub struct Map {
     pub centre: Vector,
     pub matrix: Matrix,
+    /// The inverse transpose of the matrix, which maps normals.
+    pub normals: Matrix,
 }
 
 impl Map {
-    pub const IDENTITY: Self = Self { centre: Vector::ZERO, matrix: Matrix::IDENTITY };
+    pub const IDENTITY: Self =
+        Self { centre: Vector::ZERO, matrix: Matrix::IDENTITY, normals: Matrix::IDENTITY };
+
+    pub fn new(centre: Vector, matrix: Matrix) -> Self {
+        Self { centre, matrix, normals: matrix.inverse().transpose() }
+    }
 
     #[inline]
     pub fn point(&self, p: Vector) -> Vector {

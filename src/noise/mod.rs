@@ -234,9 +234,9 @@ fn blend_far<const N: usize>(point: Vector) -> [f64; N] {
     sum
 }
 
-/// The first component's data at a lattice point.
-fn plain_corner([i, j, k]: [usize; 3]) -> range::Linear {
-    let at = step(step(step(i) ^ j) ^ k) % 256;
+/// A component's data at a lattice point.
+fn corner(component: usize, [i, j, k]: [usize; 3]) -> range::Linear {
+    let at = step(step(step(i) ^ j) ^ k) % 256 + STRIDE * component;
     [0.5 * NUMBERS[at], NUMBERS[at + 1], NUMBERS[at + 2], NUMBERS[at + 3]]
 }
 

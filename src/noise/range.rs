@@ -8,7 +8,7 @@
 //! 3t² − 2t³. A blend of intervals lies between the blends of their ends, at the ends of s; its slope is the
 //! blend of the slopes, plus s′ times the difference.
 
-use super::{Cell, LATTICE_ORIGIN, NoiseGenerator, noise, perlin, plain_corner};
+use super::{Cell, LATTICE_ORIGIN, NoiseGenerator, corner, noise, perlin, vector_noise};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
@@ -35,15 +35,13 @@ pub(super) fn range(generator: NoiseGenerator, point: [Interval; 3]) -> (Interva
         // Its coordinates come in steps of 2⁻²⁹.
         NoiseGenerator::Perlin => (0.4925 / 0.795, 0.795, 1e-8, 6.2 * 0.795),
     };
-    let is_near = |i: &Interval| i.low.abs().max(i.high.abs()) < FAR;
-    let is_short = |i: &Interval| i.high - i.low < 1.0;
-    if !point.iter().all(|i| is_near(i) && is_short(i)) {
+    if !is_local(&point) {
         return (RANGE, [Interval { low: -steepest, high: steepest }; 3]);
     }
     let (mut value, slopes) = match generator {
         NoiseGenerator::Perlin => over(point.map(perlin::shifted), 0, perlin::corner),
         NoiseGenerator::Plateaus | NoiseGenerator::RangeCorrected => {
-            over(point, LATTICE_ORIGIN, plain_corner)
+            over(point, LATTICE_ORIGIN, |at| corner(0, at))
         }
     };
     value = Interval { low: (value.low + shift) * scale, high: (value.high + shift) * scale };
@@ -51,22 +49,55 @@ pub(super) fn range(generator: NoiseGenerator, point: [Interval; 3]) -> (Interva
         low: (slope.low * scale - 1e-12).max(-steepest),
         high: (slope.high * scale + 1e-12).min(steepest),
     });
-    // From the middle on it changes by no more than its slopes.
-    let middle = point.map(|i| i.low + 0.5 * (i.high - i.low));
-    let step = |axis: usize| {
-        let away = (point[axis].high - middle[axis]).max(middle[axis] - point[axis].low);
-        away * slopes[axis].low.abs().max(slopes[axis].high.abs())
-    };
-    let reach = step(0) + step(1) + step(2);
+    let middle = middle(&point);
     let there = noise(generator, Vector::from_array(middle));
-    let value = Interval {
-        low: value.low.max(there - reach).min(there) - rounded,
-        high: value.high.min(there + reach).max(there) + rounded,
-    };
+    let value = narrowed(value, there, change(&point, middle, &slopes), rounded);
     let is_cut = value.low <= 0.0 || value.high >= 1.0;
     let value = Interval { low: value.low.max(0.0), high: value.high.min(1.0) };
     let zero = Interval { low: 0.0, high: 0.0 };
     (value, if is_cut { slopes.map(|slope| slope.hull(zero)) } else { slopes })
+}
+
+/// Returns intervals that contain the components of [`vector_noise`] over a box. For a box longer than a cell,
+/// they are global.
+pub(super) fn vector_range(point: [Interval; 3]) -> [Interval; 3] {
+    if !is_local(&point) {
+        return [Interval { low: -2.0, high: 2.0 }; 3];
+    }
+    let middle = middle(&point);
+    let there = vector_noise(Vector::from_array(middle));
+    std::array::from_fn(|component| {
+        let (value, slopes) = over(point, LATTICE_ORIGIN, |at| corner(component, at));
+        narrowed(value, there[component], change(&point, middle, &slopes), 1e-13)
+    })
+}
+
+/// Whether a box is short enough, and near enough to the origin, for bounds of its own.
+fn is_local(point: &[Interval; 3]) -> bool {
+    let is_near = |i: &Interval| i.low.abs().max(i.high.abs()) < FAR;
+    let is_short = |i: &Interval| i.high - i.low < 1.0;
+    point.iter().all(|i| is_near(i) && is_short(i))
+}
+
+fn middle(point: &[Interval; 3]) -> [f64; 3] {
+    point.map(|i| i.low + 0.5 * (i.high - i.low))
+}
+
+/// Returns the greatest change from the middle of a box on.
+fn change(point: &[Interval; 3], middle: [f64; 3], slopes: &[Interval; 3]) -> f64 {
+    let step = |axis: usize| {
+        let away = (point[axis].high - middle[axis]).max(middle[axis] - point[axis].low);
+        away * slopes[axis].low.abs().max(slopes[axis].high.abs())
+    };
+    step(0) + step(1) + step(2)
+}
+
+/// Returns what of a range is within a change of the value in the middle, widened by rounding.
+fn narrowed(value: Interval, there: f64, change: f64, rounded: f64) -> Interval {
+    Interval {
+        low: value.low.max(there - change).min(there) - rounded,
+        high: value.high.min(there + change).max(there) + rounded,
+    }
 }
 
 /// Part of a cell along one axis.

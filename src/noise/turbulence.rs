@@ -3,8 +3,11 @@
 //! **Invariant:** layer i has weight ωⁱ and is noise at λⁱ times the point. λ and ω are in single precision
 //! (`f32`), their powers in double precision, as found in POV-Ray 3.7.
 
-use super::{NoiseGenerator, noise, noises, planar_noise, vector_noise};
+use super::range::vector_range;
+use super::{NoiseGenerator, bounds, noise, noises, planar_noise, vector_noise};
 use crate::math::Vector;
+use crate::math::finite::single;
+use crate::math::interval::Interval;
 
 /// The parameters of turbulence.
 ///
@@ -49,14 +52,7 @@ impl Turbulence {
     /// The noise of all generators but the first is scaled to twice its range, and then only the first layer
     /// is clamped to 0 … 1.
     pub fn number(&self, generator: NoiseGenerator, point: Vector) -> f64 {
-        let layer = |noise: f64, is_first: bool| {
-            let stretched = 2.0 * noise - 0.5;
-            match generator {
-                NoiseGenerator::Plateaus => noise,
-                _ if is_first => stretched.clamp(0.0, 1.0),
-                _ => stretched,
-            }
-        };
+        let layer = |noise: f64, is_first: bool| layer(generator, noise, is_first);
         let mut layers = self.layers();
         let (mut sum, mut is_first) = (0.0, true);
         while let Some((finer, weight)) = layers.next() {
@@ -75,6 +71,24 @@ impl Turbulence {
         sum
     }
 
+    /// Returns intervals that contain the components of [`vector`](Self::vector) at each point of a box.
+    pub fn vector_bounds(&self, point: [Interval; 3]) -> [Interval; 3] {
+        self.layers().fold([Interval::point(0.0); 3], |sum, (finer, weight)| {
+            let noise = vector_range(point.map(|axis| axis * Interval::point(finer)));
+            std::array::from_fn(|axis| sum[axis] + noise[axis] * Interval::point(weight))
+        })
+    }
+
+    /// Returns an interval that contains [`number`](Self::number) at each point of a box.
+    pub fn number_bounds(&self, generator: NoiseGenerator, point: [Interval; 3]) -> Interval {
+        let layers = self.layers().enumerate();
+        layers.fold(Interval::point(0.0), |sum, (index, (finer, weight))| {
+            let noise = bounds(generator, point.map(|axis| axis * Interval::point(finer)));
+            let of = |noise| layer(generator, noise, index == 0);
+            sum + Interval { low: of(noise.low), high: of(noise.high) } * Interval::point(weight)
+        })
+    }
+
     /// Returns the frequency and the weight of each layer.
     fn layers(&self) -> impl Iterator<Item = (f64, f64)> {
         let Self { lambda, omega, octaves } = *self;
@@ -83,8 +97,13 @@ impl Turbulence {
     }
 }
 
-/// Rounds to single precision, clamped to finite numbers.
-fn single(number: f64) -> f64 {
-    let greatest = f64::from(f32::MAX);
-    f64::from(number.clamp(-greatest, greatest) as f32)
+/// Returns what a layer of [`Turbulence::number`] has for a noise.
+#[inline]
+fn layer(generator: NoiseGenerator, noise: f64, is_first: bool) -> f64 {
+    let stretched = 2.0 * noise - 0.5;
+    match generator {
+        NoiseGenerator::Plateaus => noise,
+        _ if is_first => stretched.clamp(0.0, 1.0),
+        _ => stretched,
+    }
 }

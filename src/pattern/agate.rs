@@ -2,10 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::finite::finite;
 use super::parameter::parameters;
-use super::{Pattern, Sample};
+use super::{Pattern, Sample, Setting, sides};
+use crate::math::Vector;
 use crate::math::elementary::{pow, sin};
+use crate::math::finite::{finite, single};
+use crate::math::interval::Interval;
 
 parameters! {
     /// A wave along z, shifted by turbulence with the octaves, lambda and omega of the block, 0 … 1. The
@@ -19,12 +21,18 @@ parameters! {
 }
 
 impl Pattern for Agate {
-    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [1.0; 3]), (0.5, [0.95, 0.75, 0.5]), (0.5, [0.9, 0.7, 0.5]), (0.6, [0.9, 0.7, 0.4]), (0.6, [1.0, 0.7, 0.4]), (1.0, [0.6, 0.3, 0.0])];
+    const COST: &str = "noise of several octaves a point";
+    const COLORS: &[(f64, [f64; 3])] = &[
+        (0.0, [1.0; 3]),
+        (0.5, [0.95, 0.75, 0.5]),
+        (0.5, [0.9, 0.7, 0.5]),
+        (0.6, [0.9, 0.7, 0.4]),
+        (0.6, [1.0, 0.7, 0.4]),
+        (1.0, [0.6, 0.3, 0.0]),
+    ];
     /// The amount is in single precision.
     fn canonical(self) -> Self {
-        let greatest = f64::from(f32::MAX);
-        let amount = finite(self.turbulence).clamp(-greatest, greatest);
-        Self { turbulence: f64::from(amount as f32) }
+        Self { turbulence: single(self.turbulence) }
     }
 
     fn value(&self, sample: &Sample) -> f64 {
@@ -34,8 +42,31 @@ impl Pattern for Agate {
             false => self.turbulence * finite(setting.turbulence.number(setting.noise, point)),
         };
         let angle = finite(TAU * (1.1 * point.z + 1.3 * shift));
-        pow((1.0 + sin(angle)) / 2.0, 0.77)
+        height(sin(angle))
     }
+
+    fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
+        let sides = sides(point, reach);
+        let shift = match self.turbulence == 0.0 {
+            true => Interval::point(0.0),
+            false => {
+                setting.turbulence.number_bounds(setting.noise, sides)
+                    * Interval::point(self.turbulence)
+            }
+        };
+        let turns = sides[2] * Interval::point(1.1) + shift * Interval::point(1.3);
+        let angle = turns * Interval::point(TAU);
+        if !angle.is_finite() {
+            return Self::RANGE;
+        }
+        let Interval { low, high } = Interval::sin(angle).rising(height);
+        Interval { low: low.max(0.0), high: high.min(1.0) }
+    }
+}
+
+/// Returns the value for a sine.
+fn height(sine: f64) -> f64 {
+    pow(((1.0 + sine) / 2.0).clamp(0.0, 1.0), 0.77)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::lattice::{cell, remainder};
 use super::parameter::parameters;
 use super::{Pattern, Sample};
 use crate::math::Vector;
+use crate::math::finite::single;
 use crate::math::interval::Interval;
 
 parameters! {
@@ -27,8 +28,7 @@ impl Pattern for Brick {
 
     /// Rounds the mortar to single precision.
     fn canonical(self) -> Self {
-        let greatest = f64::from(f32::MAX);
-        Self { mortar: f64::from(self.mortar.clamp(-greatest, greatest) as f32), ..self }
+        Self { mortar: single(self.mortar), ..self }
     }
 
     #[inline]

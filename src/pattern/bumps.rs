@@ -14,6 +14,8 @@ parameters! {
 }
 
 impl Pattern for Bumps {
+    const COST: &str = "one noise a point";
+
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
         Bozo {}.value(sample)

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use super::finite::{finite, length};
 use super::{Sample, Setting};
 use crate::math::elementary::sin;
+use crate::math::finite::{finite, length, single};
 use crate::math::{UnitVector, Vector};
 use crate::noise::vector_noise;
 
@@ -60,10 +60,6 @@ pub(super) struct Beat {
 impl Beat {
     /// They are in single precision, as in POV-Ray 3.7 (measured).
     pub fn of(setting: &Setting) -> Self {
-        let single = |number: f64| {
-            let greatest = f64::from(f32::MAX);
-            f64::from(finite(number).clamp(-greatest, greatest) as f32)
-        };
         Self { frequency: single(setting.frequency), phase: single(setting.phase) }
     }
 

@@ -150,6 +150,8 @@ impl Crackle {
 }
 
 impl Pattern for Crackle {
+    const COST: &str = "the random points of the cells around a point";
+
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
         self.value_of(&self.nearest(sample.point), sample.setting)

@@ -22,7 +22,14 @@ fn first_greatest(point: Vector, slack: f64) -> f64 {
 }
 
 impl Pattern for Cubic {
-    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [1.0, 0.0, 0.0]), (1.0, [0.0, 1.0, 0.0]), (2.0, [0.0, 0.0, 1.0]), (3.0, [1.0, 1.0, 0.0]), (4.0, [0.0, 1.0, 1.0]), (5.0, [1.0, 0.0, 1.0])];
+    const COLORS: &[(f64, [f64; 3])] = &[
+        (0.0, [1.0, 0.0, 0.0]),
+        (1.0, [0.0, 1.0, 0.0]),
+        (2.0, [0.0, 0.0, 1.0]),
+        (3.0, [1.0, 1.0, 0.0]),
+        (4.0, [0.0, 1.0, 1.0]),
+        (5.0, [1.0, 0.0, 1.0]),
+    ];
     const LIST: Option<usize> = Some(6);
     const HAS_SEAMS: bool = true;
     const RANGE: Interval = Interval { low: 0.0, high: 5.0 };

@@ -15,6 +15,8 @@ parameters! {
 }
 
 impl Pattern for Dents {
+    const COST: &str = "one noise a point";
+
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
         cube(noise(sample.setting.noise, sample.point))

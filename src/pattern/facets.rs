@@ -3,6 +3,7 @@
 use super::crackle::seed;
 use super::parameter::parameters;
 use super::{Pattern, Sample};
+use crate::math::interval::Interval;
 use crate::math::{UnitVector, Vector};
 use crate::noise::vector_noise;
 
@@ -23,6 +24,10 @@ parameters! {
 const CELLS: f64 = 10.0;
 
 impl Pattern for Facets {
+    const RANGE: Interval = Interval { low: 0.0, high: 0.0 };
+    const COST: &str = "the random points of the cells around a point";
+    const SCALES_BY_AMOUNT: bool = false;
+
     fn value(&self, _sample: &Sample) -> f64 {
         0.0
     }

@@ -16,6 +16,7 @@ parameters! {
 const LAYERS: Layers = Layers { frequency: 4.0, amplitude: 1.0, pairs: 3, is_folded: true };
 
 impl Pattern for Granite {
+    const COST: &str = "six noises a point";
     const RANGE: Interval = Interval { low: 0.0, high: 63.0 / 64.0 };
 
     fn value(&self, sample: &Sample) -> f64 {

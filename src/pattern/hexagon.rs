@@ -3,7 +3,8 @@
 use super::lattice::remainder;
 use super::parameter::parameters;
 use super::triangle::Triangle;
-use super::{Pattern, Sample};
+use super::{Pattern, Sample, Setting};
+use crate::math::Vector;
 use crate::math::interval::Interval;
 
 parameters! {
@@ -18,23 +19,34 @@ parameters! {
 const HEIGHT: f64 = 0.866_025_404;
 
 impl Pattern for Hexagon {
-    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [0.0, 0.0, 1.0]), (1.0, [0.0, 1.0, 0.0]), (2.0, [1.0, 0.0, 0.0])];
+    const COLORS: &[(f64, [f64; 3])] =
+        &[(0.0, [0.0, 0.0, 1.0]), (1.0, [0.0, 1.0, 0.0]), (2.0, [1.0, 0.0, 0.0])];
     const LIST: Option<usize> = Some(3);
     const HAS_SEAMS: bool = true;
     const RANGE: Interval = Interval { low: 0.0, high: 2.0 };
 
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
-        let Triangle { u, v, is_upright } = Triangle::at(sample.point, sample.error, HEIGHT);
-        // A hexagon is the six triangles around its centre. The centres are the corners where v − u is
-        // divisible by three: each triangle has one.
-        let from_centre = match (remainder(v - u, 3), is_upright) {
-            (0, true) => 0.0,
-            (0, false) | (1, _) => 1.0,
-            _ => 0.0,
-        };
-        f64::from(remainder(-(u + from_centre), 3))
+        kind(Triangle::at(sample.point, sample.error, HEIGHT))
     }
+
+    fn bounds(&self, point: Vector, reach: Vector, _setting: &Setting) -> Interval {
+        let one = Triangle::around(point, reach, HEIGHT);
+        one.map_or(Self::RANGE, |triangle| Interval::point(kind(triangle)))
+    }
+}
+
+/// Returns the kind of the hexagon that contains a triangle.
+#[inline]
+fn kind(Triangle { u, v, is_upright }: Triangle) -> f64 {
+    // A hexagon is the six triangles around its centre. The centres are the corners where v − u is
+    // divisible by three: each triangle has one.
+    let from_centre = match (remainder(v - u, 3), is_upright) {
+        (0, true) => 0.0,
+        (0, false) | (1, _) => 1.0,
+        _ => 0.0,
+    };
+    f64::from(remainder(-(u + from_centre), 3))
 }
 
 #[cfg(test)]

@@ -2,10 +2,11 @@
 
 use super::Pattern;
 use super::mandel::{canonical_exponent, powers};
-use super::orbit::{Complex, Reading, canonical_iterations, finite};
+use super::orbit::{Complex, Reading, canonical_iterations};
 use super::parameter::parameters;
 use super::{Sample, Setting};
 use crate::math::Vector;
+use crate::math::finite::finite;
 use crate::math::interval::Interval;
 
 parameters! {
@@ -28,6 +29,8 @@ impl Julia {
 }
 
 impl Pattern for Julia {
+    const COST: &str = "its iterations a point";
+
     fn canonical(self) -> Self {
         let Reading { exterior, interior } = self.reading().canonical();
         let iterations = canonical_iterations(self.iterations);

@@ -25,7 +25,8 @@ impl Pattern for Leopard {
         if !low.is_finite() || !high.is_finite() {
             return Self::RANGE;
         }
-        let sine = |i: usize| Interval::sin(Interval { low: low[i].next_down(), high: high[i].next_up() });
+        let sine =
+            |i: usize| Interval::sin(Interval { low: low[i].next_down(), high: high[i].next_up() });
         let mean = (sine(0) + sine(1) + sine(2)) / Interval::point(3.0);
         let square = mean.square();
         Interval { low: square.low.min(1.0), high: square.high.min(1.0) }

@@ -26,6 +26,8 @@ impl MagnetMandel {
 }
 
 impl Pattern for MagnetMandel {
+    const COST: &str = "its iterations a point";
+
     fn canonical(self) -> Self {
         let Reading { exterior, interior } = self.reading().canonical();
         let iterations = canonical_iterations(self.iterations);

@@ -28,7 +28,15 @@ impl Mandel {
 }
 
 impl Pattern for Mandel {
-    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [0.0; 3]), (0.001, [0.0; 3]), (0.001, [0.0, 1.0, 1.0]), (0.012, [1.0, 1.0, 0.0]), (0.015, [1.0, 0.0, 1.0]), (0.1, [0.0, 1.0, 1.0])];
+    const COST: &str = "its iterations a point";
+    const COLORS: &[(f64, [f64; 3])] = &[
+        (0.0, [0.0; 3]),
+        (0.001, [0.0; 3]),
+        (0.001, [0.0, 1.0, 1.0]),
+        (0.012, [1.0, 1.0, 0.0]),
+        (0.015, [1.0, 0.0, 1.0]),
+        (0.1, [0.0, 1.0, 1.0]),
+    ];
     fn canonical(self) -> Self {
         let Reading { exterior, interior } = self.reading().canonical();
         let iterations = canonical_iterations(self.iterations);

@@ -1,10 +1,10 @@
 //! `marble`: planes across x, with veins where turbulence moves them.
 
-use super::finite::finite;
 use super::parameter::parameters;
-use super::turbulent::{is_still, number};
-use super::{Measured, NEAR, Pattern, Sample, Setting, WaveKind};
+use super::turbulent::{is_still, number, number_bounds};
+use super::{Measured, NEAR, Pattern, Sample, Setting, WaveKind, sides};
 use crate::math::Vector;
+use crate::math::finite::finite;
 use crate::math::interval::Interval;
 
 parameters! {
@@ -15,7 +15,8 @@ parameters! {
 }
 
 impl Pattern for Marble {
-    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [0.9, 0.8, 0.8]), (0.9, [0.9, 0.08, 0.08]), (0.9, [0.0; 3]), (1.0, [0.0; 3])];
+    const COLORS: &[(f64, [f64; 3])] =
+        &[(0.0, [0.9, 0.8, 0.8]), (0.9, [0.9, 0.08, 0.08]), (0.9, [0.0; 3]), (1.0, [0.0; 3])];
     const WAVE: WaveKind = WaveKind::Triangle;
     const APPLIES_TURBULENCE: bool = true;
     const RANGE: Interval = Interval::EVERYTHING;
@@ -38,12 +39,10 @@ impl Pattern for Marble {
     }
 
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
+        let [x, y, z] = sides(point, reach);
         match is_still(setting) {
-            true => {
-                let (low, high) = (point.x - reach.x, point.x + reach.x);
-                Interval { low: low.next_down(), high: high.next_up() }
-            }
-            false => Self::RANGE,
+            true => x,
+            false => x + number_bounds(setting, [x, y, z]),
         }
     }
 }

@@ -5,23 +5,59 @@
 //! seam: so a seam that coincides with a row of pixels has one colour throughout, however the points of the
 //! row are rounded.
 
+mod agate;
+mod boxed;
+mod bozo;
+mod brick;
+mod bumps;
+mod cells;
 mod centres;
-mod finite;
+mod checker;
+mod crackle;
+mod cubic;
+mod cylindrical;
+mod dents;
+mod facets;
+mod gradient;
+mod granite;
+mod hexagon;
+mod julia;
 mod lattice;
 #[cfg(test)]
 mod laws;
 mod layers;
+mod leopard;
+mod magnet_julia;
+mod magnet_mandel;
+mod mandel;
+mod marble;
 #[cfg(test)]
 mod measured;
+mod onion;
 mod orbit;
 mod parameter;
+mod pavement;
+mod planar;
+mod quilted;
+mod radial;
+mod ripples;
 mod scatter;
+mod spherical;
 mod spiral;
+mod spiral1;
+mod spiral2;
+mod spotted;
+mod square;
 mod tile;
+mod tiling;
 mod triangle;
+mod triangular;
 mod turbulent;
 pub mod warp;
 mod wave;
+mod waves;
+mod wood;
+mod wrinkles;
 
 use parameter::Parameters;
 pub use parameter::{Argument, Parameter};
@@ -34,12 +70,9 @@ use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::noise::{NoiseGenerator, Turbulence};
 
-/// Declares the modules and the closed set of patterns. A line is the module, which is the pattern's word, and
-/// its struct.
+/// Declares the closed set of patterns. A line is the module, which is the pattern's word, and its struct.
 macro_rules! patterns {
     ($($file:ident $kind:ident)*) => {
-        $(pub mod $file;)*
-
         $(pub use $file::$kind;)*
 
         /// A pattern with its parameters.
@@ -173,10 +206,17 @@ macro_rules! patterns {
                 }
             }
 
-            /// Writes the value at each of `points`.
-            pub fn values(&self, points: &[Vector], setting: &Setting, values: &mut [f64]) {
+            /// Returns whether the amount of a normal scales [`Kind::displacement`].
+            pub fn scales_by_amount(&self) -> bool {
                 match self {
-                    $(Self::$kind(kind) => kind.values(points, setting, values),)*
+                    $(Self::$kind(_) => $kind::SCALES_BY_AMOUNT,)*
+                }
+            }
+
+            /// Returns what it evaluates at a point, in words.
+            pub fn cost(&self) -> &'static str {
+                match self {
+                    $(Self::$kind(_) => $kind::COST,)*
                 }
             }
 
@@ -302,6 +342,10 @@ trait Pattern: Parameters + Copy {
     const FREQUENCY: f64 = if Self::LIST.is_some() { 0.0 } else { 1.0 };
     /// Its colours as a pigment without a map: positions with red, green and blue.
     const COLORS: &[(f64, [f64; 3])] = &[(0.0, [0.0; 3]), (1.0, [1.0; 3])];
+    /// Whether the amount of a normal scales the pattern's own [`Pattern::displacement`].
+    const SCALES_BY_AMOUNT: bool = true;
+    /// What it evaluates at a point, in words.
+    const COST: &str = "a formula a point";
     /// The least and the greatest value.
     const RANGE: Interval = Interval { low: 0.0, high: 1.0 };
 
@@ -331,17 +375,16 @@ trait Pattern: Parameters + Copy {
         None
     }
 
-    /// Writes the value at each of `points`.
-    fn values(&self, points: &[Vector], setting: &Setting, values: &mut [f64]) {
-        for (value, &point) in values.iter_mut().zip(points) {
-            *value = self.value(&Sample { point, error: Vector::ZERO, setting });
-        }
-    }
-
     /// Returns an interval that contains the value at each point within `reach` of `point` along each axis.
     fn bounds(&self, _point: Vector, _reach: Vector, _setting: &Setting) -> Interval {
         Self::RANGE
     }
+}
+
+/// Returns the box of the points within `reach` of `point`.
+fn sides(point: Vector, reach: Vector) -> [Interval; 3] {
+    let (low, high) = (point - reach, point + reach);
+    [0, 1, 2].map(|axis| Interval { low: low[axis].next_down(), high: high[axis].next_up() })
 }
 
 /// Rounds a coordinate to an integer if its error cannot separate it from that integer.

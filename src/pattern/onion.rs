@@ -1,9 +1,9 @@
 //! `onion`: the fractional part of the distance from the origin.
 
-use super::finite::length;
 use super::parameter::parameters;
 use super::{Measured, NEAR, Pattern, Sample, Setting, settled};
 use crate::math::Vector;
+use crate::math::finite::length;
 use crate::math::interval::Interval;
 
 parameters! {

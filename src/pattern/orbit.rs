@@ -4,6 +4,7 @@
 //! **Source:** POV-Ray manual, section "Fractal Pattern"; what it leaves open is measured on POV-Ray 3.7.
 
 use crate::math::elementary::fmod;
+use crate::math::finite::finite;
 use crate::math::interval::Interval;
 
 /// Limit of iterations, which bounds the time for a point of the set.
@@ -200,11 +201,6 @@ const UNBOUNDED: Interval = Interval { low: f64::MIN, high: f64::MAX };
 /// Truncates a number of iterations and clamps it to 0 … 2²⁴.
 pub(super) fn canonical_iterations(iterations: f64) -> f64 {
     finite(iterations).clamp(0.0, MOST).trunc()
-}
-
-/// Replaces NaN by 0 and clamps infinities.
-pub(super) fn finite(number: f64) -> f64 {
-    if number.is_nan() { 0.0 } else { number.clamp(f64::MIN, f64::MAX) }
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use super::parameter::parameters;
 use super::{Pattern, Sample, Setting};
 use crate::math::Vector;
+use crate::math::finite::single;
 use crate::math::interval::Interval;
 
 parameters! {
@@ -27,8 +28,6 @@ impl Pattern for Quilted {
 
     /// Rounds the controls to single precision.
     fn canonical(self) -> Self {
-        let greatest = f64::from(f32::MAX);
-        let single = |control: f64| f64::from(control.clamp(-greatest, greatest) as f32);
         Self { inner: single(self.inner), outer: single(self.outer) }
     }
 

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::finite::length;
 use super::parameter::parameters;
 use super::{Measured, NEAR, Pattern, Sample, Setting};
 use crate::math::Vector;
 use crate::math::elementary::atan2;
+use crate::math::finite::length;
 use crate::math::interval::Interval;
 
 parameters! {
@@ -22,7 +22,12 @@ parameters! {
 const AHEAD: f64 = 0.75;
 
 impl Pattern for Radial {
-    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [0.0, 1.0, 1.0]), (0.333, [1.0, 1.0, 0.0]), (0.666, [1.0, 0.0, 1.0]), (1.0, [0.0, 1.0, 1.0])];
+    const COLORS: &[(f64, [f64; 3])] = &[
+        (0.0, [0.0, 1.0, 1.0]),
+        (0.333, [1.0, 1.0, 0.0]),
+        (0.666, [1.0, 0.0, 1.0]),
+        (1.0, [0.0, 1.0, 1.0]),
+    ];
     const HAS_SEAMS: bool = true;
     const RANGE: Interval = Interval { low: 0.25, high: 1.25 };
 

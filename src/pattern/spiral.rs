@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::finite::{finite, length};
 use super::radial::turn_error;
-use super::turbulent::{is_still, number};
-use super::{NEAR, Sample, Setting};
+use super::turbulent::{is_still, number, number_bounds};
+use super::{NEAR, Sample, Setting, sides};
 use crate::math::Vector;
 use crate::math::elementary::atan2;
+use crate::math::finite::{finite, length};
 use crate::math::interval::Interval;
 
 /// A point in a spiral.
@@ -69,11 +69,10 @@ pub(super) fn bounds(arms: f64, point: Vector, reach: Vector, setting: &Setting)
     let (low, high) = (point - reach, point + reach);
     let everything = [Interval { low: 0.0, high: f64::INFINITY }, Interval::EVERYTHING];
     // Beyond, squares may overflow.
-    if !is_still(setting) || low.min(-high).min_element() < -1e100 {
+    if low.min(-high).min_element() < -1e100 {
         return everything;
     }
-    let axis = |i: usize| Interval { low: low[i].next_down(), high: high[i].next_up() };
-    let [x, y, z] = [axis(0), axis(1), axis(2)];
+    let [x, y, z] = sides(point, reach);
     let radius = (x.square() + y.square()).sqrt();
     // Below, squares lose digits.
     let radius = match radius.low > 1e-100 {
@@ -91,7 +90,7 @@ pub(super) fn bounds(arms: f64, point: Vector, reach: Vector, setting: &Setting)
         Interval { low: 0.0, high: 1.0 }
     };
     let turns = Interval { low: turns.low - 1e-15, high: turns.high + 1e-15 };
-    let along = z + radius + turns * Interval::point(arms);
+    let along = z + radius + turns * Interval::point(arms) + number_bounds(setting, [x, y, z]);
     // The order of the sum differs, at most, by its rounding.
     let size = z.abs().high + radius.high + arms.abs();
     let off = size * (4.0 * f64::EPSILON);

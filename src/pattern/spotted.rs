@@ -13,6 +13,8 @@ parameters! {
 }
 
 impl Pattern for Spotted {
+    const COST: &str = "one noise a point";
+
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
         Bozo {}.value(sample)

@@ -25,7 +25,12 @@ fn kind(x: f64, z: f64) -> f64 {
 }
 
 impl Pattern for Square {
-    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [1.0, 0.0, 0.0]), (1.0, [0.0, 1.0, 0.0]), (2.0, [0.0, 0.0, 1.0]), (3.0, [1.0, 1.0, 0.0])];
+    const COLORS: &[(f64, [f64; 3])] = &[
+        (0.0, [1.0, 0.0, 0.0]),
+        (1.0, [0.0, 1.0, 0.0]),
+        (2.0, [0.0, 0.0, 1.0]),
+        (3.0, [1.0, 1.0, 0.0]),
+    ];
     const LIST: Option<usize> = Some(4);
     const HAS_SEAMS: bool = true;
     const RANGE: Interval = Interval { low: 0.0, high: 3.0 };

@@ -19,14 +19,30 @@ impl Triangle {
     /// separate from a side is on it. `height` is that of a triangle.
     #[inline]
     pub fn at(point: Vector, error: Vector, height: f64) -> Self {
+        let whole = |(coordinate, error)| settled(coordinate, error).floor();
+        let [w, u, v] = Self::coordinates(point, error, height).map(whole);
+        Self { u, v, is_upright: w <= u + v }
+    }
+
+    /// Returns the triangle that contains all points within `reach` of `point`; `None` if there may be several.
+    pub fn around(point: Vector, reach: Vector, height: f64) -> Option<Self> {
+        let whole = |(coordinate, error): (f64, f64)| {
+            let [low, high] = [coordinate - 2.0 * error, coordinate + 2.0 * error].map(f64::floor);
+            (low == high).then_some(low)
+        };
+        let [w, u, v] = Self::coordinates(point, reach, height).map(whole);
+        let (w, u, v) = (w?, u?, v?);
+        Some(Self { u, v, is_upright: w <= u + v })
+    }
+
+    /// Returns the coordinates across the three families of sides, each with its error; a coordinate is an
+    /// integer on its sides.
+    #[inline]
+    fn coordinates(point: Vector, error: Vector, height: f64) -> [(f64, f64); 3] {
         // The sums and the division round, too.
         let rounded = |coordinate: f64| coordinate.abs() * (4.0 * f64::EPSILON);
         let (v, v_error) = (point.z / height, (error.z + rounded(point.z)) / height);
         let u_error = error.x + rounded(point.x) + 0.5 * v_error;
-        // Each of the three families of sides has its own coordinate, which is an integer on them.
-        let w = settled(point.x + 0.5 * v, u_error).floor();
-        let u = settled(point.x - 0.5 * v, u_error).floor();
-        let v = settled(v, v_error).floor();
-        Self { u, v, is_upright: w <= u + v }
+        [(point.x + 0.5 * v, u_error), (point.x - 0.5 * v, u_error), (v, v_error)]
     }
 }

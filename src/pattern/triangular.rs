@@ -3,7 +3,8 @@
 use super::lattice::remainder;
 use super::parameter::parameters;
 use super::triangle::Triangle;
-use super::{Pattern, Sample};
+use super::{Pattern, Sample, Setting};
+use crate::math::Vector;
 use crate::math::interval::Interval;
 
 parameters! {
@@ -18,17 +19,34 @@ parameters! {
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
 
 impl Pattern for Triangular {
-    const COLORS: &[(f64, [f64; 3])] = &[(0.0, [1.0, 0.0, 0.0]), (1.0, [0.0, 1.0, 0.0]), (2.0, [0.0, 0.0, 1.0]), (3.0, [1.0, 1.0, 0.0]), (4.0, [0.0, 1.0, 1.0]), (5.0, [1.0, 0.0, 1.0])];
+    const COLORS: &[(f64, [f64; 3])] = &[
+        (0.0, [1.0, 0.0, 0.0]),
+        (1.0, [0.0, 1.0, 0.0]),
+        (2.0, [0.0, 0.0, 1.0]),
+        (3.0, [1.0, 1.0, 0.0]),
+        (4.0, [0.0, 1.0, 1.0]),
+        (5.0, [1.0, 0.0, 1.0]),
+    ];
     const LIST: Option<usize> = Some(6);
     const HAS_SEAMS: bool = true;
     const RANGE: Interval = Interval { low: 0.0, high: 5.0 };
 
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
-        let Triangle { u, v, is_upright } = Triangle::at(sample.point, sample.error, HEIGHT);
-        let class = remainder(v - u, 3);
-        f64::from(if is_upright { 2 * class } else { (9 - 2 * class) % 6 })
+        kind(Triangle::at(sample.point, sample.error, HEIGHT))
     }
+
+    fn bounds(&self, point: Vector, reach: Vector, _setting: &Setting) -> Interval {
+        let one = Triangle::around(point, reach, HEIGHT);
+        one.map_or(Self::RANGE, |triangle| Interval::point(kind(triangle)))
+    }
+}
+
+/// Returns the number of a triangle.
+#[inline]
+fn kind(Triangle { u, v, is_upright }: Triangle) -> f64 {
+    let class = remainder(v - u, 3);
+    f64::from(if is_upright { 2 * class } else { (9 - 2 * class) % 6 })
 }
 
 #[cfg(test)]

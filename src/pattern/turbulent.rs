@@ -1,8 +1,9 @@
 //! Turbulence for the patterns that apply it themselves.
 
 use super::Setting;
-use super::finite::finite;
 use crate::math::Vector;
+use crate::math::finite::finite;
+use crate::math::interval::Interval;
 
 /// Returns the number that turbulence adds to a value: its amount along x times its noise at `point`.
 ///
@@ -12,6 +13,17 @@ pub(super) fn number(setting: &Setting, point: Vector) -> f64 {
     match setting.amount.x == 0.0 {
         true => 0.0,
         false => setting.amount.x * finite(setting.turbulence.number(setting.noise, point)),
+    }
+}
+
+/// Returns an interval that contains [`number`] at each point of a box.
+pub(super) fn number_bounds(setting: &Setting, sides: [Interval; 3]) -> Interval {
+    match setting.amount.x == 0.0 {
+        true => Interval::point(0.0),
+        false => {
+            let number = setting.turbulence.number_bounds(setting.noise, sides);
+            Interval::point(setting.amount.x) * number
+        }
     }
 }
 

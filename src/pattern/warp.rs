@@ -38,6 +38,7 @@ use std::fmt;
 use super::parameter::{self, Parameters};
 use super::{Argument, Parameter};
 use crate::math::Vector;
+use crate::math::interval::Interval;
 
 /// Declares the closed set of warps. A line is the word and the struct.
 macro_rules! warps {
@@ -105,6 +106,13 @@ macro_rules! warps {
                 };
                 (finite(point), finite(error))
             }
+
+            /// Returns a box that contains what each point of a box moves to.
+            pub fn bounds(&self, sides: [Interval; 3]) -> [Interval; 3] {
+                match self {
+                    $(Self::$kind(warp) => warp.bounds(sides),)*
+                }
+            }
         }
     };
 }
@@ -145,6 +153,11 @@ trait Warping: Parameters + Copy {
 
     /// See [`Warp::moved`]; coordinates may overflow.
     fn moved(&self, point: Vector, error: Vector) -> (Vector, Vector);
+
+    /// See [`Warp::bounds`].
+    fn bounds(&self, _sides: [Interval; 3]) -> [Interval; 3] {
+        [Interval::EVERYTHING; 3]
+    }
 }
 
 /// Clamps coordinates that overflowed.

@@ -17,6 +17,7 @@ use std::fmt;
 
 use super::Measured;
 use crate::math::elementary;
+use crate::math::finite::single;
 use crate::math::interval::Interval;
 
 /// The modulus.
@@ -238,12 +239,6 @@ const FAR: f64 = 1e15;
 #[inline]
 fn lifted(reduced: f64) -> f64 {
     if reduced < 0.0 { reduced - reduced.floor() } else { reduced }
-}
-
-/// Rounds to single precision, clamped to finite numbers.
-fn single(number: f64) -> f64 {
-    let greatest = f64::from(f32::MAX);
-    f64::from(number.clamp(-greatest, greatest) as f32)
 }
 
 #[cfg(test)]

@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::finite::length;
 use super::parameter::parameters;
 use super::turbulent::{is_still, planar};
-use super::{Measured, NEAR, Pattern, Sample, Setting, WaveKind};
+use super::{Measured, NEAR, Pattern, Sample, Setting, WaveKind, sides};
 use crate::math::Vector;
 use crate::math::elementary::sin;
+use crate::math::finite::length;
 use crate::math::interval::Interval;
 
 parameters! {
@@ -62,9 +62,17 @@ impl Pattern for Wood {
     }
 
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
-        let axis = |i: usize| {
-            let far = reach[i] + if setting.amount[i] == 0.0 { 0.0 } else { 1.0 };
-            Interval { low: (point[i] - far).next_down(), high: (point[i] + far).next_up() }
+        let sides = sides(point, reach);
+        let noise = match is_still(setting) {
+            true => [Interval::point(0.0); 3],
+            false => setting.turbulence.vector_bounds(sides),
+        };
+        let axis = |i: usize| match setting.amount[i] == 0.0 {
+            true => sides[i],
+            false => {
+                let turns = (sides[i] + noise[i]) * Interval::point(setting.amount[i]);
+                sides[i] + Interval::sin(turns * Interval::point(TAU))
+            }
         };
         let distance = (axis(0).square() + axis(1).square()).sqrt();
         // Where squares overflow or lose digits, the value is more exact than this.

@@ -17,6 +17,7 @@ parameters! {
 const LAYERS: Layers = Layers { frequency: 1.0, amplitude: 0.5, pairs: 5, is_folded: false };
 
 impl Pattern for Wrinkles {
+    const COST: &str = "ten noises a point";
     const RANGE: Interval = Interval { low: 0.0, high: 1023.0 / 1024.0 };
 
     fn value(&self, sample: &Sample) -> f64 {

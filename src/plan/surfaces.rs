@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::Kind;
+use crate::pattern;
 use crate::world::{Origins, SurfacePart};
 
 pub(super) fn surfaces(origins: &Origins) -> Vec<Kind> {
@@ -40,12 +41,6 @@ fn cost(part: SurfacePart, word: &str) -> &'static str {
         return "the light on each layer a hit";
     }
     match word {
-        "bozo" | "bumps" | "dents" | "spotted" => "one noise a point",
-        "granite" => "six noises a point",
-        "wrinkles" => "ten noises a point",
-        "agate" => "noise of several octaves a point",
-        "crackle" | "facets" => "the random points of the cells around a point",
-        "julia" | "mandel" | "magnet_julia" | "magnet_mandel" => "its iterations a point",
         "image_map" | "image_pattern" | "bump_map" | "material_map" | "density_file" => {
             "the pixels or values around a point"
         }
@@ -53,6 +48,6 @@ fn cost(part: SurfacePart, word: &str) -> &'static str {
         "function" => "its function a point",
         "object" => "a test of its object a point",
         "pigment_pattern" => "its pigment a point",
-        _ => "a formula a point",
+        word => pattern::Kind::of_word(word).map_or("a formula a point", |pattern| pattern.cost()),
     }
 }

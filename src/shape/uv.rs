@@ -179,7 +179,7 @@ mod tests {
             "box" => {
                 let (low, high) = (Vector::splat(-1.0), Vector::new(0.9, 0.8, 0.7));
                 let matrix = Matrix::from_diagonal((high - low).recip());
-                return Mapping { form: Form::Box, map: Map { centre: low, matrix } };
+                return Mapping { form: Form::Box, map: Map::new(low, matrix) };
             }
             "torus" => Form::Torus(0.7),
             "ovus" => Form::Ovus(0.4),

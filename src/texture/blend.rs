@@ -8,10 +8,8 @@ use super::image::ImageMap;
 use super::pigment::Pigment;
 use super::region::Region;
 use super::slope::{self, Slope};
-use super::space::{Nowhere, Place, Space, Step, Surroundings};
-use crate::color::Color;
+use super::space::{Place, Space, Surroundings};
 use crate::math::Vector;
-use crate::math::interval::Interval;
 use crate::pattern::{Kind, Measured, Sample, Setting, Wave, WaveKind};
 
 /// A pattern with its parameters, and what follows its values.
@@ -116,18 +114,6 @@ impl Pattern {
     fn waved(&self, raw: Measured) -> Measured {
         self.wave.measured(raw)
     }
-
-    /// Returns an interval that contains the value at each point within `reach` of `point` along each axis.
-    pub fn bounds(&self, point: Vector, reach: Vector) -> Interval {
-        let raw = match &self.source {
-            Source::Kind(kind) => match point.is_finite() && reach.is_finite() {
-                true => kind.bounds(point, reach, &self.setting),
-                false => kind.range(),
-            },
-            _ => Interval::EVERYTHING,
-        };
-        self.wave.bounds(raw)
-    }
 }
 
 /// Things over the values of a pattern.
@@ -168,31 +154,6 @@ impl<T> Blend<T> {
             false => entry_at(&self.entries, value, error).unwrap_or(value),
         };
         (place, look_up(&self.entries, Measured { value, error: 0.0 }))
-    }
-}
-
-impl Blend<Color> {
-    /// Returns the colour of a value; `None` if that is NaN.
-    pub fn color_of(&self, value: f64) -> Option<Color> {
-        Some(match look_up(&self.entries, Measured { value, error: 0.0 })? {
-            Mix::One(color) => *color,
-            Mix::Two(low, high, weight) => low.lerp(*high, weight),
-        })
-    }
-
-    /// Returns an interval that contains the pattern's value at each point of a box.
-    pub fn values_in(&self, sides: &[Interval]) -> Interval {
-        let side = |at: usize| sides.get(at).copied().unwrap_or(Interval::point(0.0));
-        let half = |side: Interval| (0.5 * (side.high - side.low)).next_up();
-        let sides = [side(0), side(1), side(2)];
-        let middle = Vector::from_array(sides.map(|s| s.low + 0.5 * (s.high - s.low)));
-        let reach = Vector::from_array(sides.map(half));
-        let around = Nowhere { point: middle, error: reach, is_sharp: false };
-        let place = Place::new(&self.space, None, &around);
-        if self.space.steps.iter().any(|step| matches!(step, Step::Warp(_))) {
-            return self.pattern.bounds(Vector::ZERO, Vector::INFINITY);
-        }
-        self.pattern.bounds(place.point, place.error())
     }
 }
 

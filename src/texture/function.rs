@@ -84,6 +84,10 @@ impl Ask for Asked {
         }
     }
 
+    fn has_slopes(&self) -> bool {
+        !matches!(self, Self::Pigment { .. })
+    }
+
     fn sloped<const N: usize>(&self, arguments: &[Sloped<N>]) -> Sloped<N> {
         match self {
             Self::Noise { function, generator } => function.sloped(*generator, arguments),
@@ -93,34 +97,4 @@ impl Ask for Asked {
             }
         }
     }
-}
-
-impl Pigment {
-    /// Returns an interval that contains a component of its colour at each point of a box.
-    fn bounds(&self, sides: &[Interval], component: Component) -> Interval {
-        let values = match self {
-            Self::Ramp(blend) => blend.values_in(sides),
-            _ => Interval::EVERYTHING,
-        };
-        let Self::Ramp(blend) = self else {
-            let mut range: Option<Interval> = None;
-            self.for_each_color(&mut |color| {
-                let part = Interval::point(component.of(color));
-                range = Some(range.map_or(part, |range| range.hull(part)));
-            });
-            return widened(range.unwrap_or(Interval::EVERYTHING));
-        };
-        let part = |color: Color| Interval::point(component.of(color));
-        let at = |value| blend.color_of(value).map(part);
-        let inner = blend.entries.iter().filter(|(position, _)| values.contains(*position));
-        let inner = inner.map(|(_, color)| part(*color));
-        let all = inner.chain(at(values.low)).chain(at(values.high));
-        widened(all.reduce(Interval::hull).unwrap_or(Interval::EVERYTHING))
-    }
-}
-
-/// Widens an interval by the rounding of colours that are interpolated.
-fn widened(Interval { low, high }: Interval) -> Interval {
-    let off = 4.0 * f64::from(f32::EPSILON) * low.abs().max(high.abs());
-    Interval { low: low - off, high: high + off }
 }

@@ -6,6 +6,7 @@
 //! **Source:** POV-Ray 3.7 manual, sections "Image Map", "Image Pattern" and "Bitmap Modifiers"; all of it
 //! measured on POV-Ray 3.7, to its single precision.
 
+mod bounds;
 pub mod conversion;
 mod interpolation;
 mod projection;
@@ -18,6 +19,7 @@ use std::sync::Arc;
 use super::picture::{Picture, Samples};
 use crate::color::{Color, Gamma, Rgb};
 use crate::math::Vector;
+use crate::math::interval::Interval;
 use conversion::{Conversion, Purpose};
 use interpolation::{Blend, Grid};
 use projection::Place;
@@ -48,6 +50,8 @@ pub struct ImageMap {
     pub interpolation: Interpolation,
     pub source: Source,
     levels: Levels,
+    /// The range of converted numbers.
+    extent: Interval,
     /// The colours of the palette, with `filter` and `transmit`; empty if there is none.
     palette: Vec<Pixel>,
     /// `filter all` and `transmit all` of a picture without a palette.
@@ -82,6 +86,26 @@ impl Levels {
     }
 }
 
+impl Levels {
+    /// Returns the range of the converted numbers of a picture; conversions do not fall.
+    fn extent(&self, samples: &Samples) -> Interval {
+        match (self, samples) {
+            (Self::Table(levels), _) => {
+                let ends = [levels.first(), levels.last()].map(|end| end.copied().unwrap_or(0.0));
+                Interval::between(ends[0], ends[1])
+            }
+            (Self::Direct(conversion), Samples::Float(samples)) => {
+                let numbers = samples.iter().filter(|number| !number.is_nan());
+                let limited = numbers.map(|number| f64::from(number.clamp(f32::MIN, f32::MAX)));
+                let range = |range: Interval, number| range.hull(Interval::point(number));
+                let Interval { low, high } = limited.fold(Interval::point(0.0), range);
+                Interval::between(conversion.convert(low), conversion.convert(high))
+            }
+            (Self::Direct(_), _) => Interval::UNDECIDED,
+        }
+    }
+}
+
 /// Which property of colours that let light through is set: [`ImageMap::set_clear`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Clear {
@@ -110,6 +134,7 @@ impl ImageMap {
     ) -> Self {
         let conversion = Conversion::new(picture.encoding, gamma, purpose);
         let levels = Levels::new(&picture.samples, conversion);
+        let extent = levels.extent(&picture.samples);
         let divides = purpose != Purpose::Values
             && matches!(picture.channels, 2 | 4)
             && premultiplied.unwrap_or(picture.is_multiplied);
@@ -130,6 +155,7 @@ impl ImageMap {
             interpolation: Interpolation::None,
             source: Source::Color,
             levels,
+            extent,
             palette,
             filter: 0.0,
             transmit: 0.0,
@@ -165,7 +191,8 @@ impl ImageMap {
         Ok(())
     }
 
-    /// Calls `visit` for a clear and an opaque colour, if the picture may have such.
+    /// Calls `visit` for the colours of the palette, or for one as bright as its brightest number; then for a clear
+    /// one, if it may have such.
     pub fn for_each_color(&self, visit: &mut dyn FnMut(Color)) {
         let has_alpha = matches!(self.picture.channels, 2 | 4);
         let is_clear = self.once
@@ -173,7 +200,11 @@ impl ImageMap {
             || self.filter != 0.0
             || self.transmit != 0.0
             || self.palette.iter().any(|color| color[3] != 0.0 || color[4] != 0.0);
-        visit(Color { filter: self.filter, ..Color::WHITE });
+        self.palette.iter().for_each(|pixel| visit(color(*pixel)));
+        if self.palette.is_empty() {
+            let rgb = Rgb::WHITE * self.extent.high;
+            visit(Color { rgb, filter: self.filter, transmit: 0.0 });
+        }
         if is_clear && self.filter == 0.0 {
             visit(Color { transmit: 1.0, ..Color::WHITE });
         }
@@ -185,10 +216,9 @@ impl ImageMap {
         let place = self.map_type.place(point, Vector::ZERO)?;
         let place = if self.once { place.inside()? } else { place };
         let Picture { width, height, .. } = *self.picture;
-        let repeating = Self { once: false, ..self.clone() };
         Some(move |right: f64, up: f64| {
             let u = place.u + right / width as f64;
-            repeating.value_at_uv(u, place.v + up / height as f64)
+            self.value_at(Place::new(u, place.v + up / height as f64), false)
         })
     }
 
@@ -206,12 +236,13 @@ impl ImageMap {
     /// Returns the colour at a point that may be off by `error` along each axis. A point that may be on a seam
     /// between pixels of a planar map is on it: it belongs to the pixel right of it, or above it.
     pub fn color_within(&self, point: Vector, error: Vector) -> Option<Color> {
-        Some(color(self.blend(self.map_type.place(point, error)?, |x, y| self.pixel(x, y))?))
+        let place = self.map_type.place(point, error)?;
+        Some(color(self.blend(place, self.once, |x, y| self.pixel(x, y))?))
     }
 
     /// Returns the colour at a position in the picture: 0, 0 is its lower left corner, 1, 1 its upper right one.
     pub fn at_uv(&self, u: f64, v: f64) -> Option<Color> {
-        Some(color(self.blend(Place::new(u, v), |x, y| self.pixel(x, y))?))
+        Some(color(self.blend(Place::new(u, v), self.once, |x, y| self.pixel(x, y))?))
     }
 
     /// Returns the value at a point: 0 where the map shows nothing.
@@ -223,7 +254,7 @@ impl ImageMap {
     /// Returns the value at a point that may be off by `error`; see [`ImageMap::color_within`].
     pub fn value_within(&self, point: Vector, error: Vector) -> f64 {
         let place = self.map_type.place(point, error);
-        place.map_or(0.0, |place| self.value_at(place))
+        place.map_or(0.0, |place| self.value_at(place, self.once))
     }
 
     /// Returns the number of the texture, of `count`, that a `material_map` chooses at a point. Numbers start again
@@ -234,15 +265,15 @@ impl ImageMap {
 
     /// Returns the value at a position in the picture; see [`ImageMap::at_uv`].
     pub fn value_at_uv(&self, u: f64, v: f64) -> f64 {
-        self.value_at(Place::new(u, v))
+        self.value_at(Place::new(u, v), self.once)
     }
 
-    fn value_at(&self, place: Place) -> f64 {
+    fn value_at(&self, place: Place, once: bool) -> f64 {
         let most = match (self.source, &self.picture.samples) {
             (Source::Index, Samples::Indexed { .. }) | (Source::Material, _) => 255.0,
             _ => 1.0,
         };
-        let Some([value]) = self.blend(place, |x, y| [self.number(x, y)]) else { return 0.0 };
+        let Some([value]) = self.blend(place, once, |x, y| [self.number(x, y)]) else { return 0.0 };
         match (self.source, most == 1.0) {
             (Source::Index, false) => whole(value),
             _ => value.clamp(0.0, most),
@@ -252,11 +283,12 @@ impl ImageMap {
     fn blend<const N: usize>(
         &self,
         place: Place,
+        once: bool,
         pixel: impl Fn(usize, usize) -> [f64; N],
     ) -> Option<[f64; N]> {
         let Picture { width, height, .. } = *self.picture;
-        let grid = Grid { width, height, repeats: !self.once };
-        let place = match self.once {
+        let grid = Grid { width, height, repeats: !once };
+        let place = match once {
             true => place.inside()?,
             false => place,
         };

@@ -7,6 +7,7 @@
 //! position; trees are at most [`DEEPEST`] nodes deep, so evaluation may recurse.
 
 pub mod blend;
+mod bounds;
 pub mod density;
 pub mod finish;
 pub mod function;

@@ -17,9 +17,9 @@ pub use frame::Frame;
 
 use super::blend::{Blend, Mix, Pattern, Source};
 use super::image::ImageMap;
-use super::space::{Place, Space, Surroundings};
+use super::space::{Place, Space, Surroundings, Turn};
 use super::walk::Node;
-use crate::math::{Matrix, Vector};
+use crate::math::Vector;
 use crate::pattern::{Measured, Sample};
 
 /// The normals of a surface.
@@ -120,12 +120,12 @@ impl Normal {
     }
 }
 
-/// Returns the map of directions from the space around a node to its own.
-fn turned(place: &Place, outer: Option<&Place>) -> Matrix {
+/// Returns the map from the space around a node to its own.
+fn turned(place: &Place, outer: Option<&Place>) -> Turn {
     match outer {
         // Both are relative to the world.
-        Some(outer) => place.directions() * outer.directions().inverse(),
-        None => place.directions(),
+        Some(outer) => place.turn().after(outer.turn().inverse()),
+        None => place.turn(),
     }
 }
 
@@ -146,7 +146,7 @@ impl Bumps {
             let setting = &self.pattern.setting;
             let sample = Sample { point: place.point, error: Vector::ZERO, setting };
             if let Some(own) = kind.displacement(normal, &sample) {
-                let amount = if kind.word() == "facets" { 1.0 } else { self.amount };
+                let amount = if kind.scales_by_amount() { self.amount } else { 1.0 };
                 return own * amount;
             }
         }
@@ -160,3 +160,6 @@ impl Bumps {
         bump::displacement(place.point, self.accuracy, height) * self.amount
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,6 +4,36 @@ use crate::math::placement::Map;
 use crate::math::{Matrix, Vector};
 use crate::pattern::Warp;
 
+/// A linear map from one space to another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    /// Maps directions.
+    pub directions: Matrix,
+    /// Maps normals: the inverse transpose.
+    pub normals: Matrix,
+}
+
+impl Turn {
+    pub const NONE: Self = Self { directions: Matrix::IDENTITY, normals: Matrix::IDENTITY };
+
+    /// Returns that of an affine map.
+    pub fn of(map: &Map) -> Self {
+        Self { directions: map.matrix, normals: map.normals }
+    }
+
+    /// Returns the map that applies `first`, and then this.
+    pub fn after(self, first: Self) -> Self {
+        Self {
+            directions: self.directions * first.directions,
+            normals: self.normals * first.normals,
+        }
+    }
+
+    pub fn inverse(self) -> Self {
+        Self { directions: self.normals.transpose(), normals: self.directions.transpose() }
+    }
+}
+
 /// Indices into a list of textures or colours, each with its weight; the weights sum to 1.
 pub type Paint = smallvec::SmallVec<[(u32, f64); 3]>;
 
@@ -48,8 +78,8 @@ pub trait Surroundings {
     /// [`crate::pattern::NEAR`].
     fn is_sharp(&self) -> bool;
 
-    /// Returns the map of directions from the world to the space of a slot.
-    fn directions(&self, slot: u32) -> Matrix;
+    /// Returns the map from the world to the space of a slot.
+    fn turn(&self, slot: u32) -> Turn;
 
     /// Returns the surface's own coordinates.
     fn uv(&self) -> [f64; 2];
@@ -99,8 +129,8 @@ impl Surroundings for Nowhere {
         self.is_sharp
     }
 
-    fn directions(&self, _slot: u32) -> Matrix {
-        Matrix::IDENTITY
+    fn turn(&self, _slot: u32) -> Turn {
+        Turn::NONE
     }
 
     fn uv(&self) -> [f64; 2] {
@@ -195,19 +225,19 @@ impl<'a> Place<'a> {
         Self { point, ..*self }
     }
 
-    /// Returns the map of directions from the world to the space of the node, without its warps.
-    pub fn directions(&self) -> Matrix {
+    /// Returns the map from the world to the space of the node, without its warps.
+    pub fn turn(&self) -> Turn {
         let start = match (self.space.start, self.outer) {
-            (Start::Outer | Start::Uv, Some(outer)) => outer.directions(),
-            (Start::Outer | Start::Uv, None) => Matrix::IDENTITY,
-            (Start::Slot(slot), _) => self.around.directions(slot),
+            (Start::Outer | Start::Uv, Some(outer)) => outer.turn(),
+            (Start::Outer | Start::Uv, None) => Turn::NONE,
+            (Start::Slot(slot), _) => self.around.turn(slot),
             // Its place has all the transforms.
-            (Start::UvTurned(slot), _) => return self.around.directions(slot),
+            (Start::UvTurned(slot), _) => return self.around.turn(slot),
         };
         let steps = self.space.steps.iter();
-        steps.fold(start, |directions, step| match step {
-            Step::Map(map) => map.matrix * directions,
-            Step::Warp(_) => directions,
+        steps.fold(start, |turn, step| match step {
+            Step::Map(map) => Turn::of(map).after(turn),
+            Step::Warp(_) => turn,
         })
     }
 

@@ -114,9 +114,9 @@ mod tests {
         let mut random = Random(6);
         let mut sharp = 0;
         for _ in 0..tries() {
-            let mut map = || Map {
-                centre: random.point(1.0) * random.size(-6.0, 6.0),
-                matrix: random.matrix() * random.size(-6.0, 6.0),
+            let mut map = || {
+                let centre = random.point(1.0) * random.size(-6.0, 6.0);
+                Map::new(centre, random.matrix() * random.size(-6.0, 6.0))
             };
             let (first, second) = (map(), map());
             let space = Space { start: Start::Slot(0), steps: vec![Step::Map(second)] };

@@ -5,10 +5,11 @@
 use super::path::Tracer;
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, ANY, Hit};
+use crate::math::Vector;
 use crate::math::power::power;
-use crate::math::{Matrix, Vector};
 use crate::shape::{Paint, Ray, Shape, SurfacePoint};
 use crate::texture::blend::Mix;
+use crate::texture::space::Turn;
 use crate::texture::{self, Normal, Place, Surroundings};
 use crate::world::{Coat, Pigment, Plain, Texture, World};
 
@@ -237,9 +238,9 @@ impl Surroundings for SurfaceInteraction<'_, '_> {
             && self.surface.spread_at_most(self.ray, self.hit.t, self.hit.error) < self.sharp_below
     }
 
-    fn directions(&self, slot: u32) -> Matrix {
-        let map = |first: u32| self.world.texture_maps[(first + slot) as usize].matrix;
-        self.coat.places.map_or(Matrix::IDENTITY, map)
+    fn turn(&self, slot: u32) -> Turn {
+        let turn = |first: u32| Turn::of(&self.world.texture_maps[(first + slot) as usize]);
+        self.coat.places.map_or(Turn::NONE, turn)
     }
 
     fn uv(&self) -> [f64; 2] {

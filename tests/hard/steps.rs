@@ -9,6 +9,8 @@ const BLOCKS: &str = "union {
 
 const SLOPE: &str = "intersection { box { -1.2, 1.2 } plane { y - x, 0 }";
 
+const LEVEL: &str = "box { -1.2, <1.2, 0.3, 1.2>";
+
 /// What is declared, the function, and the solid of which it is the surface.
 const PAIRS: &[[&str; 3]] = &[
     ["", "y - sum(i, 1, 2, 0.5*x)", SLOPE],
@@ -18,6 +20,22 @@ const PAIRS: &[[&str; 3]] = &[
     ["function { pattern { checker } }", "y - 0.5*F(x, 0.5, 0.5)", BLOCKS],
     ["function { pigment { checker rgb 0 rgb 1 } }", "y - 0.5*F(x, 0.5, 0.5).red", BLOCKS],
     ["function { pattern { gradient x scale 4 translate -2*x } }", "y + 2 - 4*F(x, y, z)", SLOPE],
+    [
+        "function { pattern { gradient x turbulence 1e-9 scale 4 translate -2*x } }",
+        "y + 2 - 4*F(x, y, z)",
+        SLOPE,
+    ],
+    [
+        "function { pattern { marble ramp_wave turbulence 1e-9 scale 4 translate -2*x } }",
+        "y + 2 - 4*F(x, y, z)",
+        SLOPE,
+    ],
+    ["function { pattern { function { 0.3 + 0*x } } }", "y - F(x, y, z)", LEVEL],
+    [
+        "function { pigment { gradient x pigment_map { [0 function { 0.3 }] [1 rgb 0.3] } } }",
+        "y - F(x, y, z).red",
+        LEVEL,
+    ],
 ];
 
 #[test]

@@ -95,14 +95,11 @@ impl Outside for Functions<'_> {
         match function {
             Some(AuthorFunction::Formula(function)) => function.run().at(arguments, self),
             Some(AuthorFunction::Noise(noise)) => noise.bounds(self.noise, arguments),
-            Some(AuthorFunction::Pattern(_)) => Interval::EVERYTHING,
-            Some(AuthorFunction::Pigment(pigment)) => {
-                // A colour is interpolated between those of the map.
-                let colors = pigment.colors().into_iter();
-                let parts = colors.map(|color| part(color.single(), component));
-                let range = parts.map(Interval::point).reduce(Interval::hull);
-                range.unwrap_or(Interval::EVERYTHING)
-            }
+            Some(AuthorFunction::Pattern(pattern)) => pattern.bounds(arguments, Number::Value),
+            Some(AuthorFunction::Pigment(pigment)) => match component_of(component) {
+                Some(component) => pigment.bounds(arguments, component),
+                None => Interval::EVERYTHING,
+            },
             Some(AuthorFunction::Transform(functions)) => match functions.get(component) {
                 Some(function) => function.run().at(arguments, self),
                 None => Interval::EVERYTHING,

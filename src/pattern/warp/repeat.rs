@@ -2,6 +2,7 @@
 
 use super::Warping;
 use crate::math::Vector;
+use crate::math::finite::single;
 use crate::pattern::parameter::parameters;
 use crate::pattern::settled;
 
@@ -24,8 +25,7 @@ impl Warping for Repeat {
     fn canonical(self) -> Self {
         let mut width = Vector::ZERO;
         if let Some(axis) = (0..3).find(|&axis| self.width[axis] != 0.0) {
-            let greatest = f64::from(f32::MAX);
-            width[axis] = single(self.width[axis].clamp(-greatest, greatest));
+            width[axis] = single(self.width[axis]);
         }
         Self { width, ..self }
     }
@@ -49,10 +49,4 @@ impl Warping for Repeat {
         }
         (point + self.offset * count, error)
     }
-}
-
-/// Rounds to single precision if that does not overflow.
-fn single(number: f64) -> f64 {
-    let rounded = f64::from(number as f32);
-    if rounded.is_finite() { rounded } else { number }
 }

@@ -2,6 +2,7 @@
 
 use super::Warping;
 use crate::math::Vector;
+use crate::math::interval::Interval;
 use crate::noise;
 use crate::pattern::parameter::parameters;
 
@@ -21,12 +22,20 @@ impl Turbulence {
     pub fn new(amount: Vector, octaves: f64, lambda: f64, omega: f64) -> Self {
         Self { amount, octaves, lambda, omega }
     }
+
+    fn layers(&self) -> noise::Turbulence {
+        noise::Turbulence::new(self.lambda, self.omega, self.octaves)
+    }
 }
 
 impl Warping for Turbulence {
     fn moved(&self, point: Vector, _error: Vector) -> (Vector, Vector) {
-        let layers = noise::Turbulence::new(self.lambda, self.omega, self.octaves);
         // No seam of the pattern coincides with anything after that.
-        (point + self.amount * layers.vector(point), Vector::ZERO)
+        (point + self.amount * self.layers().vector(point), Vector::ZERO)
+    }
+
+    fn bounds(&self, sides: [Interval; 3]) -> [Interval; 3] {
+        let noise = self.layers().vector_bounds(sides);
+        std::array::from_fn(|axis| sides[axis] + noise[axis] * Interval::point(self.amount[axis]))
     }
 }

@@ -15,9 +15,13 @@ use crate::shape::body::{LocalRay, Met};
 /// Number of steps after which another method is better.
 const GUESSES: u32 = 24;
 
+/// Width, in units of the `accuracy`, up to which a function without slopes is sampled: bounds take longer than that.
+const SAMPLED: f64 = 8.0;
+
 /// Evaluates the function along one line.
 pub(super) struct Line<'a> {
     surface: &'a Isosurface,
+    has_slopes: bool,
     ray: &'a LocalRay<'a>,
     run: OnceCell<RefCell<Running<'a, Sloped<1>>>>,
     plain: OnceCell<RefCell<Running<'a, f64>>>,
@@ -25,12 +29,22 @@ pub(super) struct Line<'a> {
 
 impl<'a> Line<'a> {
     pub fn new(surface: &'a Isosurface, ray: &'a LocalRay<'a>) -> Self {
-        Self { surface, ray, run: OnceCell::new(), plain: OnceCell::new() }
+        let has_slopes = surface.function.has_slopes();
+        Self { surface, has_slopes, ray, run: OnceCell::new(), plain: OnceCell::new() }
     }
 
     /// Returns the range of the value less the threshold, and of its slope, over all lines that may be
     /// intended.
     pub fn bounds(&self, s: Interval) -> Bounds {
+        if !self.has_slopes {
+            match s.single() {
+                Some(s) => return self.at(s),
+                None if s.high - s.low <= SAMPLED * self.surface.accuracy => {
+                    return Bounds { value: Interval::EVERYTHING, slope: Interval::EVERYTHING };
+                }
+                None => {}
+            }
+        }
         let far = s.low.abs().max(s.high.abs());
         let blur = self.ray.blur_at(far);
         let wide = |value: f64, by: f64| Interval { low: value - by, high: value + by };

@@ -5,8 +5,8 @@
 //! crossing cannot be missed because of an undeclared gradient. **Invariant:** a crossing lies between two
 //! positions where the function's bounds, over all lines that may be intended, have opposite signs; where a
 //! jump lies within that uncertainty, the value on the line itself counts. `accuracy` determines how finely
-//! the search subdivides where the bounds are infinite, for example where the function may be undefined, and
-//! how wide a jump or a kink may be that is told apart from a slope.
+//! the search subdivides where the bounds are infinite, for example where the function may be undefined, or
+//! where it asks a pigment, whose slopes are not known; and how wide a jump or a kink may be that is told apart from a slope.
 
 mod cells;
 mod container;
@@ -136,9 +136,11 @@ impl Isosurface {
     /// neighbourhoods, and their size; `None` if the function is constant.
     fn gradient_around(&self, point: Vector) -> Option<(Vector, f64)> {
         let steps = [1e-6, 0.1 * self.accuracy, self.accuracy, 4.0 * self.accuracy];
+        // Over less, a pigment's colours are steps of single precision.
+        let first = usize::from(!self.function.has_slopes());
         let gradients = steps.into_iter().map(|step| (self.differences(point, step), step));
         gradients
-            .into_iter()
+            .skip(first)
             .find(|(gradient, _)| gradient.is_finite() && *gradient != Vector::ZERO)
     }
 }
@@ -288,7 +290,8 @@ impl Local for Isosurface {
         // A value that is as large as the rise nearby is what a jump is from, and no distance.
         if value.abs() <= 0.1 * step * steepness {
             let place = 1.0 + self.centre.length() / self.scale;
-            let error = 8.0 * U * (value.abs() + self.threshold.abs() + place * steepness);
+            let rounded = 8.0 * U * (value.abs() + self.threshold.abs() + place * steepness);
+            let error = if error.is_finite() { error.max(rounded) } else { rounded };
             return Height { value, gradient, error };
         }
         // A jump: the point is as near to it as its crossing was found.

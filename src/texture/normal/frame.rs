@@ -3,7 +3,8 @@
 //! **Invariant:** a normal is perpendicular to its surface in both spaces: it is mapped by the inverse
 //! transpose of the map of directions.
 
-use crate::math::{Matrix, UnitVector, Vector};
+use crate::math::{UnitVector, Vector};
+use crate::texture::space::Turn;
 
 /// The map of normals between a surrounding space and the space of a pattern.
 ///
@@ -17,21 +18,14 @@ use crate::math::{Matrix, UnitVector, Vector};
 /// **Source:** POV-Ray manual, section 3.4.6.2.4 "Scaling normals"; the maps are measured on POV-Ray 3.7.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    to_pattern: Matrix,
-    /// Maps normals to the space of the pattern.
-    normals: Matrix,
+    turn: Turn,
     keeps_depth: bool,
 }
 
 impl Frame {
-    /// Builds a frame from the map of directions into the space of the pattern. `keeps_depth` is
-    /// `no_bump_scale`.
-    pub fn new(to_pattern: Matrix, keeps_depth: bool) -> Self {
-        let normals = match to_pattern == Matrix::IDENTITY {
-            true => to_pattern,
-            false => to_pattern.inverse().transpose(),
-        };
-        Self { to_pattern, normals, keeps_depth }
+    /// Builds a frame from the map into the space of the pattern. `keeps_depth` is `no_bump_scale`.
+    pub fn new(turn: Turn, keeps_depth: bool) -> Self {
+        Self { turn, keeps_depth }
     }
 
     /// Returns the sum of `normal` and the vector that `displacement` returns for it, both in the space of
@@ -40,14 +34,9 @@ impl Frame {
     /// The result has length 1, except with `no_bump_scale`; for an entry of a map its length is its weight.
     /// Where the sum vanishes, the result is `normal`.
     pub fn entry(&self, normal: Vector, displacement: impl FnOnce(Vector) -> Vector) -> Vector {
-        let inner = self.length_settled(self.normals * normal, normal);
-        let outer = self.to_pattern.transpose() * (inner + displacement(inner));
+        let inner = self.length_settled(self.turn.normals * normal, normal);
+        let outer = self.turn.directions.transpose() * (inner + displacement(inner));
         self.length_settled(outer, normal)
-    }
-
-    /// Returns [`entry`](Self::entry) with length 1: the perturbed normal of a surface.
-    pub fn perturbed(&self, normal: Vector, displacement: impl FnOnce(Vector) -> Vector) -> Vector {
-        unit(self.entry(normal, displacement), normal)
     }
 
     fn length_settled(&self, v: Vector, otherwise: Vector) -> Vector {

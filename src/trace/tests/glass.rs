@@ -59,7 +59,7 @@ fn index_behind(built: Built) -> f64 {
     let axis = |direction: Vector| {
         // From −1 … 1 to 0 … 1.
         let matrix = Matrix::from_diagonal(Vector::splat(0.499_999));
-        let step = Step::Map(Map { centre: direction * -1.0, matrix });
+        let step = Step::Map(Map::new(direction * -1.0, matrix));
         ramp(gradient(direction), vec![step], black_to_white())
     };
     let along = |direction: Vector| {

@@ -187,7 +187,7 @@ fn a_pattern_is_read_in_the_textures_space_and_then_in_its_own() {
     striped.pigment = ramp(gradient(Vector::X), vec![step], black_to_white());
     let world = Built::default().plane(UnitVector::Z, -3.0, striped).world(|world| {
         let matrix = Matrix::from_diagonal(Vector::splat(0.25));
-        world.texture_maps = vec![Map::IDENTITY, Map { centre: Vector::X * -2.0, matrix }];
+        world.texture_maps = vec![Map::IDENTITY, Map::new(Vector::X * -2.0, matrix)];
         world.objects[0].places = Some(1);
     });
     // Seen at x = 0: (0 + 2) / 4 in the texture, an eighth less in the pattern.

@@ -1,16 +1,23 @@
-//! Finite results for points of any size.
+//! Finite results for numbers of any size, and rounding to single precision.
 
-use crate::math::{UnitVector, Vector};
+use super::{UnitVector, Vector};
 
 /// Limits a number to finite ones; NaN counts as 0.
 #[inline]
-pub(super) fn finite(number: f64) -> f64 {
+pub(crate) fn finite(number: f64) -> f64 {
     if number.is_nan() { 0.0 } else { number.clamp(-f64::MAX, f64::MAX) }
+}
+
+/// Rounds to single precision, limited to finite numbers; NaN counts as 0.
+#[inline]
+pub(crate) fn single(number: f64) -> f64 {
+    let greatest = f64::from(f32::MAX);
+    f64::from(finite(number).clamp(-greatest, greatest) as f32)
 }
 
 /// Returns the length of `v`, at most the greatest number.
 #[inline]
-pub(super) fn length(v: Vector) -> f64 {
+pub(crate) fn length(v: Vector) -> f64 {
     let squared = v.length_squared();
     // Otherwise a square may have overflowed or lost digits.
     if (1e-200..1e200).contains(&squared) {
