@@ -12,6 +12,7 @@
 extern crate alloc;
 
 pub mod accuracy;
+pub mod bvh;
 pub mod color;
 pub mod diagnostic;
 pub mod evaluate;

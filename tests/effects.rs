@@ -300,7 +300,12 @@ sphere { 0, 1 no_shadow }";
             Effect::DoubleIllumination,
             "double_illuminate on",
         ),
-        (LIT, "disc { x, z, 1 finish { diffuse 0.6, 0.3 } }", Effect::DoubleIllumination, "0.3"),
+        (
+            LIT,
+            "disc { x, z, 1 finish { diffuse 0.6, 0.3 } }",
+            Effect::DoubleIllumination,
+            "diffuse 0.6, 0.3",
+        ),
         (LIT, "sphere { x, 1 no_image }", Effect::Hiding, "no_image"),
         (LIT, "union { sphere { x, 1 } no_reflection on }", Effect::Hiding, "no_reflection on"),
         (

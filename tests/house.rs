@@ -15,6 +15,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     // ground
     ("math", &[]),
     ("color", &["math"]),
+    ("bvh", &["math"]),
     // words
     ("source", &[]),
     ("vocabulary", &[]),
@@ -26,11 +27,11 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("spline", &["math"]),
     ("function", &["math", "noise"]),
     ("texture", &["color", "function", "math", "noise", "pattern", "spline"]),
-    ("shape", &["function", "math", "texture"]),
+    ("shape", &["bvh", "function", "math", "texture"]),
     // nouns
     ("scene", &["color", "math", "noise", "pattern", "source", "texture", "vocabulary"]),
     ("world", &["color", "math", "pattern", "shape", "source", "texture"]),
-    ("geometry", &["math", "shape", "world"]),
+    ("geometry", &["bvh", "math", "shape", "world"]),
     ("plan", &["color", "math", "pattern", "shape", "source", "world"]),
     ("film", &["color", "math", "plan"]),
     // Pictures of textures have an encoding.
@@ -130,6 +131,7 @@ const DOORS: &[(&str, &[&str])] = &[
     (
         "smallvec",
         &[
+            "bvh/",
             "function/",
             "geometry/",
             "lower/",

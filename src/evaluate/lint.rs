@@ -258,12 +258,34 @@ impl Evaluator<'_> {
             .is_some_and(|span| matches!(word(span), "pigment" | "color_map" | "colour_map"))
     }
 
-    /// Reports a `checker` with only one of its two colours.
-    pub(super) fn lint_missing_color(&mut self, token: &Token, other: &str) {
-        let message = format!("this `checker` has one colour; the other is {other} by default");
+    /// Reports a pattern with `given` of its `count` colours. The others are its own, or in a list with pigments
+    /// the default pigment.
+    pub(super) fn lint_missing_color(
+        &mut self,
+        token: &Token,
+        pattern: &str,
+        (given, count): (usize, usize),
+        has_pigments: bool,
+    ) {
+        let missing = match count - given {
+            1 => "the other is",
+            _ => "the others are",
+        };
+        let default = match pattern {
+            _ if has_pigments => "black",
+            "checker" => "green",
+            _ => "the pattern's own",
+        };
+        let has = if given == 1 { "one colour".to_owned() } else { format!("{given} colours") };
+        let wanted = if count == 2 { "two".to_owned() } else { count.to_string() };
+        let message = format!("this `{pattern}` has {has}; {missing} {default} by default");
+        let help = match pattern {
+            "checker" => "write both: `checker rgb 1, rgb 0`".to_owned(),
+            _ => format!("`{pattern}` takes {count} colours, with commas between them"),
+        };
         let diagnostic = Diagnostic::new(Code::MissingColor, message)
-            .at(token.span, "expected two colours after it")
-            .help("write both: `checker rgb 1, rgb 0`");
+            .at(token.span, format!("expected {wanted} colours after it"))
+            .help(help);
         self.report(&token.here, diagnostic);
     }
 

@@ -12,7 +12,7 @@ use super::{ANY, Entry, Geometry, Solid, TIGHT};
 use crate::math::Vector;
 use crate::math::placement::norm;
 use crate::shape::Ray;
-use crate::shape::body::{Local, Met};
+use crate::shape::local::{Local, Met};
 
 /// How far beside the ray is looked, in sizes of the smallest solid that is met: so near that a picture does
 /// not show it, and so far that surfaces that touch are apart; farther where they still are not, as where a
@@ -67,7 +67,7 @@ impl Geometry {
     #[inline(never)]
     pub(super) fn as_seen_beside(&self, ray: &Ray, hit: Hit, limit: f64) -> Hit {
         let Some(nearer) = self.nearer_around(ray, hit, limit) else { return hit };
-        Hit { object: nearer.object, leaving: nearer.leaving, ..hit }
+        Hit { object: nearer.object, leaving: nearer.leaving, part: Met::UNKNOWN, ..hit }
     }
 
     fn nearer_around(&self, ray: &Ray, hit: Hit, limit: f64) -> Option<Hit> {

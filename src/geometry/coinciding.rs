@@ -11,7 +11,7 @@ use super::whole::Whole;
 use super::{Geometry, Solid};
 use crate::math::random::Random;
 use crate::math::{UnitVector, Vector};
-use crate::shape::body::{Local, Met};
+use crate::shape::local::{Local, Met};
 use crate::shape::{Box_, Placed, Ray};
 use crate::world::World;
 

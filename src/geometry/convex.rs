@@ -10,8 +10,8 @@
 use super::span::Around;
 use super::whole::Whole;
 use super::{Geometry, Solid};
-use crate::shape::body::Met;
 use crate::shape::csg::{Event, Events};
+use crate::shape::local::Met;
 use crate::shape::{Chord, Ray};
 
 /// The last of some places along a line.

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::{Extent, Geometry, Solid};
 use crate::math::random::Random;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
-use crate::shape::body::Met;
+use crate::shape::local::Met;
 use crate::shape::{Bounds, Plane, Ray, Rounding, Shape};
 use crate::world::{Object, World};
 

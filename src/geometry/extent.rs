@@ -3,8 +3,8 @@
 use smallvec::SmallVec;
 
 use super::polyhedron::{self, HalfSpace};
-use crate::shape::body::Local;
 use crate::shape::csg::Node;
+use crate::shape::local::Local;
 use crate::shape::{Bounds, Plane, Rounding, Shape};
 use crate::world::World;
 

@@ -6,7 +6,6 @@
 
 mod balls;
 mod beside;
-mod build;
 pub mod coinciding;
 mod convex;
 pub mod doubled;
@@ -22,7 +21,6 @@ mod single;
 mod span;
 mod surface;
 mod through;
-mod tree;
 mod whole;
 mod work;
 
@@ -31,16 +29,14 @@ pub use occluder::Occluder;
 pub use surface::{shading_normal, spread, surface};
 pub use work::Work;
 
-use crate::shape::body::Local;
-use crate::shape::{
-    Bounds, Box_, Crossing, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere, sphere,
-};
+use crate::bvh::Tree;
+use crate::shape::local::{Local, Met};
+use crate::shape::{Bounds, Box_, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere, sphere};
 use crate::world::{Object, World};
 use balls::{Ball, Balls};
 use beside::Grain;
 pub use extent::Extent;
 use sides::Sides;
-use tree::Tree;
 use whole::{Part, Whole};
 
 /// Fewer bounded objects need no tree, only [`Balls`] (measured: `cargo bench --bench intersect`).
@@ -152,7 +148,7 @@ impl Geometry {
             (None, bounded)
         } else {
             let boxes = bounded.iter().filter_map(|&object| bounds(world, object));
-            let (tree, order) = build::tree(&boxes.collect::<Vec<_>>());
+            let (tree, order) = Tree::build(&boxes.collect::<Vec<_>>());
             (Some(tree), order.into_iter().map(|place| bounded[place as usize]).collect())
         };
         let mut geometry = Self {
@@ -310,7 +306,7 @@ impl Geometry {
         entry: &Entry,
         ray: &Ray,
         limit: f64,
-    ) -> Option<(Crossing, bool)> {
+    ) -> Option<Met> {
         if KINDS == PLAIN && !entry.solid.is_plain() {
             not_plain();
         }
@@ -326,7 +322,7 @@ impl Geometry {
                 if BOUND == EASY
                     && let Some(crossing) = roots.roughly(t)
                 {
-                    return (t <= limit).then_some((crossing, leaving));
+                    return (t <= limit).then_some(Met::of(crossing, leaving));
                 }
                 roots.chord()
             }
@@ -339,7 +335,7 @@ impl Geometry {
                 if BOUND == EASY
                     && let Some(crossing) = plane.roughly(ray, speed, t)
                 {
-                    return Some((crossing, leaving));
+                    return Some(Met::of(crossing, leaving));
                 }
                 plane.chord(ray)?
             }
@@ -354,12 +350,11 @@ impl Geometry {
             Solid::Placed(i) => return self.first_met(*i, entry.sides, ray, limit),
             Solid::Whole(i) => return self.first_of_whole(*i, ray, limit, |_| true),
         };
-        let (crossing, leaving) = entry.sides.first_seen(&chord)?;
-        (crossing.t <= limit).then_some((crossing, leaving))
+        entry.sides.first_seen(&chord).filter(|met| met.t <= limit)
     }
 
     #[inline(never)]
-    fn first_met(&self, i: u32, sides: Sides, ray: &Ray, limit: f64) -> Option<(Crossing, bool)> {
+    fn first_met(&self, i: u32, sides: Sides, ray: &Ray, limit: f64) -> Option<Met> {
         let placed = &self.placed[i as usize];
         let first = placed.first_crossings(ray, limit);
         let met = match first.iter().find(|met| sides.see(met)) {
@@ -370,7 +365,7 @@ impl Geometry {
             }
             None => return None,
         };
-        (met.t <= limit).then(|| (placed.shared(ray, &met), met.leaving))
+        (met.t <= limit).then(|| placed.shared(ray, &met))
     }
 }
 

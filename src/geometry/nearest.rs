@@ -6,7 +6,8 @@
 use super::search::{Each, Seeker};
 use super::work::{Tally, Uncounted};
 use super::{ANY, EASY, Entry, Geometry, Manner, TIGHT, Work};
-use crate::shape::{Crossing, Ray};
+use crate::shape::Ray;
+use crate::shape::local::Met;
 
 /// The first surface a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +21,8 @@ pub struct Hit {
     pub error: f64,
     /// The ray leaves the solid here; where it enters, normal and direction are opposed.
     pub leaving: bool,
+    /// The part of the surface, as passed to [`crate::shape::local::Local::height`], or [`Met::UNKNOWN`].
+    pub part: u32,
     /// Error bounds could not tell it from a crossing of another object, or of another part of its whole.
     pub contested: bool,
 }
@@ -91,7 +94,7 @@ impl Geometry {
         ray: &Ray,
         limit: f64,
         tally: T,
-        met: impl Fn(&Entry) -> Option<(Crossing, bool)>,
+        met: impl Fn(&Entry) -> Option<Met>,
     ) -> Option<Hit> {
         let mut first: Option<((bool, u32), Hit)> = None;
         let look = |place: usize, tally: &mut T| {
@@ -99,9 +102,7 @@ impl Geometry {
             let rank = (entry.clear, entry.object);
             if first.is_none_or(|first| rank < first.0) {
                 tally.root_solve(|| self.price(entry));
-                let hit = |(crossing, leaving)| {
-                    (rank, Hit { contested: true, ..self.hit(entry, ray, crossing, leaving) })
-                };
+                let hit = |met| (rank, Hit { contested: true, ..self.hit(entry, ray, met) });
                 first = met(entry).map(hit).or(first);
             }
             limit
@@ -117,7 +118,7 @@ impl Geometry {
             let entry = &self.entries[place];
             tally.root_solve(|| self.price(entry));
             let crossing = self.first_crossing::<TIGHT, ANY>(entry, ray, limit);
-            if let Some((Crossing { t, error }, _)) = crossing {
+            if let Some(Met { t, error, .. }) = crossing {
                 limit = limit.min(t + 2.0 * error);
             }
             limit
@@ -135,6 +136,7 @@ struct Race<'a, T, const KINDS: bool> {
     place: usize,
     t: f64,
     leaving: bool,
+    part: u32,
     /// Its t + 2·error: what is farther is certainly not first. Whether another crossing is at this
     /// or before is the same as with the least t + 2·error of all: that other's is not before its t.
     limit: f64,
@@ -146,8 +148,9 @@ struct Race<'a, T, const KINDS: bool> {
 impl<'a, T: Tally, const KINDS: bool> Race<'a, T, KINDS> {
     #[inline(always)]
     fn new(geometry: &'a Geometry, ray: &'a Ray, tally: T) -> Self {
-        let (place, t, leaving) = (usize::MAX, f64::INFINITY, false);
-        Self { geometry, ray, place, t, leaving, limit: t, rival_t: t, tally }
+        let (place, t) = (usize::MAX, f64::INFINITY);
+        let (leaving, part) = (false, Met::UNKNOWN);
+        Self { geometry, ray, place, t, leaving, part, limit: t, rival_t: t, tally }
     }
 
     #[inline(always)]
@@ -159,7 +162,8 @@ impl<'a, T: Tally, const KINDS: bool> Race<'a, T, KINDS> {
     fn winner(&self) -> Option<Hit> {
         let entry = self.geometry.entries.get(self.place)?;
         let error = (self.limit - self.t) / 2.0;
-        Some(self.geometry.hit(entry, self.ray, Crossing { t: self.t, error }, self.leaving))
+        let Self { t, leaving, part, .. } = *self;
+        Some(self.geometry.hit(entry, self.ray, Met { t, error, leaving, part }))
     }
 }
 
@@ -176,11 +180,11 @@ impl<T: Tally, const KINDS: bool> Seeker for Race<'_, T, KINDS> {
         let entry = &self.geometry.entries[place];
         self.tally.root_solve(|| self.geometry.price(entry));
         let crossing = self.geometry.first_crossing::<EASY, KINDS>(entry, self.ray, self.limit);
-        if let Some((Crossing { t, error }, leaving)) = crossing {
+        if let Some(Met { t, error, leaving, part }) = crossing {
             if t < self.t {
                 self.rival_t = self.t;
                 self.limit = t + 2.0 * error;
-                (self.place, self.t, self.leaving) = (place, t, leaving);
+                (self.place, self.t, self.leaving, self.part) = (place, t, leaving, part);
             } else {
                 self.rival_t = if t < self.rival_t { t } else { self.rival_t };
             }

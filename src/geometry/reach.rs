@@ -6,7 +6,8 @@
 
 use crate::math::double::{Double, DoubleVector};
 use crate::math::{Matrix, UnitVector, Vector, Vector3};
-use crate::shape::body::{Body, Local};
+use crate::shape::body::Body;
+use crate::shape::local::Local;
 use crate::shape::{Bounds, Box_, Placed, Plane, Shape};
 use crate::world::World;
 

@@ -2,9 +2,11 @@
 //!
 //! **Invariant:** every entry that is met at the limit or before is shown; more may be.
 
-use super::tree::Tree;
+use std::ops::Range;
+
 use super::work::Tally;
 use super::{Entry, Geometry, Solid, balls};
+use crate::bvh::{self, Tree};
 use crate::shape::Ray;
 
 /// Who looks for something among the entries.
@@ -74,17 +76,32 @@ impl Geometry {
     /// Not inlined: a search without a tree stays short, and its numbers in registers.
     #[inline(never)]
     fn search_tree<S: Seeker>(&self, tree: &Tree, ray: &Ray, limit: f64, seeker: &mut S) {
-        let visits = tree.visit::<S::Tally>(ray, limit, |leaf, limit| {
-            let mut limit = limit;
-            for place in leaf.start + self.unbounded..leaf.end + self.unbounded {
-                limit = seeker.look(place);
-                if limit == f64::NEG_INFINITY {
-                    break;
-                }
+        tree.visit(ray, 0.0, limit, &mut Entries { seeker, first: self.unbounded });
+    }
+}
+
+/// Shows a seeker the entries of the tree's leaves, one by one.
+struct Entries<'a, S> {
+    seeker: &'a mut S,
+    /// The place of the tree's first piece.
+    first: usize,
+}
+
+impl<S: Seeker> bvh::Seeker for Entries<'_, S> {
+    #[inline(always)]
+    fn leaf(&mut self, pieces: Range<usize>, mut limit: f64) -> f64 {
+        for piece in pieces {
+            limit = self.seeker.look(self.first + piece);
+            if limit == f64::NEG_INFINITY {
+                break;
             }
-            limit
-        });
-        seeker.tally().box_visits(visits);
+        }
+        limit
+    }
+
+    #[inline(always)]
+    fn node(&mut self) {
+        self.seeker.tally().box_visit();
     }
 }
 

@@ -1,7 +1,7 @@
 //! Sides: from where the surface of a solid is seen.
 
-use crate::shape::body::Met;
-use crate::shape::{Chord, Crossing};
+use crate::shape::Chord;
+use crate::shape::local::Met;
 
 /// Which crossings of a solid are seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,9 +30,9 @@ impl Sides {
     }
 
     #[inline(always)]
-    pub(super) fn first_seen(self, chord: &Chord) -> Option<(Crossing, bool)> {
-        let enters = || chord.enter.is_ahead().then_some((chord.enter, false));
-        let leaves = || chord.leave.is_ahead().then_some((chord.leave, true));
+    pub(super) fn first_seen(self, chord: &Chord) -> Option<Met> {
+        let enters = || chord.enter.is_ahead().then_some(Met::of(chord.enter, false));
+        let leaves = || chord.leave.is_ahead().then_some(Met::of(chord.leave, true));
         match self {
             Self::Both => enters().or_else(leaves),
             Self::Outside => enters(),

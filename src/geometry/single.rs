@@ -10,6 +10,7 @@ use super::search::Each;
 use super::work::Tally;
 use super::{ANY, Entry, Geometry, Hit, Occluder, Sides, Solid, TIGHT};
 use crate::math::{Real, UnitVector, Vector, Vector3};
+use crate::shape::local::Met;
 use crate::shape::{Chord, Crossing, Ray, box_, plane, sphere};
 
 type Narrow = <f32 as Real>::Vector;
@@ -47,7 +48,7 @@ impl Geometry {
         let look = |place: usize, tally: &mut &mut T| {
             let entry = &self.entries[place];
             tally.root_solve(|| self.price(entry));
-            if let Some((Crossing { t, error }, leaving)) = self.met(entry, &rounded, limit) {
+            if let Some(Met { t, error, leaving, .. }) = self.met(entry, &rounded, limit) {
                 limit = limit.min(t + 2.0 * error);
                 if t < best_t {
                     rival_t = best_t;
@@ -62,12 +63,13 @@ impl Geometry {
         self.search(ray, f64::INFINITY, &mut Each(&mut tally, look));
         if rival_t > limit {
             let (place, t, leaving) = best?;
-            let hit = self.hit(&self.entries[place], ray, Crossing { t, error: 0.0 }, leaving);
+            let met = Met::of(Crossing { t, error: 0.0 }, leaving);
+            let hit = self.hit(&self.entries[place], ray, met);
             return Some(Hit { error: f64::INFINITY, ..hit });
         }
         self.first_declared(ray, limit, tally, |entry| {
-            let (Crossing { t, .. }, leaving) = self.met(entry, &rounded, limit)?;
-            Some((unbounded(t), leaving))
+            let met = self.met(entry, &rounded, limit)?;
+            Some(Met { error: f64::INFINITY, ..met })
         })
     }
 
@@ -91,7 +93,7 @@ impl Geometry {
                 return self.whole_shadows(whole, ray, distance);
             }
             self.met(entry, &rounded, distance)
-                .is_some_and(|(Crossing { t, error }, _)| t + error < distance)
+                .is_some_and(|Met { t, error, .. }| t + error < distance)
         };
         if self.entries.get(guess.0).is_some_and(|entry| shadows(entry, &mut tally)) {
             return guess;
@@ -110,7 +112,7 @@ impl Geometry {
 
     /// Where the ray first meets a side of the object that is seen, at `limit` or before.
     #[inline(always)]
-    fn met(&self, entry: &Entry, rounded: &Rounded, limit: f64) -> Option<(Crossing, bool)> {
+    fn met(&self, entry: &Entry, rounded: &Rounded, limit: f64) -> Option<Met> {
         let zero = Narrow::from_vector(Vector::ZERO);
         let chord = match &entry.solid {
             Solid::Sphere(ball) => {
@@ -137,17 +139,11 @@ impl Geometry {
                 return self.first_crossing::<TIGHT, ANY>(entry, rounded.ray, limit);
             }
         };
-        let (crossing, leaving) = first_seen(entry.sides, chord)?;
-        (crossing.t <= limit).then_some((crossing, leaving))
+        first_seen(entry.sides, chord).filter(|met| met.t <= limit)
     }
 }
 
-/// The bounds of single precision leave out what is rounded in double.
-fn unbounded(t: f64) -> Crossing {
-    Crossing { t, error: f64::INFINITY }
-}
-
-fn first_seen(sides: Sides, chord: Chord<f32>) -> Option<(Crossing, bool)> {
+fn first_seen(sides: Sides, chord: Chord<f32>) -> Option<Met> {
     let wide = |Crossing { t, error }: Crossing<f32>| Crossing {
         t: f64::from(t),
         error: ROUNDED * f64::from(error),
@@ -206,8 +202,8 @@ mod tests {
             for entry in &geometry.entries {
                 let exact = geometry.first_crossing::<TIGHT, ANY>(entry, &ray, f64::INFINITY);
                 let rough = geometry.met(entry, &rounded, f64::INFINITY);
-                if let (Some((exact, side)), Some((rough, same))) = (exact, rough)
-                    && side == same
+                if let (Some(exact), Some(rough)) = (exact, rough)
+                    && exact.leaving == rough.leaving
                 {
                     crossings += 1;
                     let off = (exact.t - rough.t).abs();

@@ -5,8 +5,8 @@
 //! **Source:** S. Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18 (1982).
 
 use crate::math::Vector;
-use crate::shape::body::Met;
 use crate::shape::csg::Node;
+use crate::shape::local::Met;
 use crate::shape::{Bounds, Crossing, Ray};
 
 /// Stands for 1/0.

@@ -4,14 +4,14 @@
 
 use super::{Hit, PLAIN, edge, not_plain};
 use crate::math::Vector;
-use crate::shape::body::Met;
+use crate::shape::local::Met;
 use crate::shape::{Chord, Ray, Shape, SurfacePoint};
 use crate::world::World;
 
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.
 #[inline(always)]
 pub fn surface<const KINDS: bool>(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
-    let Hit { object, t, leaving, .. } = *hit;
+    let Hit { object, t, leaving, part, .. } = *hit;
     let shape = world.objects[object as usize].shape;
     if KINDS == PLAIN && !shape.is_plain() {
         not_plain();
@@ -21,7 +21,13 @@ pub fn surface<const KINDS: bool>(world: &World, ray: &Ray, hit: &Hit) -> Surfac
         Shape::Plane(i) => world.planes[i as usize].surface(ray, t),
         Shape::Box(i) => edge::surface(world, ray, hit, &world.boxes[i as usize]),
         Shape::Ellipsoid(i) => world.ellipsoids[i as usize].surface(ray, t),
-        Shape::Placed(i) => world.placed[i as usize].surface(ray, t, leaving),
+        Shape::Placed(i) => {
+            let placed = &world.placed[i as usize];
+            match part {
+                Met::UNKNOWN => placed.surface(ray, t, leaving),
+                _ => placed.surface_of_part(part, ray, t, leaving),
+            }
+        }
     }
 }
 

@@ -4,6 +4,7 @@ mod polyhedra;
 mod wholes;
 
 use super::*;
+use crate::bvh;
 use crate::color::{Color, Rgb};
 use crate::math::placement::Placement;
 use crate::math::random::{Random, tries, tries_in};
@@ -224,7 +225,7 @@ fn something_is_in_the_way_exactly_when_a_first_hit_of_the_casters_is_certainly_
                 let entry = casters.entries.iter().find(|entry| entry.object == hit.object)?;
                 casters.first_crossing::<TIGHT, ANY>(entry, &ray, hit.t)
             });
-            let nearer = first.is_some_and(|(first, _)| first.t + first.error < distance);
+            let nearer = first.is_some_and(|first| first.t + first.error < distance);
             assert_eq!(all.occluded(&ray, distance), nearer, "{ray:?} {distance}");
             shadowed += usize::from(nearer);
         }
@@ -245,10 +246,9 @@ fn an_easy_bound_is_of_the_same_crossing_and_never_under_the_tightest() {
             for entry in &geometry.entries {
                 let tight = geometry.first_crossing::<TIGHT, ANY>(entry, &ray, f64::INFINITY);
                 let easy = geometry.first_crossing::<EASY, ANY>(entry, &ray, f64::INFINITY);
-                let both =
-                    |found: Option<(Crossing, bool)>| found.map(|(c, leaving)| (c.t, leaving));
+                let both = |found: Option<Met>| found.map(|met| (met.t, met.leaving));
                 assert_eq!(both(easy), both(tight), "{ray:?} {entry:?}");
-                if let (Some((easy, _)), Some((tight, _))) = (easy, tight) {
+                if let (Some(easy), Some(tight)) = (easy, tight) {
                     assert!(tight.error <= easy.error, "{ray:?} {entry:?}");
                     easier += usize::from(tight.error < easy.error);
                 }
@@ -343,7 +343,7 @@ fn many_coinciding_spheres_make_no_deep_tree_and_the_first_is_hit() {
             add_sphere(&mut world, Vector::new(1.0, 2.0, 3.0), 0.5);
         }
         let geometry = Geometry::build(&world);
-        assert!(geometry.tree.as_ref().is_some_and(|tree| tree.depth <= tree::DEPTH));
+        assert!(geometry.tree.as_ref().is_some_and(|tree| tree.depth() <= bvh::DEPTH));
         let ray = Ray { origin: Vector::new(1.0, 2.0, 9.0), direction: -Vector::Z };
         assert_eq!(geometry.nearest(&ray).map(|hit| (hit.object, hit.t)), Some((0, 5.5)));
     }
@@ -389,36 +389,6 @@ fn a_scene_scaled_by_a_power_of_two_or_mirrored_is_hit_alike_to_the_last_bit() {
                 let found = other.nearest(&there).map(|hit| (hit.object, hit.leaving, hit.t / k));
                 assert_eq!(found, expected, "2^{exponent}: {ray:?}");
             }
-        }
-    }
-}
-
-#[test]
-fn the_boxes_of_a_tree_hold_the_boxes_they_stand_for() {
-    let mut random = Random(7);
-    for _ in 0..tries() {
-        let far = [0.0, random.size(-290.0, 290.0)][random.below(2)];
-        let size = [far * random.size(-16.0, 0.0), random.size(-290.0, 290.0)][random.below(2)];
-        let origin = random.point(far);
-        let scale = 0.5 * crate::math::reciprocal_power_of_two(size);
-        let near = |random: &mut Random| {
-            let v = random.point(size);
-            // On the origin of the tree, too, and beside it.
-            Vector::from_array(v.to_array().map(|c| c * [0.0, 1.0, 1e-17][random.below(3)]))
-        };
-        let (a, b) = (origin + near(&mut random), origin + near(&mut random));
-        let bounds = Bounds { low: a.min(b), high: a.max(b) };
-        let [low, high] = tree::Space { origin, scale }.outward(&bounds);
-        for axis in 0..3 {
-            // What is left of place / scale + origin − p: two sums, exactly (Knuth).
-            let above = |place: f32, p: f64| {
-                let (a, b) = (f64::from(place) / scale, origin[axis]);
-                let sum = a + b;
-                let part = sum - a;
-                (sum - p) + ((a - (sum - part)) + (b - part))
-            };
-            assert!(above(low[axis], bounds.low[axis]) <= 0.0, "{bounds:?} {origin} {scale:e}");
-            assert!(above(high[axis], bounds.high[axis]) >= 0.0, "{bounds:?} {origin} {scale:e}");
         }
     }
 }

@@ -9,6 +9,7 @@ use smallvec::SmallVec;
 use super::search::Each;
 use super::work::{Tally, Uncounted};
 use super::{Entry, Geometry, Hit, Solid, Work};
+use crate::shape::local::Met;
 use crate::shape::{Chord, Crossing, Ray};
 
 impl Geometry {
@@ -132,7 +133,7 @@ impl Geometry {
             Solid::Placed(i) => {
                 let all = self.placed[*i as usize].crossings(ray).into_iter();
                 let seen = all.filter(|met| met.is_seen() && entry.sides.shows(met.leaving));
-                return seen.map(|met| entry.hit(met.crossing(), met.leaving)).collect();
+                return seen.map(|met| entry.hit(met)).collect();
             }
             Solid::Whole(i) => return self.seen_of_whole(*i, ray, counts).collect(),
         };
@@ -142,7 +143,7 @@ impl Geometry {
         // A flat box is one sheet.
         let is_flat = |i: u32| self.boxes[i as usize].0.is_flat();
         let is_sheet = enter.t == leave.t && matches!(entry.solid, Solid::Box(i) if is_flat(i));
-        let all = ends.map(|(crossing, leaving)| entry.hit(crossing, leaving));
+        let all = ends.map(|(crossing, leaving)| entry.hit(Met::of(crossing, leaving)));
         all.take(if is_sheet { 1 } else { 2 }).collect()
     }
 
@@ -172,7 +173,7 @@ impl Hit {
 
 impl Entry {
     #[inline(always)]
-    pub(super) fn hit(&self, Crossing { t, error }: Crossing, leaving: bool) -> Hit {
-        Hit { object: self.object, t, error, leaving, contested: false }
+    pub(super) fn hit(&self, Met { t, error, leaving, part }: Met) -> Hit {
+        Hit { object: self.object, t, error, leaving, part, contested: false }
     }
 }

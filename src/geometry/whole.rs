@@ -5,11 +5,10 @@
 use std::ops::Range;
 
 use super::span::{Around, Span, around};
-use super::tree::Tree;
-use super::work::Uncounted;
-use super::{Entry, Geometry, Hit, Solid, TREE_FROM, bounds_of_part, build};
-use crate::shape::body::{Crossings, Local, Met};
+use super::{Entry, Geometry, Hit, Solid, TREE_FROM, bounds_of_part};
+use crate::bvh::Tree;
 use crate::shape::csg::{self, Event, Events};
+use crate::shape::local::{Crossings, Local, Met};
 use crate::shape::{Bounds, Chord, Crossing, Ray};
 use crate::world::{self, World};
 
@@ -100,7 +99,7 @@ impl Whole {
             None
         } else {
             let boxes: Vec<Bounds> = bounded.iter().map(|(_, bounds)| *bounds).collect();
-            let (tree, order) = build::tree(&boxes);
+            let (tree, order) = Tree::build(&boxes);
             let order = order.into_iter().map(|place| bounded[place as usize].0);
             Some((tree, order.collect::<Vec<u32>>()))
         };
@@ -113,7 +112,7 @@ impl Whole {
     pub fn search_within(&self, ray: &Ray, (low, high): (f64, f64), mut look: impl FnMut(u32)) {
         self.always.iter().for_each(|&leaf| look(leaf));
         if let Some((tree, order)) = &self.tree {
-            let show = |places: Range<usize>, limit| {
+            let mut show = |places: Range<usize>, limit| {
                 order[places].iter().for_each(|&leaf| look(leaf));
                 limit
             };
@@ -121,7 +120,7 @@ impl Whole {
                 Some(ray) => (ray, high - low),
                 None => (tree.space.before(ray), f64::INFINITY),
             };
-            tree.visit::<Uncounted>(&ray, limit, show);
+            tree.visit(&ray, 0.0, limit, &mut show);
         }
     }
 }
@@ -287,7 +286,7 @@ impl Geometry {
             let met = event.met;
             let seen = met.is_seen() && leaf.sides.shows(met.leaving) && counts(leaf);
             let contested = event.shared;
-            seen.then(|| Hit { contested, ..leaf.hit(met.crossing(), met.leaving) })
+            seen.then(|| Hit { contested, ..leaf.hit(Met { part: Met::UNKNOWN, ..met }) })
         })
     }
 
@@ -299,7 +298,7 @@ impl Geometry {
         ray: &Ray,
         limit: f64,
         counts: fn(&Entry) -> bool,
-    ) -> Option<(Crossing, bool)> {
+    ) -> Option<Met> {
         let whole = &self.wholes[whole as usize];
         let events = self.events(whole, ray);
         let mut seen = events.iter().filter(|event| {
@@ -307,37 +306,30 @@ impl Geometry {
             leaf.sides.see(&event.met) && counts(leaf)
         });
         let Event { met, .. } = seen.next()?;
-        (met.t <= limit).then_some((met.crossing(), met.leaving))
+        (met.t <= limit).then_some(Met { part: Met::UNKNOWN, ..*met })
     }
 
     /// The object that is met where an entry is: of a whole, one of its leaves.
     #[inline(always)]
-    pub(super) fn hit(&self, entry: &Entry, ray: &Ray, crossing: Crossing, leaving: bool) -> Hit {
+    pub(super) fn hit(&self, entry: &Entry, ray: &Ray, met: Met) -> Hit {
         match entry.solid {
-            Solid::Whole(whole) => self.hit_of_whole(entry, whole, ray, crossing, leaving),
+            Solid::Whole(whole) => self.hit_of_whole(entry, whole, ray, met),
             Solid::Sphere(_)
             | Solid::Plane(_)
             | Solid::Box(_)
             | Solid::Ellipsoid(_)
-            | Solid::Placed(_) => entry.hit(crossing, leaving),
+            | Solid::Placed(_) => entry.hit(met),
         }
     }
 
     #[cold]
     #[inline(never)]
-    fn hit_of_whole(
-        &self,
-        entry: &Entry,
-        whole: u32,
-        ray: &Ray,
-        crossing: Crossing,
-        leaving: bool,
-    ) -> Hit {
+    fn hit_of_whole(&self, entry: &Entry, whole: u32, ray: &Ray, met: Met) -> Hit {
         let mut all = self.seen_of_whole(whole, ray, |_| true);
-        let part = all.find(|hit| hit.t == crossing.t && hit.leaving == leaving);
+        let part = all.find(|hit| hit.t == met.t && hit.leaving == met.leaving);
         let (object, contested) =
             part.map_or((entry.object, false), |hit| (hit.object, hit.contested));
-        Hit { object, contested, ..entry.hit(crossing, leaving) }
+        Hit { object, contested, ..entry.hit(met) }
     }
 }
 

@@ -6,7 +6,7 @@
 use std::ops::AddAssign;
 
 use super::{Entry, Geometry, Solid};
-use crate::shape::body::Local;
+use crate::shape::local::Local;
 
 /// How much work it was to find what rays meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -15,7 +15,7 @@ pub struct Work {
     pub box_visits: u64,
     /// How often the equation of a shape was solved for a ray.
     pub root_solves: u64,
-    /// What that took, in equations of a sphere: see [`crate::shape::body::Local::price`].
+    /// What that took, in equations of a sphere: see [`crate::shape::local::Local::price`].
     pub solving: u64,
 }
 
@@ -29,8 +29,7 @@ impl AddAssign for Work {
 
 /// Takes note of work, or of none.
 pub(super) trait Tally {
-    const COUNTS: bool;
-    fn box_visits(&mut self, count: u64);
+    fn box_visit(&mut self);
     /// Of a shape of this price, which is asked for where it is counted.
     fn root_solve(&mut self, price: impl FnOnce() -> u64);
 }
@@ -39,18 +38,16 @@ pub(super) trait Tally {
 pub(super) struct Uncounted;
 
 impl Tally for Uncounted {
-    const COUNTS: bool = false;
     #[inline(always)]
-    fn box_visits(&mut self, _: u64) {}
+    fn box_visit(&mut self) {}
     #[inline(always)]
     fn root_solve(&mut self, _: impl FnOnce() -> u64) {}
 }
 
 impl Tally for Work {
-    const COUNTS: bool = true;
     #[inline(always)]
-    fn box_visits(&mut self, count: u64) {
-        self.box_visits += count;
+    fn box_visit(&mut self) {
+        self.box_visits += 1;
     }
     #[inline(always)]
     fn root_solve(&mut self, price: impl FnOnce() -> u64) {
@@ -60,10 +57,9 @@ impl Tally for Work {
 }
 
 impl<T: Tally> Tally for &mut T {
-    const COUNTS: bool = T::COUNTS;
     #[inline(always)]
-    fn box_visits(&mut self, count: u64) {
-        (**self).box_visits(count);
+    fn box_visit(&mut self) {
+        (**self).box_visit();
     }
     #[inline(always)]
     fn root_solve(&mut self, price: impl FnOnce() -> u64) {

@@ -18,7 +18,7 @@ use crate::geometry::bounds_of_part;
 use crate::math::Vector;
 use crate::math::elementary::{cos, sin};
 use crate::scene::Operation;
-use crate::shape::body::Local;
+use crate::shape::local::Local;
 use crate::shape::{Body, Bounds, Box_, Rounding, Shape};
 use crate::source::{Site, Span};
 use crate::world::Object;

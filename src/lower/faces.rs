@@ -46,23 +46,33 @@ impl Surface {
 
     /// Returns the sites of the patterns that select among its textures.
     pub fn patterns(&self, scene: &scene::Scene) -> Vec<Site> {
-        let mut sites = Vec::new();
+        let (mut seen, mut sites) = (FxHashSet::default(), Vec::new());
         let textures = self.faces.iter().flat_map(|parts| parts.textures()).copied();
-        textures.chain([self.texture]).for_each(|id| add_patterns(scene, id, &mut sites));
+        for id in textures.chain([self.texture]) {
+            add_patterns(scene, id, &mut seen, &mut sites);
+        }
         sites
     }
 }
 
-/// Adds the site of each pattern that selects among textures.
-fn add_patterns(scene: &scene::Scene, id: TextureId, sites: &mut Vec<Site>) {
+/// Adds the site of each pattern that selects among textures, of each texture once.
+fn add_patterns(
+    scene: &scene::Scene,
+    id: TextureId,
+    seen: &mut FxHashSet<TextureId>,
+    sites: &mut Vec<Site>,
+) {
+    if !seen.insert(id) {
+        return;
+    }
     match &scene.textures[id.index()].kind {
         TextureKind::Plain { .. } => {}
         TextureKind::Blend { pattern, entries, .. } => {
             sites.extend((pattern.source != scene::Source::Average).then_some(pattern.site));
-            entries.iter().for_each(|(_, id)| add_patterns(scene, *id, sites));
+            entries.iter().for_each(|(_, id)| add_patterns(scene, *id, seen, sites));
         }
         TextureKind::Layers(layers) => {
-            layers.iter().for_each(|id| add_patterns(scene, *id, sites));
+            layers.iter().for_each(|id| add_patterns(scene, *id, seen, sites));
         }
     }
 }

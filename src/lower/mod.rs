@@ -8,6 +8,7 @@ pub mod alone;
 mod blob;
 mod body;
 mod camera;
+mod cause;
 mod coinciding;
 mod csg;
 mod doubled;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
+use super::cause::{Part, pattern_site, pigments_in};
 use super::finish::{BARE, lower_finish};
 use super::pigment::{Nodes, entry, inverse_map, mean, too_deep};
 use super::shape::LocalFace;
@@ -15,13 +16,10 @@ use super::surface::{Slot, Surface};
 use super::transform::Affine;
 use super::{Fault, Lowering};
 use crate::color::Color;
-use crate::scene::{
-    self, Colors, FinishId, NormalId, PigmentId, PigmentKind, TextureId, TextureKind,
-};
+use crate::scene::{self, FinishId, NormalId, PigmentId, TextureId, TextureKind};
 use crate::source::{Site, Span};
 use crate::texture::space::Start;
 use crate::texture::{Blend, DEEPEST};
-use crate::vocabulary::Word;
 use crate::world::{
     Extras, FaceCoordinates, Finish, Pigment, Plain, Sky, SkyOrigin, SurfacePart, Texture,
     TextureOrigin, World,
@@ -38,7 +36,7 @@ pub struct Textures {
     alike: FxHashMap<[u64; 6], SmallVec<[u32; 1]>>,
     maps: FxHashMap<Vec<u64>, u32>,
     /// The sites already listed in each texture's origin.
-    noted: FxHashSet<(u32, Part, Span)>,
+    pub(super) noted: FxHashSet<(u32, Part, Span)>,
 }
 
 /// A texture, with the pigment, the normal and the finish that replace its own.
@@ -60,17 +58,6 @@ impl Written {
     pub(super) const fn own(texture: TextureId) -> Self {
         Self { texture, pigment: None, normal: None, finish: None }
     }
-}
-
-/// A part of a texture whose sites are listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-enum Part {
-    Pattern,
-    Highlights,
-    Reflection,
-    Behind,
-    Clear,
-    Filter,
 }
 
 impl<'s> Lowering<'s, '_> {
@@ -228,67 +215,6 @@ impl<'s> Lowering<'s, '_> {
         })
     }
 
-    /// Records another surface that lowers to the texture `index`: each site is listed once, however many
-    /// loops and macros visit it.
-    pub(super) fn note_texture(&mut self, index: u32, surface: &Surface) {
-        let patterns = surface.patterns(self.scene).into_iter();
-        let noted = &mut self.textures.noted;
-        let new = patterns.filter(|site| noted.insert((index, Part::Pattern, site.span)));
-        self.origins.textures[index as usize].pattern.extend(new);
-        for (pigment, finish) in surface.all(self.scene) {
-            self.note_plain(index, pigment, finish);
-        }
-    }
-
-    fn note_plain(&mut self, index: u32, pigment: PigmentId, finish: FinishId) {
-        let pigments = pigments_in(self.scene, pigment);
-        let origin = &mut self.origins.textures[index as usize];
-        let noted = &mut self.textures.noted;
-        let mut note = |part: Part, list: &mut Vec<Site>, sites: &mut dyn Iterator<Item = Site>| {
-            list.extend(sites.filter(|site| noted.insert((index, part, site.span))));
-        };
-        for id in pigments {
-            let pigment = &self.scene.pigments[id.index()];
-            note(Part::Pattern, &mut origin.pattern, &mut pattern_site(pigment).into_iter());
-            note(Part::Clear, &mut origin.clear, &mut pigment.clear.into_iter());
-        }
-        let Some(written) = self.scene.finish_origins.get(finish.index()) else { return };
-        let finish = &self.scene.finishes[finish.index()];
-        let calls = |word: &Word| written.of(*word).filter(|_| finish.has_weight(*word));
-        let shining = [Word::Phong, Word::Specular, Word::Ks];
-        note(Part::Highlights, &mut origin.highlights, &mut shining.iter().filter_map(calls));
-        let reflecting = [Word::Reflection, Word::Ks];
-        note(Part::Reflection, &mut origin.reflection, &mut reflecting.iter().filter_map(calls));
-        note(Part::Behind, &mut origin.behind, &mut calls(&Word::Diffuse).into_iter());
-        for &(word, site) in &written.words {
-            if !finish.has_weight(word) && !matches!(word, Word::Diffuse | Word::Ior) {
-                self.drop_part(site, word.name(), "its weight is zero");
-            }
-        }
-    }
-
-    /// Records that an object of the texture `index` casts a shadow into which `pigment` may let light.
-    pub(super) fn note_filter(&mut self, index: u32, pigment: PigmentId) {
-        let noted = &mut self.textures.noted;
-        for id in pigments_in(self.scene, pigment) {
-            let clear = self.scene.pigments[id.index()].clear;
-            let new =
-                clear.into_iter().filter(|site| noted.insert((index, Part::Filter, site.span)));
-            self.origins.textures[index as usize].filter.extend(new);
-        }
-    }
-
-    /// Records that a pattern whose colours are all the same is dropped.
-    fn note_folded(&mut self, id: PigmentId) {
-        let PigmentKind::Patterned { pattern, colors } = &self.scene.pigments[id.index()].kind
-        else {
-            return;
-        };
-        if colors.lone_color().is_some() {
-            self.drop_part(pattern.site, pattern.source.word(), "its colours are all the same");
-        }
-    }
-
     /// Returns the World's index of the maps into the slots of a surface's texture; `None` if there is no
     /// pattern or all maps are the identity.
     pub(super) fn places(&mut self, surface: &Surface, texture: u32) -> Result<Option<u32>, Fault> {
@@ -365,38 +291,6 @@ pub(super) fn plain(pigment: Pigment, mut finish: Finish) -> Plain {
 /// Returns a black texture.
 fn bare() -> Texture {
     Texture::Plain(plain(Pigment::Color(Color::BLACK), BARE))
-}
-
-/// Returns a pigment and all pigments inside it.
-fn pigments_in(scene: &scene::Scene, id: PigmentId) -> Vec<PigmentId> {
-    let mut all = vec![id];
-    let mut at = 0;
-    while let Some(id) = all.get(at) {
-        at += 1;
-        let PigmentKind::Patterned { pattern, colors } = &scene.pigments[id.index()].kind else {
-            continue;
-        };
-        let mut inner = Vec::new();
-        if let scene::Source::Pigment(id) = pattern.source {
-            inner.push(id);
-        }
-        if let Colors::Pigments(pigments) = colors {
-            inner.extend(pigments.iter().map(|(_, id)| *id));
-        }
-        let new: Vec<_> = inner.into_iter().filter(|id| !all.contains(id)).collect();
-        all.extend(new);
-    }
-    all
-}
-
-/// Returns the site of a pigment's pattern, if it has more than one colour.
-fn pattern_site(pigment: &scene::Pigment) -> Option<Site> {
-    match &pigment.kind {
-        PigmentKind::Patterned { pattern, colors } if colors.lone_color().is_none() => {
-            Some(pattern.site)
-        }
-        _ => None,
-    }
 }
 
 /// Returns whether any node of a texture is evaluated at a point of its object.

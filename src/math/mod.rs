@@ -4,6 +4,7 @@
 //! elementary functions (through `libm`, so that a picture is the same on every machine), and the only one
 //! that uses `glam`.
 
+pub mod bounds;
 pub mod double;
 pub mod elementary;
 pub(crate) mod finite;
@@ -11,6 +12,7 @@ pub mod interval;
 pub mod placement;
 pub mod power;
 pub(crate) mod random;
+pub mod ray;
 pub mod roots;
 pub mod singular;
 pub mod terms;

@@ -29,7 +29,7 @@ impl Pattern for Tiling {
     const HAS_SEAMS: bool = true;
 
     fn canonical(self) -> Self {
-        // POV-Ray accepts 25 to 27 and shows number 24 (measured). In this order NaN becomes 1.
+        // In this order NaN becomes 1.
         Self { number: self.number.max(1.0).min(plans::COUNT as f64).trunc() }
     }
 

@@ -5,7 +5,7 @@
 
 use crate::math::singular::singular_values;
 use crate::math::{Matrix, Vector};
-use crate::shape::body::Local;
+use crate::shape::local::Local;
 use crate::shape::{Body, Placed, Shape};
 use crate::world::World;
 

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::shape::body::Local;
+use crate::shape::local::Local;
 use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::world::{Object, Origins, World};

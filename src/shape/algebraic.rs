@@ -23,7 +23,7 @@ pub use clipped::HalfSpace;
 use closed::Closed;
 use ends::Ends;
 
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use super::{Memory, U, multiple};
 use crate::math::Vector;
 use crate::math::roots::polynomial::{Asked, MOST, Polynomial};

@@ -1,10 +1,4 @@
-//! Bodies: solids and sheets in a local space in which their equations are simple.
-//!
-//! **In:** a [`LocalRay`], a local point. **Out:** all crossings of the entire line, in order; the height
-//! over a part of the surface. **Invariant:** entries and exits of closed bodies alternate; where rounding
-//! cannot separate a hit from a miss, both crossings are dropped.
-
-use smallvec::SmallVec;
+//! The closed set of bodies: solids and sheets, each with an equation in its local space.
 
 use super::algebraic::Algebraic;
 use super::bicubic_patch::BicubicPatch;
@@ -16,6 +10,7 @@ use super::height_field::HeightField;
 use super::isosurface::Isosurface;
 use super::julia_fractal::JuliaFractal;
 use super::lathe::Lathe;
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use super::mesh::Mesh;
 use super::ovus::Ovus;
 use super::parametric::Parametric;
@@ -26,205 +21,7 @@ use super::sphere_sweep::SphereSweep;
 use super::superellipsoid::Superellipsoid;
 use super::text::Text;
 use super::torus::Torus;
-use super::{Crossing, Placed, Ray, U};
 use crate::math::Vector;
-
-/// Queries that every body answers in its local space.
-pub trait Local {
-    /// Adds all crossings of the line with the surface, in order.
-    fn crossings(&self, ray: &LocalRay, found: &mut Crossings);
-
-    /// Adds, in order, the crossings that may lie in the range `between`; where there are further crossings,
-    /// at least up to the first visible one that is certainly behind the start of the range. May add others.
-    fn first_crossings(&self, ray: &LocalRay, _between: (f64, f64), found: &mut Crossings) {
-        self.crossings(ray, found);
-    }
-
-    /// Returns the part of the surface through which the line enters or leaves at `s`, where that is cheap to
-    /// determine.
-    fn part_at(&self, _ray: &LocalRay, _s: f64, _leaving: bool) -> Option<u32> {
-        None
-    }
-
-    /// Returns the height of `point` over one part of the surface; valid near that part.
-    fn height(&self, part: u32, point: Vector) -> Height;
-
-    /// Returns the minimum and maximum of `along`·P over the visible surface; infinite where it is unbounded.
-    fn extent(&self, along: Vector) -> (f64, f64);
-
-    /// Returns [`Local::extent`] without any margin for rounding.
-    fn nearest_extent(&self, along: Vector) -> (f64, f64) {
-        self.extent(along)
-    }
-
-    /// Returns the radius of a sphere around the local origin that contains the body; ∞ where there is none.
-    fn reach(&self) -> f64;
-
-    /// Returns whether a point lies inside. A sheet has no inside.
-    fn contains(&self, point: Vector) -> bool;
-
-    /// Returns whether a point certainly lies inside: `false` where rounding may decide, or where no caller
-    /// asks.
-    fn certainly_contains(&self, _point: Vector) -> bool {
-        false
-    }
-
-    /// Returns the parameters that distinguish it from other bodies of its kind, for display; a blank
-    /// precedes each.
-    fn numbers(&self) -> String;
-
-    /// Returns whether its crossings are found by iteration, which [`LocalRay::tolerance`] terminates.
-    fn is_iterated(&self) -> bool {
-        false
-    }
-
-    /// Returns the cost of intersecting a line, relative to solving the equation of a sphere. Measured on
-    /// 2026-11-22 from render times of one body, per tested line, compared with one sphere; accurate within a
-    /// factor of 2.
-    fn price(&self) -> u64;
-
-    /// Returns whether it is a sheet: it has no inside, and a ray that passes through is outside before and
-    /// after.
-    fn is_sheet(&self) -> bool {
-        false
-    }
-
-    /// Returns the shading normal of a part at a point, of any length and on either side; `None` where it is
-    /// the geometric normal.
-    fn shading_normal(&self, _part: u32, _point: Vector) -> Option<Vector> {
-        None
-    }
-}
-
-/// The height of a local point over a part of a surface; 0 on the surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Height {
-    /// Negative inside.
-    pub value: f64,
-    /// Gradient of the height: outward, of any length but 0.
-    pub gradient: Vector,
-    /// Bound on the rounding error of `value`, for an exact point.
-    pub error: f64,
-}
-
-/// A ray's line in the local space of a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LocalRay<'a> {
-    /// The point of the line nearest to the local origin; s is 0 here.
-    pub nearest: Vector,
-    /// Unit direction.
-    pub direction: Vector,
-    /// At s, the intended line lies within `blur + turn · |s|` of this one.
-    pub blur: f64,
-    /// See `blur`.
-    pub turn: f64,
-    /// Error that crossings may have, reported in [`Met::error`]; 0 requests the full precision of the
-    /// arithmetic.
-    pub tolerance: f64,
-    /// The ray and the placed body; `None` for a line that has no counterpart in world space.
-    pub in_world: Option<InWorld<'a>>,
-}
-
-/// A ray in world space, and the placed body that it is tested against.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct InWorld<'a> {
-    pub ray: &'a Ray,
-    pub placed: &'a Placed,
-}
-
-impl LocalRay<'_> {
-    /// Returns a line without uncertainty.
-    pub fn exact(nearest: Vector, direction: Vector) -> Self {
-        Self { nearest, direction, blur: 0.0, turn: 0.0, tolerance: 0.0, in_world: None }
-    }
-
-    pub fn at(&self, s: f64) -> Vector {
-        self.nearest + self.direction * s
-    }
-
-    /// Returns the position from which a crossing is certainly ahead of the ray's start, where `from` is the
-    /// start passed to `first_crossings`: `Seen::place` puts that as far before the start as the start may be
-    /// off.
-    pub fn ahead_of(&self, from: f64) -> f64 {
-        from + 4.0 * (self.blur + self.turn * self.nearest.length() + 8.0 * U * from.abs())
-    }
-
-    /// Returns how far the intended line may be from this one at s.
-    pub fn blur_at(&self, s: f64) -> f64 {
-        self.blur + self.turn * s.abs()
-    }
-}
-
-/// A crossing of a line and a body's surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Met {
-    /// Distance along the line: s in local space, t for a ray in world space.
-    pub t: f64,
-    /// Error bound: the true crossing lies within this distance of `t`.
-    pub error: f64,
-    /// Whether the line leaves the body; for a sheet, whether it goes in the direction that the surface
-    /// faces.
-    pub leaving: bool,
-    /// The part of the surface, as passed to [`Local::height`].
-    pub part: u32,
-}
-
-impl Met {
-    /// Part number of invisible surface, such as the ends of an open cylinder: the solid ends here, and a ray
-    /// that hits nothing else continues.
-    pub const UNSEEN: u32 = u32::MAX;
-
-    pub fn is_seen(&self) -> bool {
-        self.part != Self::UNSEEN
-    }
-
-    pub fn crossing(&self) -> Crossing {
-        Crossing { t: self.t, error: self.error }
-    }
-
-    /// Returns the one farther along; where rounding may have swapped the two, the error bound covers both.
-    pub(super) fn later(self, other: Self) -> Self {
-        let (late, early) = if other.t > self.t { (other, self) } else { (self, other) };
-        Self { error: late.error.max(early.error - (late.t - early.t)), ..late }
-    }
-
-    /// Returns the one less far along; where rounding may have swapped the two, the error bound covers both.
-    pub(super) fn earlier(self, other: Self) -> Self {
-        let (early, late) = if other.t < self.t { (other, self) } else { (self, other) };
-        Self { error: early.error.max(late.error - (late.t - early.t)), ..early }
-    }
-}
-
-/// Crossings in order. Most bodies have few, which need no allocation.
-pub type Crossings = SmallVec<[Met; 6]>;
-
-/// Entry and exit of a line through something solid.
-pub(super) type Span = (Met, Met);
-
-/// Adds the entries and exits of the union of `spans`, which are in any order. Spans that overlap, or touch
-/// within rounding, are merged; where a visible and an invisible surface coincide within rounding, the
-/// visible one is reported.
-pub(super) fn unite(spans: &mut [Span], found: &mut Crossings) {
-    spans.sort_by(|a, b| a.0.t.total_cmp(&b.0.t));
-    let Some((&(mut enter, mut leave), rest)) = spans.split_first() else { return };
-    let is_there = |met: &Met, seen: &Met| {
-        !met.is_seen() && seen.is_seen() && (met.t - seen.t).abs() <= met.error + seen.error
-    };
-    for &(next, end) in rest {
-        if next.t - next.error > leave.t + leave.error {
-            found.extend([enter, leave]);
-            (enter, leave) = (next, end);
-            continue;
-        }
-        // Rounding may have swapped them, and the bound says so.
-        let (other, first) = if is_there(&enter, &next) { (enter, next) } else { (next, enter) };
-        enter = Met { error: first.error.max(first.t - other.t + other.error), ..first };
-        let ends_later = is_there(&leave, &end) || (end.t > leave.t && !is_there(&end, &leave));
-        let (other, last) = if ends_later { (leave, end) } else { (end, leave) };
-        leave = Met { error: last.error.max(other.t - last.t + other.error), ..last };
-    }
-    found.extend([enter, leave]);
-}
 
 /// Declares the closed set of bodies, each of which has a file of its own.
 macro_rules! bodies {
@@ -263,6 +60,17 @@ macro_rules! bodies {
             ) {
                 match self {
                     $(Self::$kind(body) => body.first_crossings(ray, between, found),)*
+                }
+            }
+
+            fn crosses(
+                &self,
+                ray: &LocalRay,
+                between: (f64, f64),
+                accepts: &dyn Fn(&Met) -> bool,
+            ) -> bool {
+                match self {
+                    $(Self::$kind(body) => body.crosses(ray, between, accepts),)*
                 }
             }
 
@@ -362,65 +170,4 @@ bodies! {
     Superellipsoid "superellipsoid"
     Text "text"
     Torus "torus"
-}
-
-/// A ray in the local space of a placed body.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Seen<'a> {
-    pub line: LocalRay<'a>,
-    /// Position of the ray's start on the line.
-    start: f64,
-    /// Ratio of local lengths to those along the ray.
-    speed: f64,
-    /// Error bound of `start`.
-    start_error: f64,
-}
-
-impl<'a> Seen<'a> {
-    /// Transforms the ray to local space and moves its origin to the closest approach there.
-    ///
-    /// With |L| the matrix of absolute values, f the ray's start relative to the centre, R = ‖|L|·|f|‖ and κ
-    /// = ‖|L|·|D|‖ / |L·D|, the line is off by u·(6R + 6κ·|b|) at its closest approach and by 6u·κ more per
-    /// unit of length along it; the start is off by u·(6R + 6κ·(|b| + m)), and every t by 6u·κ·|t|, as for an
-    /// ellipsoid. Both bounds grow by `moved`, the distance in local space between the centre and its
-    /// intended position.
-    pub fn new(placed: &'a Placed, ray: &'a Ray, moved: f64) -> Self {
-        let Placed { placement, root_tolerance: tolerance, .. } = *placed;
-        let matrix = placement.local_from_world;
-        let sizes = matrix.abs();
-        let from_centre = ray.origin - placement.centre;
-        let origin = matrix * from_centre;
-        let step = matrix * ray.direction;
-        let speed = step.length();
-        let direction = step / speed;
-        let start = origin.dot(direction);
-        let nearest = origin - direction * start;
-
-        let reach = (sizes * from_centre.abs()).length();
-        let turn = U * 6.0 * (sizes * ray.direction.abs()).length() / speed;
-        let blur = U * 6.0 * reach + turn * start.abs() + moved;
-        let start_error = blur + turn * nearest.length();
-        let in_world = Some(InWorld { ray, placed });
-        let line = LocalRay { nearest, direction, blur, turn, tolerance, in_world };
-        Self { line, start, speed, start_error }
-    }
-
-    /// Returns the position on the line of the ray's point at `t`; moved by its error bound backward if `way`
-    /// is −1 and forward if it is 1.
-    pub fn place(&self, t: f64, way: f64) -> f64 {
-        let along = t * self.speed;
-        let off = self.start_error
-            + along.abs() * (self.line.turn + 8.0 * U)
-            + 8.0 * U * self.start.abs();
-        self.start + along + way * off
-    }
-
-    /// Converts a crossing of the line to one of the ray.
-    pub fn met(&self, local: Met) -> Met {
-        let t = (local.t - self.start) / self.speed;
-        let rounded = 2.0 * U * (local.t.abs() + self.start.abs());
-        let error = (local.error + self.start_error + rounded) / self.speed
-            + t.abs() * (self.line.turn + 4.0 * U);
-        Met { t, error, ..local }
-    }
 }

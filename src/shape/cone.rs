@@ -5,8 +5,8 @@
 //! is convex).
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::cylinder::{BASE, CAP, SIDE, ends};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::roots::bracket::{Sample, root};
 

@@ -14,7 +14,7 @@ use std::ops::Range;
 
 use smallvec::SmallVec;
 
-use super::body::Met;
+use super::local::Met;
 
 /// A node of the tree; its operands precede it. Without operands, a union is empty and an intersection is all
 /// of space.

@@ -1,7 +1,7 @@
 //! Cylinder: in local space, x² + y² ≤ 1, |z| ≤ 1. Outward is away from the axis; at the ends, along it.
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use super::slab::Slab;
 use crate::math::Vector;
 

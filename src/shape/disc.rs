@@ -5,7 +5,7 @@
 //! the disc"; this also applies in differences and intersections.
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -12,8 +12,8 @@ mod line;
 use smallvec::SmallVec;
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::curve::{Change, Outline, Path, Piece, Point, walk};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use level::{Beside, Passage, beside, moved};
 use line::{Arm, Line, STEEP, Steep};

@@ -7,7 +7,7 @@
 //! If f = hⁿ with an odd n, the gradient n·hⁿ⁻¹·∇h has the same direction as ∇h on both sides of the surface.
 //! The curvature of h changes sign from one side of the point to the other and cancels in the mean.
 
-use super::body::Height;
+use super::local::Height;
 use crate::math::Vector;
 
 /// Maximum number of times that the distance is doubled.

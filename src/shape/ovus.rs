@@ -9,7 +9,7 @@
 //! `trace`.
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::double::Double;
 use crate::math::roots::bracket::{Root, Sample};

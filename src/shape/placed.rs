@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use super::algebraic::HalfSpace;
-use super::body::{Body, Crossings, Height, Local, Met, Seen};
-use super::{Bounds, Crossing, Paint, Plane, Ray, Rounding, SurfacePoint, U};
+use super::body::Body;
+use super::local::{Crossings, Height, Local, Met, Seen};
+use super::{Bounds, Paint, Plane, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::{ExactPlacement, Placement};
 use crate::math::{UnitVector, Vector, Vector3};
 
@@ -13,7 +14,7 @@ pub struct Placed {
     /// Stored once, however often it is placed.
     pub body: Arc<Body>,
     pub placement: Placement,
-    /// Tolerance of crossings, relative to the size of the body; see [`super::body::LocalRay::tolerance`].
+    /// Tolerance of crossings, relative to the size of the body; see [`super::local::LocalRay::tolerance`].
     pub root_tolerance: f64,
     /// The placement in exact form, for bodies whose edges or flat ends may coincide with those of others.
     pub exact: Option<Box<ExactPlacement>>,
@@ -82,6 +83,18 @@ impl Placed {
         })
     }
 
+    /// Returns whether `accepts` any crossing ahead of the ray's start and not beyond `limit`.
+    #[inline(never)]
+    pub fn crosses(&self, ray: &Ray, limit: f64, accepts: impl Fn(&Met) -> bool) -> bool {
+        let seen = Seen::new(self, ray, self.edges_moved());
+        if !self.is_in_reach(&seen) {
+            return false;
+        }
+        let between = (seen.place(0.0, -1.0), seen.place(limit, 1.0));
+        let accepts = |met: &Met| accepts(&self.shared(ray, &seen.met(*met)));
+        self.body.crosses(&seen.line, between, &accepts)
+    }
+
     /// Widens the error of a crossing as if the line were blurred by the rounding of the centre: of two
     /// coincident faces, the first is then visible, however far they are from the origin. This applies only
     /// to a body outside CSG solids, and not to the decision whether the line crosses the body ahead of the
@@ -90,22 +103,21 @@ impl Placed {
     /// With f the ray's start relative to the centre C, the error is proportional to the line's blur, at
     /// least 6u·‖|L|·|f|‖, plus the rounding of a body of size 1, at least 2u; less where the line is only
     /// tangent.
-    pub fn shared(&self, ray: &Ray, met: &Met) -> Crossing {
+    pub fn shared(&self, ray: &Ray, met: &Met) -> Met {
         let Placement { centre, local_from_world, .. } = self.placement;
         let sizes = local_from_world.abs();
         let blur = 6.0 * (sizes * (ray.origin - centre).abs()).length() + 2.0;
         let more = 1.0 + (sizes * centre.abs()).length() / blur;
         // Sizes and places may be beyond what squares can tell.
         let more = if more.is_finite() { more } else { 1.0 };
-        Crossing { t: met.t, error: met.error * more }
+        Met { error: met.error * more, ..*met }
     }
 
     #[inline(always)]
     fn found(&self, ray: &Ray, moved: f64, find: impl Fn(&Seen, &mut Crossings)) -> Crossings {
         let mut found = Crossings::new();
         let seen = Seen::new(self, ray, moved);
-        let miss = seen.line.nearest.length();
-        if miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur {
+        if !self.is_in_reach(&seen) {
             return found;
         }
         find(&seen, &mut found);
@@ -113,6 +125,12 @@ impl Placed {
             *met = seen.met(*met);
         }
         found
+    }
+
+    #[inline(always)]
+    fn is_in_reach(&self, seen: &Seen) -> bool {
+        let miss = seen.line.nearest.length();
+        miss <= self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur
     }
 
     /// Returns the part of the surface that the ray crosses at `t`.
@@ -139,9 +157,13 @@ impl Placed {
     /// Returns the surface point where `ray` crosses at `t`. The height of the point at t is subtracted along
     /// the normal, which is the shortest path in world space. The error bound is the sum of the remaining
     /// height, the rounding of this sum, and the error of triangles as a continued ray sees them.
-    #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
-        let part = self.part_at(ray, t, leaving);
+        self.surface_of_part(self.part_at(ray, t, leaving), ray, t, leaving)
+    }
+
+    /// Returns [`Self::surface`] where it is known which part is crossed.
+    #[inline(never)]
+    pub fn surface_of_part(&self, part: u32, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
         let Placement { centre, local_from_world, .. } = self.placement;
         let out = local_from_world.transpose();
         let height = |point: Vector| {

@@ -155,3 +155,26 @@ pub fn chord<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> Option<Ch
         Chord { enter: Crossing::BEFORE_ALL, leave: crossing }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_half_space_ends_where_its_plane_lies_across_an_axis() {
+        let half = |x: f64, y: f64, z: f64, distance: f64| {
+            let normal = UnitVector::from_unit(Vector::new(x, y, z));
+            Plane { normal, distance }.bounds(Rounding::Nearest)
+        };
+        let below = half(0.0, 1.0, -0.0, 2.0);
+        assert_eq!(below, Bounds { high: Bounds::EVERYWHERE.high.with_y(2.0), ..below });
+        assert_eq!(below.low, Bounds::EVERYWHERE.low);
+        let above = half(0.0, 0.0, -1.0, 3.0);
+        assert_eq!(above, Bounds { low: Bounds::EVERYWHERE.low.with_z(-3.0), ..above });
+        assert_eq!(above.high, Bounds::EVERYWHERE.high);
+        // The second is 1 long, as far as numbers tell.
+        for askew in [half(0.6, 0.8, 0.0, 1.0), half(1.0, 1e-9, 0.0, 1.0)] {
+            assert_eq!(askew, Bounds::EVERYWHERE);
+        }
+    }
+}

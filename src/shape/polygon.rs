@@ -8,7 +8,7 @@
 //! 5 (1962), p. 434.
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 
 #[derive(Debug, Clone, PartialEq)]

@@ -12,9 +12,9 @@ mod wall;
 use smallvec::SmallVec;
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::curve::{Outline, Path, Point, walk};
 use super::cylinder::{BASE, CAP, between};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use ends::{after, before, entered, high, low, reversed};
 use ruled::{Ruled, WALLS, Wall, part_of};

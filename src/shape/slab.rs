@@ -7,7 +7,7 @@
 //! 1990, p. 66.
 
 use super::U;
-use super::body::{InWorld, LocalRay, Met};
+use super::local::{InWorld, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::placement::Rise;
 

@@ -7,7 +7,7 @@
 //! limited to 2. If both are at least 2, the gauge is concave in each octant.
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::math::power::Power;

@@ -7,8 +7,8 @@
 
 use smallvec::SmallVec;
 
-use super::body::{Crossings, Height, Local, LocalRay, Met, Span, unite};
 use super::curve::Outline;
+use super::local::{Crossings, Height, Local, LocalRay, Met, Span, unite};
 use super::polygon::on_the_plane;
 use super::prism::Prism;
 use super::slab::meant;

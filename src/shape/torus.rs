@@ -9,7 +9,7 @@
 //! 3.1.4.
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::elementary::cbrt;
 use crate::math::roots::bracket::{Sample, root};

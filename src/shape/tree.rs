@@ -11,7 +11,7 @@ use std::ops::Range;
 use smallvec::SmallVec;
 
 use super::Bounds;
-use super::body::LocalRay;
+use super::local::LocalRay;
 use crate::math::Vector;
 
 const BINS: usize = 16;

@@ -123,20 +123,23 @@ fn along(pieces: &[Piece], place: [f64; 2]) -> f64 {
         x * x + y * y
     };
     let all = pieces.iter().enumerate();
-    let starts = all.flat_map(|(at, piece)| (0..=STEPS).map(move |step| (at, piece, step)));
-    let off_start =
-        |&(_, piece, step): &(usize, &Piece, usize)| off(piece, step as f64 / STEPS as f64);
-    let nearest = starts.min_by(|a, b| off_start(a).total_cmp(&off_start(b)));
-    let Some((at, piece, step)) = nearest else { return 0.0 };
+    let starts = all.flat_map(|(at, piece)| {
+        (0..=STEPS).map(move |step| (off(piece, step as f64 / STEPS as f64), at, piece, step))
+    });
+    let nearest = starts.min_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((_, at, piece, step)) = nearest else { return 0.0 };
     let step = step as f64;
     let (mut low, mut high) = ((step - 1.0).max(0.0), (step + 1.0).min(STEPS as f64));
     (low, high) = (low / STEPS as f64, high / STEPS as f64);
-    for _ in 0..48 {
-        let third = (high - low) / 3.0;
-        match off(piece, low + third) < off(piece, high - third) {
-            true => high -= third,
-            false => low += third,
-        }
+    // Where the distance no longer falls.
+    let rises = |u: f64| {
+        let ([x, y], [along_x, along_y]) = piece.at(u);
+        let (mirror, x) = (x.signum(), x.abs());
+        (x - place[0]) * mirror * along_x + (y - place[1]) * along_y >= 0.0
+    };
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        *(if rises(middle) { &mut high } else { &mut low }) = middle;
     }
     (at as f64 + 0.5 * (low + high)) / pieces.len() as f64
 }

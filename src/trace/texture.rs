@@ -2,6 +2,8 @@
 //!
 //! **In:** a [`Pigment`], and the hit. **Out:** the pigment's colour at that point.
 
+use std::cell::OnceCell;
+
 use super::path::Tracer;
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, ANY, Hit};
@@ -168,8 +170,8 @@ fn through<'a>(
     }
 }
 
-/// A hit on a surface, as textures ask for it.
-#[derive(Clone, Copy)]
+/// A hit on a surface, as textures ask for it. What takes long to compute is computed once.
+#[derive(Clone)]
 pub(super) struct SurfaceInteraction<'a, 'p> {
     world: &'a World,
     /// The bumps of the plain texture that is evaluated.
@@ -181,6 +183,9 @@ pub(super) struct SurfaceInteraction<'a, 'p> {
     coat: Coat,
     /// The error below which the point is sharp.
     sharp_below: f64,
+    /// See [`geometry::spread`].
+    spread: OnceCell<Vector>,
+    uv: OnceCell<[f64; 2]>,
 }
 
 impl<'a, 'p> SurfaceInteraction<'a, 'p> {
@@ -189,12 +194,18 @@ impl<'a, 'p> SurfaceInteraction<'a, 'p> {
         let world = tracer.world;
         let coat = world.coat(&world.objects[hit.object as usize], hit.leaving);
         let sharp_below = tracer.sharpness.sharp_below(hit);
-        Self { world, bumps: None, ray, hit, surface, coat, sharp_below }
+        let (spread, uv) = (OnceCell::new(), OnceCell::new());
+        Self { world, bumps: None, ray, hit, surface, coat, sharp_below, spread, uv }
     }
 
     /// Returns the same for a plain texture with these bumps.
     pub fn with(&self, bumps: Option<&'p Normal>) -> Self {
-        Self { bumps, ..*self }
+        Self { bumps, ..self.clone() }
+    }
+
+    /// Returns how far the point may be, along each axis, from where the ray was meant to hit.
+    fn spread(&self) -> Vector {
+        *self.spread.get_or_init(|| geometry::spread(self.world, self.ray, self.hit, self.surface))
     }
 
     /// Returns the coordinates that are constant over the face, in the space of a slot.
@@ -222,7 +233,7 @@ impl Surroundings for SurfaceInteraction<'_, '_> {
 
     #[cold]
     fn error(&self, slot: u32) -> Vector {
-        let mut error = geometry::spread(self.world, self.ray, self.hit, self.surface);
+        let mut error = self.spread();
         if let Some(first) = self.coat.places {
             let map = self.world.texture_maps[(first + slot) as usize];
             error = map.point_error(self.surface.point, error);
@@ -249,10 +260,10 @@ impl Surroundings for SurfaceInteraction<'_, '_> {
             Shape::Placed(placed) => Some(&self.world.placed[placed as usize]),
             _ => None,
         };
-        match object.uv {
+        *self.uv.get_or_init(|| match object.uv {
             Some(mapping) => self.world.uv_mappings[mapping as usize].at(self.surface, placed),
             None => [self.surface.point.x, self.surface.point.y],
-        }
+        })
     }
 
     fn in_world(&self) -> Vector {
@@ -281,10 +292,7 @@ impl Surroundings for SurfaceInteraction<'_, '_> {
         let object = &self.world.objects[self.hit.object as usize];
         match object.uv {
             Some(_) => Vector::ZERO,
-            None => {
-                let spread = geometry::spread(self.world, self.ray, self.hit, self.surface);
-                Vector { z: 0.0, ..spread }
-            }
+            None => Vector { z: 0.0, ..self.spread() },
         }
     }
 

@@ -15,8 +15,8 @@ use crate::color::Clearness;
 use crate::math::placement::{Map, Placement};
 use crate::math::vector::written as vector;
 use crate::math::{Matrix, UnitVector};
-use crate::shape::body::Local;
 use crate::shape::csg::Node;
+use crate::shape::local::Local;
 use crate::shape::{Box_, Shape, uv};
 use crate::source::{Site, Sources};
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::{Coat, Object, Texture, World};
 use crate::math::Vector;
-use crate::shape::body::Local;
+use crate::shape::local::Local;
 use crate::shape::{Body, JuliaFractal, Placed, Shape, csg};
 use crate::texture::region::Contains;
 

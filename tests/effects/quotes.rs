@@ -19,8 +19,7 @@ fn words(effect: Effect) -> &'static [&'static str] {
         Effect::Diffuse | Effect::Shadows => &["light_source", "object"],
         Effect::Highlights => &["phong", "specular", "ks"],
         Effect::Attenuation => &["spotlight", "cylinder", "fade_distance"],
-        // Also a number alone, the second of `diffuse`.
-        Effect::DoubleIllumination => &["double_illuminate"],
+        Effect::DoubleIllumination => &["double_illuminate", "diffuse"],
         Effect::Reflection => &["reflection", "ks"],
         // Also every colour's word.
         Effect::Transparency | Effect::ColoredShadows => &["image_map"],
@@ -49,7 +48,6 @@ fn begins_well(effect: Effect, quote: &str) -> bool {
         Effect::Transparency | Effect::ColoredShadows if family == Some(Family::Color) => {
             return true;
         }
-        Effect::DoubleIllumination if word.is_empty() => return quote.parse::<f64>().is_ok(),
         _ => {}
     }
     words(effect).contains(&word) || word.starts_with(|c: char| c.is_ascii_uppercase())
@@ -177,7 +175,7 @@ fn the_last_of_each_word_of_a_finish_is_quoted_with_its_values() {
     assert_quotes(
         Effect::DoubleIllumination,
         &[
-            ("disc { x, z, 1 finish { diffuse 0.6, 0.3 } }", &["0.3"]),
+            ("disc { x, z, 1 finish { diffuse 0.6, 0.3 } }", &["diffuse 0.6, 0.3"]),
             ("disc { x, z, 1 finish { diffuse 0.6, 0.3 diffuse 1 } }", &[]),
         ],
     );

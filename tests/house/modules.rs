@@ -98,7 +98,7 @@ fn every_table_is_read() {
                 path == name || path.ends_with(&format!("{folder}/{name}"))
             })
         };
-        !code.iter().any(is_read)
+        !name.contains("LICENSE") && !code.iter().any(is_read)
     });
     assert_none(lost.map(|table| format!("nothing includes {}", table.display())).collect());
 }

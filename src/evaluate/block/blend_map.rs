@@ -61,6 +61,9 @@ impl Evaluator<'_> {
                                 }
                                 None => 1.0,
                             };
+                            if let Some(reported) = evaluator.wrapped_entry(map) {
+                                return Err(reported);
+                            }
                             read(evaluator, &token).map(|of| (value, of))
                         });
                         match entry {
@@ -102,6 +105,32 @@ impl Evaluator<'_> {
             }
             Ok((entries, rise))
         })
+    }
+
+    /// Reports an entry in a block of its own: `[0 pigment { rgb 1 }]` in a `pigment_map`.
+    fn wrapped_entry(&mut self, map: Word) -> Option<Reported> {
+        let own = match map {
+            Word::PigmentMap => Word::Pigment,
+            Word::NormalMap => Word::Normal,
+            Word::TextureMap => Word::Texture,
+            _ => return None,
+        };
+        self.skip_commas();
+        let token = self.next_if(|kind| *kind == TokenKind::Word(own))?;
+        self.pass_not_built(&token, own);
+        let whole = self.whole(&token).span;
+        let (name, map) = (own.name(), map.name());
+        let message = format!("an entry of a `{map}` is a {name} without `{name} {{ }}`");
+        let told = Diagnostic::new(Code::ExtraPart, message).at(token.span, "leave it out");
+        let inside = self.sources.text(whole).strip_prefix(name).map(str::trim_start);
+        let inside = inside.and_then(|text| text.strip_prefix('{')?.strip_suffix('}'));
+        let told = match inside.map(str::trim) {
+            Some(inside) if !inside.is_empty() => {
+                told.help(format!("write `[… {inside}]`")).fix(whole, inside)
+            }
+            _ => told.help(format!("write what is in its braces: `{map} {{ [0 …] [1 …] }}`")),
+        };
+        Some(self.report(&token.here, told))
     }
 
     /// Sorts the entries of a map. POV-Ray's curve of a `slope_map` is read as it is written.

@@ -9,7 +9,7 @@ mod whole;
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{ClassicFinish, Finish, FinishId, FinishOrigin};
-use crate::source::{Site, Span};
+use crate::source::Span;
 use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::stream::{Token, TokenKind};
@@ -216,10 +216,8 @@ impl Evaluator<'_> {
                 albedo.diffuse |= self.skip_albedo();
                 finish.diffuse = self.strength_after(token, word)?;
                 let behind = self.back_side(token)?;
-                finish.behind = behind.map_or(0.0, |(strength, _)| strength);
-                if let Some((_, site)) = behind {
-                    written.origin.set(word, site);
-                }
+                finish.behind = behind.unwrap_or(0.0);
+                written.origin.set(word, self.whole(token));
             }
             Word::Brilliance => finish.brilliance = self.power_after(token, word)?,
             Word::Phong => {
@@ -293,9 +291,9 @@ impl Evaluator<'_> {
         Ok(given.with(light))
     }
 
-    /// Reads the second number of `diffuse front, behind`, for light from behind; also returns its site.
+    /// Reads the second number of `diffuse front, behind`, for light from behind.
     /// POV-Ray 3.7 accepts it without the comma (measured).
-    fn back_side(&mut self, token: &Token) -> Outcome<Option<(f64, Site)>> {
+    fn back_side(&mut self, token: &Token) -> Outcome<Option<f64>> {
         let is_comma = |next: &Token| matches!(next.kind, TokenKind::Comma);
         if self.options.dialect == Dialect::Scene && !self.peek().is_some_and(is_comma) {
             return Ok(None);
@@ -310,7 +308,7 @@ impl Evaluator<'_> {
         }
         let behind = self.number_after(token, "a number")?;
         self.lint_strength(&behind.here, behind.span, Word::Diffuse, Rgb::gray(behind.value));
-        Ok(Some((behind.value, behind.site())))
+        Ok(Some(behind.value))
     }
 
     /// Reads how strongly a surface reflects light.

@@ -1,8 +1,9 @@
 //! Wholes: found with and without their trees, their surface where membership changes.
 
 use super::*;
-use crate::shape::body::{Body, Met};
+use crate::shape::body::Body;
 use crate::shape::csg::Node;
+use crate::shape::local::Met;
 use crate::shape::{Cylinder, Placed};
 
 impl Whole {

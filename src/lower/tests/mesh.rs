@@ -9,7 +9,7 @@ use crate::math::random::{Random, tries};
 use crate::math::{UnitVector, Vector};
 use crate::road::{Options, Road};
 use crate::scene::Dialect;
-use crate::shape::body::Local;
+use crate::shape::local::Local;
 use crate::shape::{Body, Ray, Rounding};
 use crate::source::{FileError, Files, Found};
 use crate::world::{Pigment, Plain, Texture, World};

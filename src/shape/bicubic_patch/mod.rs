@@ -15,7 +15,7 @@
 mod foot;
 mod net;
 
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use super::tree::Tree;
 use super::{Bounds, U};
 use crate::math::Vector;

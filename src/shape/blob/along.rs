@@ -15,7 +15,7 @@ use crate::math::roots::bracket::{Root, Sample};
 use crate::math::roots::monotone::Walk;
 use crate::math::roots::polynomial::turning_points;
 use crate::shape::U;
-use crate::shape::body::{Crossings, LocalRay, Met};
+use crate::shape::local::{Crossings, LocalRay, Met};
 
 /// A component that the line passes through.
 struct Part<'a> {

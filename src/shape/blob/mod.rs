@@ -11,7 +11,7 @@ mod along;
 
 use smallvec::SmallVec;
 
-use super::body::{Crossings, Height, Local, LocalRay};
+use super::local::{Crossings, Height, Local, LocalRay};
 use super::tree::Tree;
 use super::{Bounds, Paint, U};
 use crate::math::singular::singular_values;

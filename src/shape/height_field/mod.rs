@@ -10,7 +10,7 @@
 mod walk;
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met, Span, unite};
+use super::local::{Crossings, Height, Local, LocalRay, Met, Span, unite};
 use super::mesh::Flat;
 use super::mesh::pierce::{self, View};
 use crate::math::Vector;

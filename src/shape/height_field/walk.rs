@@ -2,7 +2,7 @@
 //!
 //! **Invariant:** every cell that the line may pass over is reported once; rounding may add a few more.
 
-use super::super::body::LocalRay;
+use super::super::local::LocalRay;
 use super::U;
 
 /// A line over the grid, limited to a range.

@@ -11,7 +11,7 @@ use smallvec::SmallVec;
 use crate::function::Sloped;
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::shape::body::LocalRay;
+use crate::shape::local::LocalRay;
 
 /// Maximum number of subdivisions of the box along each axis.
 const DEPTH: u32 = 6;

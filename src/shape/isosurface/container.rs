@@ -5,7 +5,7 @@ use super::SURFACE;
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::shape::U;
-use crate::shape::body::{Height, LocalRay, Met};
+use crate::shape::local::{Height, LocalRay, Met};
 use crate::shape::slab::Slab;
 
 /// The container of an isosurface.

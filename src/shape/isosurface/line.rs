@@ -10,7 +10,7 @@ use crate::math::interval::Interval;
 use crate::math::roots::bracket::{Sample, root};
 use crate::math::roots::isolate::{Bounds, Change, Search};
 use crate::shape::U;
-use crate::shape::body::{LocalRay, Met};
+use crate::shape::local::{LocalRay, Met};
 
 /// Number of steps after which another method is better.
 const GUESSES: u32 = 24;

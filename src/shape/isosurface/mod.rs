@@ -15,7 +15,7 @@ mod nowhere;
 
 use std::sync::Arc;
 
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use super::{Memory, U, multiple};
 use crate::function::{Number, Run, Sloped};
 use crate::math::Vector;

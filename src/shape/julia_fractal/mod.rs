@@ -15,7 +15,7 @@ mod function;
 mod orbit;
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::math::roots::bracket::{Sample, root};

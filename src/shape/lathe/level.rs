@@ -5,8 +5,8 @@
 use super::line::Line;
 use crate::math::Vector;
 use crate::shape::U;
-use crate::shape::body::{Height, LocalRay};
 use crate::shape::curve::Outline;
+use crate::shape::local::{Height, LocalRay};
 use crate::shape::slab::{Level, nudge};
 
 /// The lines to intersect with the outline instead of a line nearly parallel to a horizontal end.

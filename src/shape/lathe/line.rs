@@ -9,8 +9,8 @@ use smallvec::SmallVec;
 use crate::math::roots::bracket::Sample;
 use crate::math::roots::polynomial::turning_points;
 use crate::shape::U;
-use crate::shape::body::LocalRay;
 use crate::shape::curve::{Change, Hull, Outline, Path, Piece, Point, Run, Side};
+use crate::shape::local::LocalRay;
 
 /// Minimum vertical speed of a steep line.
 pub(super) const STEEP: f64 = 0.125;

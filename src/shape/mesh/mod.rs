@@ -6,9 +6,12 @@
 pub(super) mod pierce;
 mod skin;
 
-use super::body::{Crossings, Height, Local, LocalRay, Met};
-use super::tree::Tree;
+use std::ops::Range;
+
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use super::{Bounds, U};
+use crate::bvh::Tree;
+use crate::math::ray::Ray;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use pierce::View;
 pub use skin::Skin;
@@ -102,22 +105,42 @@ impl Mesh {
         face.corners.map(|i| self.corners[i as usize])
     }
 
-    /// Calls `found` with every face that a line pierces, in no order; returns whether it lies in the plane
-    /// of one, within rounding.
-    fn pierced(&self, ray: &LocalRay, mut found: impl FnMut(Met)) -> bool {
+    /// Calls `found` with faces that a line pierces, in no order: with all that may lie between `from` and the
+    /// limit, which is `to` at first and then what `found` returns. Returns whether the line lies in the plane
+    /// of a face, within rounding.
+    fn pierced(
+        &self,
+        ray: &LocalRay,
+        (from, to): (f64, f64),
+        mut found: impl FnMut(Met) -> f64,
+    ) -> bool {
         let view = View::along(ray, self.reach);
         // What the view rounds corners by, generously.
         let slack = 32.0 * U * (self.reach + ray.nearest.length()) + view.doubt;
-        self.tree.along(ray, slack, |run| {
+        let from = from.max(-self.reach - slack);
+        let start = Ray { origin: ray.at(from), direction: ray.direction };
+        self.tree.visit(&start, slack, to - from, &mut |run: Range<usize>, mut limit| {
             for number in run {
                 let corners = self.corners_of(&self.faces[number]);
                 if let Some(pierced) = view.pierces(corners) {
                     let part = 2 * number as u32;
-                    found(pierce::met(ray, corners, pierced, part));
+                    limit = found(pierce::met(ray, corners, pierced, part)) - from;
                 }
             }
+            limit
         });
         view.is_in_a_plane.get()
+    }
+
+    /// Adds all crossings of a line with faces, as they are wound, in order; returns whether the line lies in
+    /// the plane of a face.
+    fn all_pierced(&self, ray: &LocalRay, found: &mut Crossings) -> bool {
+        let is_in_a_plane = self.pierced(ray, (f64::NEG_INFINITY, f64::INFINITY), |met| {
+            found.push(met);
+            f64::INFINITY
+        });
+        sort(found);
+        is_in_a_plane
     }
 
     /// Returns the shading normal of a part at a point, of any length; `None` if it is the geometric normal.
@@ -127,6 +150,10 @@ impl Mesh {
         let weights = self.weights(part as usize / 2, point)?;
         Some(normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2])
     }
+}
+
+fn sort(found: &mut Crossings) {
+    found.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
 }
 
 /// The plane of a triangle.
@@ -157,12 +184,11 @@ impl Local for Mesh {
     /// where the line leaves it, it ends right behind the last face. A line in the plane of a face of a solid
     /// is displaced beside it, to the same side as all such lines.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        let is_in_a_plane = self.pierced(ray, |met| found.push(met));
+        let is_in_a_plane = self.all_pierced(ray, found);
         if is_in_a_plane && self.inside.is_some() {
             found.clear();
-            self.pierced(&pierce::beside(ray, self.reach), |met| found.push(met));
+            self.all_pierced(&pierce::beside(ray, self.reach), found);
         }
-        found.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
         if self.inside.is_none() {
             return;
         }
@@ -177,6 +203,57 @@ impl Local for Mesh {
         {
             found.push(Met { leaving: true, part: Met::UNSEEN, ..last });
         }
+    }
+
+    /// Of a sheet, the crossings up to the first one ahead. A solid needs all of them, as they tell its inside.
+    fn first_crossings(&self, ray: &LocalRay, between: (f64, f64), found: &mut Crossings) {
+        if self.inside.is_some() {
+            return self.crossings(ray, found);
+        }
+        let ahead = ray.ahead_of(between.0);
+        let mut limit = between.1;
+        self.pierced(ray, between, |met| {
+            if met.t <= limit {
+                found.push(met);
+                if met.t - met.error > ahead {
+                    limit = met.t;
+                }
+            }
+            limit
+        });
+        found.retain(|met| met.t <= limit);
+        sort(found);
+    }
+
+    fn crosses(&self, ray: &LocalRay, between: (f64, f64), accepts: &dyn Fn(&Met) -> bool) -> bool {
+        if self.inside.is_some() {
+            let mut found = Crossings::new();
+            self.crossings(ray, &mut found);
+            return found.iter().any(accepts);
+        }
+        let mut is_crossed = false;
+        self.pierced(ray, between, |met| {
+            is_crossed |= accepts(&met);
+            if is_crossed { f64::NEG_INFINITY } else { between.1 }
+        });
+        is_crossed
+    }
+
+    fn part_at(&self, ray: &LocalRay, s: f64, leaving: bool) -> Option<u32> {
+        if self.inside.is_some() {
+            return None;
+        }
+        // Much more than rounding, and less than the distance to most other faces.
+        let near = self.reach * 1e-9;
+        let mut nearest: Option<Met> = None;
+        let off = |met: &Met| (met.t - s).abs();
+        self.pierced(ray, (s - near, s + near), |met| {
+            if met.leaving == leaving && nearest.is_none_or(|nearest| off(&met) < off(&nearest)) {
+                nearest = Some(met);
+            }
+            s + near
+        });
+        nearest.filter(|met| off(met) <= met.error).map(|met| met.part)
     }
 
     /// Measured from the plane of the face, relative to its corner.
@@ -223,7 +300,10 @@ impl Local for Mesh {
         }
         let ray = LocalRay::exact(point, way.get());
         let mut ahead = 0u32;
-        self.pierced(&ray, |met| ahead += u32::from(met.t > 0.0));
+        self.pierced(&ray, (0.0, f64::INFINITY), |met| {
+            ahead += u32::from(met.t > 0.0);
+            f64::INFINITY
+        });
         ahead % 2 == 1
     }
 

@@ -10,7 +10,7 @@
 
 use std::cell::Cell;
 
-use super::super::body::{InWorld, LocalRay, Met};
+use super::super::local::{InWorld, LocalRay, Met};
 use super::super::slab::{NEARLY_ALONG, lies_in, meant, nudge};
 use super::super::{Ray, U};
 use super::Flat;

@@ -13,8 +13,8 @@ use std::sync::Arc;
 use smallvec::SmallVec;
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay};
 use super::isosurface::Container;
+use super::local::{Crossings, Height, Local, LocalRay};
 use crate::function::{Run, Sloped};
 use crate::math::Vector;
 use crate::math::interval::Interval;

@@ -20,7 +20,7 @@
 use std::collections::VecDeque;
 
 use super::super::U;
-use super::super::body::{LocalRay, Met};
+use super::super::local::{LocalRay, Met};
 use super::{DEPTH, Image, Parametric, Part, Surface, common, dot, halves, middle, quarters};
 use crate::math::Vector;
 use crate::math::interval::Interval;

@@ -3,7 +3,7 @@
 //! **Invariant:** where rounding hides the order of two crossings, a point with a certain result decides it.
 
 use crate::shape::U;
-use crate::shape::body::Met;
+use crate::shape::local::Met;
 
 pub(super) fn low(met: &Met) -> f64 {
     met.t - met.error

@@ -12,8 +12,8 @@ use smallvec::SmallVec;
 use crate::math::Vector;
 use crate::math::roots::bracket::Sample;
 use crate::shape::U;
-use crate::shape::body::{LocalRay, Met};
 use crate::shape::curve::{Change, Hull, Piece, Point, Side};
+use crate::shape::local::{LocalRay, Met};
 
 use super::GRAZING;
 use super::wall::aside;

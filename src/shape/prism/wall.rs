@@ -3,7 +3,7 @@
 
 use crate::math::Vector;
 use crate::shape::U;
-use crate::shape::body::LocalRay;
+use crate::shape::local::LocalRay;
 use crate::shape::slab::nudge;
 
 /// Distance from the tip below which a line cannot be separated from one through it.

@@ -6,8 +6,8 @@
 mod walk;
 
 use super::U;
-use super::body::{Crossings, Height, Local, LocalRay, Met};
 use super::cylinder::{BASE, CAP, SIDE, between};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::roots::bracket::Sample;
 

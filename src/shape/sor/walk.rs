@@ -7,8 +7,8 @@
 use smallvec::SmallVec;
 
 use super::super::U;
-use super::super::body::{LocalRay, Met};
 use super::super::cylinder::SIDE;
+use super::super::local::{LocalRay, Met};
 use super::{FAR, Segment, Sor};
 use crate::math::Vector;
 use crate::math::roots::bracket::{Root, root};

@@ -13,7 +13,7 @@ use super::Segment;
 use crate::math::Vector;
 use crate::math::roots::polynomial::{root_between_ends, turning_points};
 use crate::shape::U;
-use crate::shape::body::LocalRay;
+use crate::shape::local::LocalRay;
 
 /// Where the line enters or leaves a sphere.
 #[derive(Debug, Clone, Copy)]

@@ -11,7 +11,7 @@ mod along;
 
 use smallvec::SmallVec;
 
-use super::body::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Height, Local, LocalRay, Met};
 use super::tree::Tree;
 use super::{Bounds, U};
 use crate::math::Vector;

@@ -8,8 +8,8 @@ use crate::math::random::tries_in;
 use crate::math::terms::{count_of_terms, exponents};
 use crate::shape::Body;
 use crate::shape::algebraic::Algebraic;
-use crate::shape::body::{Local, LocalRay, Met};
 use crate::shape::exact::Triple;
+use crate::shape::local::{Local, LocalRay, Met};
 
 /// Each coefficient and its powers.
 pub(super) type Terms = Vec<(f64, [usize; 3])>;
@@ -139,7 +139,7 @@ fn line(nearest: Vector, direction: Vector) -> LocalRay<'static> {
 }
 
 fn met(surface: &Algebraic, ray: &LocalRay) -> Vec<Met> {
-    let mut found = crate::shape::body::Crossings::new();
+    let mut found = crate::shape::local::Crossings::new();
     surface.crossings(ray, &mut found);
     found.to_vec()
 }

@@ -6,7 +6,7 @@ use super::algebraic::{Terms, product, squares, surface, torus};
 use super::*;
 use crate::math::terms::exponents;
 use crate::shape::algebraic::Algebraic;
-use crate::shape::body::Local;
+use crate::shape::local::Local;
 
 const AXES: [Vector; 3] = [Vector::X, Vector::Y, Vector::Z];
 const ENDLESS: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);

@@ -4,8 +4,8 @@ use super::placed::{
     assert_crossed_where_it_is, at_the_origin, blur, local_at, placed, ray_at_placed,
 };
 use super::*;
-use crate::shape::body::{Local, LocalRay, Met};
 use crate::shape::exact::Triple;
+use crate::shape::local::{Local, LocalRay, Met};
 
 /// z over the square from −0.75 to 0.75 as a polynomial: what the corners are is exact.
 fn hill(random: &mut Random) -> BicubicPatch {

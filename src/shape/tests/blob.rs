@@ -5,8 +5,8 @@ use super::placed::{
 };
 use super::*;
 use crate::shape::blob::Component;
-use crate::shape::body::Local;
 use crate::shape::exact::Triple;
+use crate::shape::local::Local;
 use crate::shape::{Blob, Body};
 
 /// What is missing to 1, over how fast that grows.

@@ -2,9 +2,9 @@
 
 use super::placed::{assert_crossed_where_it_is, blur, local_at, placed, ray_at_placed};
 use super::*;
-use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::curve::{Outline, Piece};
 use crate::shape::exact::Triple;
+use crate::shape::local::{Crossings, Local, LocalRay, Met};
 
 fn greater(a: Double, b: Double) -> Double {
     if (a - b).0 < 0.0 { b } else { a }

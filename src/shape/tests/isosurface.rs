@@ -12,9 +12,9 @@ use crate::function::{Binary, Builder, Function, Node, Unary};
 use crate::math::random::tries_in;
 use crate::shape::Body;
 use crate::shape::Memory;
-use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::exact::Triple;
 use crate::shape::isosurface::{Container, Isosurface};
+use crate::shape::local::{Crossings, Local, LocalRay, Met};
 use crate::texture::Closed;
 
 /// Operations as they are read.

@@ -4,9 +4,9 @@
 use super::placed::{assert_crossed_where_it_is, assert_left_into_the_open, placed, ray_at_placed};
 use super::*;
 use crate::math::elementary::pow;
-use crate::shape::body::{Crossings, Local, LocalRay};
 use crate::shape::exact::Triple;
 use crate::shape::julia_fractal::{Algebra, Function};
+use crate::shape::local::{Crossings, Local, LocalRay};
 use crate::shape::{Body, JuliaFractal};
 
 fn product(a: [Double; 4], b: [Double; 4]) -> [Double; 4] {

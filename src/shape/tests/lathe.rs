@@ -9,9 +9,9 @@ use super::placed::{
 };
 use super::*;
 use crate::math::random::tries_in;
-use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::curve::{Piece, Point};
 use crate::shape::exact::Triple;
+use crate::shape::local::{Crossings, Local, LocalRay, Met};
 
 fn inside(body: &Body, [x, y, z]: Triple) -> Double {
     let Body::Lathe(lathe) = body else { panic!("{body:?}") };

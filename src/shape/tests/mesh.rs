@@ -2,8 +2,8 @@
 
 use super::placed::{assert_crossed_where_it_is, assert_left_where_it_is, placed, ray_at_placed};
 use super::*;
-use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::exact::Triple;
+use crate::shape::local::{Crossings, Local, LocalRay, Met};
 use crate::shape::mesh::Face;
 
 fn flat(corners: [u32; 3]) -> Face {

@@ -6,8 +6,8 @@ use super::prism::any_prism;
 use super::sor::any_sor;
 use super::*;
 use crate::math::random::tries_in;
-use crate::shape::body::Local;
 use crate::shape::curve::{Outline, Piece, Point, Run};
+use crate::shape::local::Local;
 use crate::shape::{Body, Placed, Prism};
 
 pub(super) fn one() -> Double {

@@ -5,8 +5,8 @@ use super::placed::{
 };
 use super::*;
 use crate::math::double;
-use crate::shape::body::Local;
 use crate::shape::exact::Triple;
+use crate::shape::local::Local;
 use crate::shape::{Body, Ovus};
 
 fn inside(body: &Body, point: Triple) -> Double {

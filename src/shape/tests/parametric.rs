@@ -7,8 +7,8 @@ use super::*;
 use crate::function::{Binary, Node, Unary};
 use crate::math::random::tries_in;
 use crate::shape::Parametric;
-use crate::shape::body::{Crossings, Local, LocalRay, Met};
 use crate::shape::isosurface::Container;
+use crate::shape::local::{Crossings, Local, LocalRay, Met};
 
 /// Of radius ½ around the origin.
 fn ball() -> Parametric {

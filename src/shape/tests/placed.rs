@@ -4,8 +4,8 @@ use super::*;
 use crate::math::double::DoubleVector;
 use crate::math::elementary;
 use crate::math::placement::ExactPlacement;
-use crate::shape::body::{Local, Met};
 use crate::shape::exact::Triple;
+use crate::shape::local::{Local, Met};
 
 /// Negative inside of a body, positive outside, and about the distance near the surface; of a local point.
 pub(super) type Inside = fn(&Body, Triple) -> Double;

@@ -10,9 +10,9 @@ use super::sor::any_sor;
 use super::*;
 use crate::math::random::tries_in;
 use crate::shape::Superellipsoid;
-use crate::shape::body::{Crossings, Height, Local, Met};
 use crate::shape::curve::{Outline, Piece};
 use crate::shape::exact::Triple;
+use crate::shape::local::{Crossings, Height, Local, Met};
 use crate::shape::slab::NUDGE;
 
 fn inside(body: &Body, [x, y, z]: Triple) -> Double {

@@ -6,8 +6,8 @@ use super::placed::{
 };
 use super::*;
 use crate::math::random::tries_in;
-use crate::shape::body::Local;
 use crate::shape::exact::Triple;
+use crate::shape::local::Local;
 use crate::shape::sor::Segment;
 
 fn inside(body: &Body, [x, y, z]: Triple) -> Double {

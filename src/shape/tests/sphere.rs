@@ -1,6 +1,7 @@
 //! Spheres against exact arithmetic, from within, from afar, and in single precision.
 
 use super::*;
+use crate::math::Vector3;
 
 #[test]
 fn a_sphere_is_hit_where_exact_arithmetic_hits_it_at_any_size_and_distance() {

@@ -4,8 +4,8 @@ use super::placed::{
     assert_crossed_where_it_is, assert_left_into_the_open, far_off, placed, ray_at_placed,
 };
 use super::*;
-use crate::shape::body::Local;
 use crate::shape::exact::Triple;
+use crate::shape::local::Local;
 use crate::shape::sphere_sweep::Segment;
 use crate::shape::{Body, SphereSweep};
 

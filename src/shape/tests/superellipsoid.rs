@@ -2,8 +2,8 @@
 
 use super::placed::{assert_crossed_where_it_is, assert_left_where_it_is, placed, ray_at_placed};
 use super::*;
-use crate::shape::body::Local;
 use crate::shape::exact::Triple;
+use crate::shape::local::Local;
 use crate::shape::{Body, Superellipsoid};
 
 /// The gauge, less 1.

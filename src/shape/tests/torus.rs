@@ -5,8 +5,8 @@ use super::placed::{
     stand,
 };
 use super::*;
-use crate::shape::body::Local;
 use crate::shape::exact::Triple;
+use crate::shape::local::Local;
 
 fn inside(body: &Body, [x, y, z]: Triple) -> Double {
     let Body::Torus(Torus { major, minor }) = body else { panic!("{body:?}") };

@@ -90,7 +90,7 @@ impl Evaluator<'_> {
             self.skip_color(token);
         } else if given > 0 && given < count && self.poison.is_none() {
             // Without any, the author knows those that it has.
-            self.lint_missing_color(token, if pigments > 0 { "black" } else { "green" });
+            self.lint_missing_color(token, source.word(), (given, count), pigments > 0);
         }
         let own = defaults(source);
         let default = self.scene.textures[self.default_texture.index()].kind.first_pigment();

@@ -3,6 +3,7 @@
 //! **Source:** what POV-Ray 3.7 refuses, tested number by number; manual, 3.4.3.3 "Radiosity", 3.4.7.6
 //! "Pattern Modifiers", 3.4.8.1 "Media".
 
+use crate::diagnostic::{Code, Diagnostic};
 use crate::vocabulary::{Dialect, Word};
 
 use super::super::super::Evaluator;
@@ -97,7 +98,16 @@ impl Evaluator<'_> {
 
     /// As [`Self::within`], for a modifier of a pattern or of an interior.
     pub(in crate::evaluate::block) fn within_bounds(&mut self, given: &Given<f64>, word: Word) {
-        if let Some(range) = of_modifier(word) {
+        if word == Word::Tiling && (25.0..28.0).contains(&given.value) {
+            let diagnostic = Diagnostic::new(
+                Code::NotSupportedYet,
+                "the Penrose tilings, 25 to 27, are not supported yet",
+            );
+            let told = diagnostic
+                .at(given.span, "expected 24 or less")
+                .help("the other tilings are 1 to 24");
+            self.report(&given.here, told);
+        } else if let Some(range) = of_modifier(word) {
             self.within(given, word, &range);
         }
     }

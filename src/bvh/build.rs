@@ -8,9 +8,9 @@
 
 use std::ops::Range;
 
-use super::tree::{Child, DEPTH, LEAF, Node, Space, Tree};
+use super::{Child, DEPTH, LEAF, Node, Space, Tree};
+use crate::math::bounds::Bounds;
 use crate::math::{Lanes, Vector, reciprocal_power_of_two};
-use crate::shape::Bounds;
 
 /// Bins along an axis, for many things and for few.
 const BINS: usize = 16;
@@ -19,13 +19,16 @@ const FEW: usize = 24;
 /// The price of testing a node's boxes, in tests of one thing.
 const NODE_COST: f32 = 0.7;
 
-pub(super) fn tree(bounds: &[Bounds]) -> (Tree, Vec<u32>) {
-    let space = Space::around(bounds);
-    let mut things: Vec<Thing> =
-        (0..).zip(bounds).map(|(index, b)| Thing::new(index, space.outward(b))).collect();
-    let (nodes, depth) = nodes(&mut things);
-    let order = things.iter().map(|thing| thing.index).collect();
-    (Tree { space, nodes, count: bounds.len(), depth }, order)
+impl Tree {
+    /// Builds the tree and returns it with the order of the pieces in its leaves. The bounds are finite.
+    pub fn build(bounds: &[Bounds]) -> (Self, Vec<u32>) {
+        let space = Space::around(bounds);
+        let mut things: Vec<Thing> =
+            (0..).zip(bounds).map(|(index, b)| Thing::new(index, space.outward(b))).collect();
+        let (nodes, depth) = nodes(&mut things);
+        let order = things.iter().map(|thing| thing.index).collect();
+        (Self { space, nodes, count: bounds.len(), depth }, order)
+    }
 }
 
 impl Space {

@@ -1,24 +1,30 @@
-//! A tree of boxes, four to a node, in `f32`: it finds what a ray may meet, and decides nothing.
+//! Bounding volume hierarchy, four boxes to a node, in `f32`: finds the pieces that a ray may meet.
 //!
-//! **Invariant:** no box that a ray's `f64` crossing lies in is skipped. The boxes are relative to
-//! the tree's own origin and a power of two, rounded outward, so nothing overflows and scaling a
-//! scene by a power of two gives the same tree.
+//! **In:** the bounds of the pieces, a ray. **Out:** runs of pieces, near ones first. **Invariant:** no box
+//! that contains a crossing in `f64` is skipped. The boxes are relative to the tree's own origin and a power
+//! of two, rounded outward, so nothing overflows, and scaling a scene by a power of two gives the same tree.
 //!
 //! **Source:** T. Ize, "Robust BVH ray traversal", JCGT 2 (2), 2013; the widths of boxes tested
 //! together: I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", RT 2008.
 
+mod build;
+#[cfg(test)]
+mod tests;
+
 use std::ops::Range;
 
-use super::work::Tally;
+use smallvec::SmallVec;
+
+use crate::math::bounds::Bounds;
+use crate::math::ray::Ray;
 use crate::math::{Lanes, Vector};
-use crate::shape::{Bounds, Ray};
 
 /// No leaf lies deeper: splits by cost end at half of it, the rest are by halves.
-pub(super) const DEPTH: usize = 64;
+pub const DEPTH: usize = 64;
 /// Trees of common depth get by with a short stack, which is cleared sooner.
 const COMMON_DEPTH: usize = 16;
-/// The greatest leaf that a [`Child`] can name.
-pub(super) const LEAF: usize = 15;
+/// Most pieces of a leaf that a [`Child`] can name.
+const LEAF: usize = 15;
 /// Distances from the tree beyond which no slab test can be trusted (in the tree's own size).
 const FAR: f64 = (1u64 << 58) as f64;
 /// Stands for 1/0: with the least padding, a slab it is in is never left.
@@ -27,27 +33,44 @@ const STEEPEST: f64 = (1u128 << 100) as f64;
 /// product are rounded.
 const OUTWARD: f32 = 1.0 + 4.0 * f32::EPSILON;
 
+/// Looks for something among the pieces that a ray may meet.
+pub trait Seeker {
+    /// Looks at a run of pieces; returns the limit from then on (−∞ ends the search).
+    fn leaf(&mut self, pieces: Range<usize>, limit: f64) -> f64;
+
+    /// Takes note of a visit to a node.
+    #[inline(always)]
+    fn node(&mut self) {}
+}
+
+impl<F: FnMut(Range<usize>, f64) -> f64> Seeker for F {
+    #[inline(always)]
+    fn leaf(&mut self, pieces: Range<usize>, limit: f64) -> f64 {
+        self(pieces, limit)
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tree {
+pub struct Tree {
     pub space: Space,
     /// The first is the root.
-    pub nodes: Vec<Node>,
-    /// How many things the leaves name in all.
-    pub count: usize,
-    /// How many nodes lie on the longest way to a leaf.
-    pub depth: usize,
+    nodes: Vec<Node>,
+    /// Number of pieces in all leaves.
+    count: usize,
+    /// Number of nodes on the longest path to a leaf.
+    depth: usize,
 }
 
 /// Where the tree's coordinates are −1 … 1: `(p − origin) · scale`, `scale` a power of two.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Space {
+pub struct Space {
     pub origin: Vector,
     pub scale: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
-pub(super) struct Node {
+struct Node {
     /// For each axis the low and the high planes of the four boxes. An absent child's are
     /// inside out, so no ray is in it.
     pub planes: [[Lanes; 2]; 3],
@@ -56,10 +79,12 @@ pub(super) struct Node {
 
 /// Another node, or a run of up to 15 leaf entries: the highest bit tells which, four bits count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Child(u32);
+struct Child(u32);
 
 impl Child {
     const IS_LEAF: u32 = 1 << 31;
+    /// A leaf without pieces.
+    const ABSENT: Self = Self(Self::IS_LEAF);
 
     pub fn node(index: usize) -> Self {
         Self(index as u32)
@@ -68,13 +93,26 @@ impl Child {
     pub fn leaf(range: Range<usize>) -> Self {
         Self(Self::IS_LEAF | (range.start as u32) << 4 | range.len() as u32)
     }
+
+    fn is_leaf(self) -> bool {
+        self.0 & Self::IS_LEAF != 0
+    }
+
+    fn is_absent(self) -> bool {
+        self == Self::ABSENT
+    }
+
+    /// Of a leaf.
+    #[inline(always)]
+    fn pieces(self) -> Range<usize> {
+        let start = ((self.0 & !Self::IS_LEAF) >> 4) as usize;
+        start..start + (self.0 & 15) as usize
+    }
 }
 
 impl Node {
-    pub const EMPTY: Self = Self {
-        planes: [[Lanes::INFINITY, Lanes::NEG_INFINITY]; 3],
-        children: [Child(Child::IS_LEAF); 4],
-    };
+    pub const EMPTY: Self =
+        Self { planes: [[Lanes::INFINITY, Lanes::NEG_INFINITY]; 3], children: [Child::ABSENT; 4] };
 
     /// How far off the ray enters each box, and a bit for each it does enter before `limit`.
     #[inline(always)]
@@ -109,15 +147,15 @@ struct Axis {
 impl Slanted {
     /// `None` when the ray starts so far off that its crossings mean nothing in `f32`.
     #[inline(always)]
-    fn new(ray: &Ray, space: &Space) -> Option<Self> {
+    fn new(ray: &Ray, slack: f64, space: &Space) -> Option<Self> {
         let start = (ray.origin - space.origin) * space.scale;
         let size = start.abs().max_element();
-        let in_range = size < FAR;
-        if !in_range {
+        let is_in_range = size < FAR && slack * space.scale < FAR;
+        if !is_in_range {
             return None;
         }
         // Covers the rounding of the start to `f32`, and what the kernels' `f64` may be off.
-        let least = (1.0 + size) * (1.0 / (1u64 << 40) as f64);
+        let least = (1.0 + size) * (1.0 / (1u64 << 40) as f64) + slack * space.scale;
         let axes = [0, 1, 2].map(|axis| {
             let reciprocal = (1.0 / ray.direction[axis]).clamp(-STEEPEST, STEEPEST);
             let padding = start[axis].abs() * f64::from(f32::EPSILON) + least;
@@ -169,45 +207,44 @@ impl Space {
 }
 
 impl Tree {
-    /// Calls `leaf` with every run of entries that the ray may meet at `limit` or before, and with
-    /// the limit; it returns the limit from then on (−∞ ends the search). Near boxes come first.
-    /// Returns how many nodes were visited, as far as `T` counts.
+    /// Returns the number of nodes on the longest path to a leaf.
+    pub fn depth(&self) -> usize {
+        self.depth
+    }
+
+    /// Shows `seeker` every run of pieces whose box the ray meets, or passes by at most `slack`, at `limit` or
+    /// before. Near boxes come first.
     #[inline(always)]
-    pub fn visit<T: Tally>(
-        &self,
-        ray: &Ray,
-        limit: f64,
-        leaf: impl FnMut(Range<usize>, f64) -> f64,
-    ) -> u64 {
-        // Of every node on the way down at most three siblings wait.
+    pub fn visit(&self, ray: &Ray, slack: f64, limit: f64, seeker: &mut impl Seeker) {
+        // At most three siblings of every node on the path down wait.
         if self.depth <= COMMON_DEPTH {
-            self.visit_with::<T, _, { 3 * COMMON_DEPTH + 1 }>(ray, limit, leaf)
+            self.visit_with::<_, { 3 * COMMON_DEPTH + 1 }>(ray, slack, limit, seeker);
         } else {
-            self.visit_with::<T, _, { 3 * DEPTH + 1 }>(ray, limit, leaf)
+            self.visit_with::<_, { 3 * DEPTH + 1 }>(ray, slack, limit, seeker);
         }
     }
 
     // However many kernels call it, it is the same code.
     #[inline(never)]
-    fn visit_with<T: Tally, F: FnMut(Range<usize>, f64) -> f64, const STACK: usize>(
+    fn visit_with<S: Seeker, const STACK: usize>(
         &self,
         ray: &Ray,
+        slack: f64,
         limit: f64,
-        mut leaf: F,
-    ) -> u64 {
-        let Some(slanted) = Slanted::new(ray, &self.space) else {
-            leaf(0..self.count, limit);
-            return 0;
+        seeker: &mut S,
+    ) {
+        let Some(slanted) = Slanted::new(ray, slack, &self.space) else {
+            seeker.leaf(0..self.count, limit);
+            return;
         };
-        let mut visits = 0;
         let mut reach = limit;
         let mut limit = self.space.limit(reach);
         let mut stack = [(0.0f32, Child::default()); STACK];
         let mut waiting = 0;
         let mut child = Child::node(0);
         loop {
-            if child.0 & Child::IS_LEAF == 0 {
-                visits += u64::from(T::COUNTS);
+            if !child.is_leaf() {
+                seeker.node();
                 let node = &self.nodes[child.0 as usize];
                 let (entry, mut mask) = node.entries(&slanted, limit);
                 if mask != 0 {
@@ -236,8 +273,7 @@ impl Tree {
                     continue;
                 }
             } else {
-                let start = ((child.0 & !Child::IS_LEAF) >> 4) as usize;
-                let reached = leaf(start..start + (child.0 & 15) as usize, reach);
+                let reached = seeker.leaf(child.pieces(), reach);
                 // Seldom: most leaves change nothing.
                 if reached != reach {
                     reach = reached;
@@ -246,7 +282,7 @@ impl Tree {
             }
             child = loop {
                 if waiting == 0 {
-                    return visits;
+                    return;
                 }
                 waiting -= 1;
                 if stack[waiting].0 <= limit {
@@ -254,5 +290,55 @@ impl Tree {
                 }
             };
         }
+    }
+
+    /// Calls `leaf` with each run of pieces whose box touches `wanted`, in no order.
+    pub fn touching(&self, wanted: &Bounds, mut leaf: impl FnMut(Range<usize>)) {
+        let [low, high] = self.space.outward(wanted);
+        let (low, high) = (low.to_array(), high.to_array());
+        let mut stack: SmallVec<[Child; 64]> = SmallVec::from_slice(&[Child::node(0)]);
+        while let Some(child) = stack.pop() {
+            if child.is_leaf() {
+                leaf(child.pieces());
+                continue;
+            }
+            let Node { planes, children } = &self.nodes[child.0 as usize];
+            let mut mask = 15;
+            for axis in 0..3 {
+                mask &= planes[axis][0].cmple(Lanes::splat(high[axis])).bitmask();
+                mask &= planes[axis][1].cmpge(Lanes::splat(low[axis])).bitmask();
+            }
+            stack.extend((0..4).filter(|lane| mask >> lane & 1 == 1).map(|lane| children[lane]));
+        }
+    }
+
+    /// Returns the maximum of `leaf` over runs of pieces. Up to rounding, `leaf` must not exceed the maximum of
+    /// `along`·P over the box of its run.
+    pub fn greatest(&self, along: Vector, leaf: impl Fn(Range<usize>) -> f64) -> f64 {
+        let Space { origin, scale } = self.space;
+        let most = |node: &Node, lane: usize| {
+            let plane =
+                |side: usize| [0, 1, 2].map(|axis| f64::from(node.planes[axis][side][lane]));
+            let [low, high] = [plane(0), plane(1)].map(|p| Vector::from_array(p) / scale + origin);
+            (low * along).max(high * along).element_sum()
+        };
+        let mut best = f64::NEG_INFINITY;
+        let mut stack: SmallVec<[(f64, Child); 64]> =
+            SmallVec::from_slice(&[(f64::INFINITY, Child::node(0))]);
+        while let Some((bound, child)) = stack.pop() {
+            if bound <= best {
+                continue;
+            }
+            if child.is_leaf() {
+                best = best.max(leaf(child.pieces()));
+                continue;
+            }
+            let node = &self.nodes[child.0 as usize];
+            let bottom = stack.len();
+            let present = (0..4).filter(|&lane| !node.children[lane].is_absent());
+            stack.extend(present.map(|lane| (most(node, lane), node.children[lane])));
+            stack[bottom..].sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        best
     }
 }
