@@ -1,6 +1,6 @@
 //! Builds the tree of boxes: splits where the surface area heuristic, sampled in bins, is least.
 //!
-//! **In:** the bounds of things. **Out:** the tree, and the things in the order its leaves name
+//! **In:** the bounds of pieces. **Out:** the tree, and the pieces in the order its leaves name
 //! them. **Invariant:** depends on the bounds and their order alone; no leaf is deeper than
 //! [`DEPTH`]; no recursion.
 //!
@@ -12,21 +12,21 @@ use super::{Child, DEPTH, LEAF, Node, Space, Tree};
 use crate::math::bounds::Bounds;
 use crate::math::{Lanes, Vector, reciprocal_power_of_two};
 
-/// Bins along an axis, for many things and for few.
+/// Bins along an axis, for many pieces and for few.
 const BINS: usize = 16;
 const FEW_BINS: usize = 6;
 const FEW: usize = 24;
-/// The price of testing a node's boxes, in tests of one thing.
+/// The price of testing a node's boxes, in tests of one piece.
 const NODE_COST: f32 = 0.7;
 
 impl Tree {
     /// Builds the tree and returns it with the order of the pieces in its leaves. The bounds are finite.
     pub fn build(bounds: &[Bounds]) -> (Self, Vec<u32>) {
         let space = Space::around(bounds);
-        let mut things: Vec<Thing> =
-            (0..).zip(bounds).map(|(index, b)| Thing::new(index, space.outward(b))).collect();
-        let (nodes, depth) = nodes(&mut things);
-        let order = things.iter().map(|thing| thing.index).collect();
+        let mut pieces: Vec<Piece> =
+            (0..).zip(bounds).map(|(index, b)| Piece::new(index, space.outward(b))).collect();
+        let (nodes, depth) = nodes(&mut pieces);
+        let order = pieces.iter().map(|piece| piece.index).collect();
         (Self { space, nodes, count: bounds.len(), depth }, order)
     }
 }
@@ -45,12 +45,12 @@ impl Space {
 
 /// What is sorted into the tree.
 #[derive(Clone, Copy)]
-struct Thing {
+struct Piece {
     extent: Extent,
     index: u32,
 }
 
-impl Thing {
+impl Piece {
     fn new(index: u32, [low, high]: [Lanes; 2]) -> Self {
         Self { extent: Extent { low, high }, index }
     }
@@ -81,12 +81,12 @@ impl Extent {
         if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
     }
 
-    fn of(things: &[Thing]) -> Self {
-        things.iter().fold(Self::NOTHING, |all, thing| all.with(thing.extent))
+    fn of(pieces: &[Piece]) -> Self {
+        pieces.iter().fold(Self::NOTHING, |all, piece| all.with(piece.extent))
     }
 }
 
-/// A part of the things that will be one child.
+/// A part of the pieces that will be one child.
 #[derive(Clone)]
 struct Part {
     range: Range<usize>,
@@ -104,10 +104,10 @@ impl Part {
 }
 
 /// The nodes, and how many lie on the longest way down.
-fn nodes(things: &mut [Thing]) -> (Vec<Node>, usize) {
+fn nodes(pieces: &mut [Piece]) -> (Vec<Node>, usize) {
     let mut nodes = vec![Node::EMPTY];
     let mut depth = 0;
-    let mut tasks = vec![(0, 1, Part::new(0..things.len(), Extent::of(things), 0))];
+    let mut tasks = vec![(0, 1, Part::new(0..pieces.len(), Extent::of(pieces), 0))];
     while let Some((index, level, part)) = tasks.pop() {
         depth = depth.max(level);
         let mut parts = Vec::with_capacity(4);
@@ -116,7 +116,7 @@ fn nodes(things: &mut [Thing]) -> (Vec<Node>, usize) {
             let open = parts.iter().enumerate().filter(|(_, part)| !part.whole);
             let widest = open.max_by(|a, b| a.1.extent.area().total_cmp(&b.1.extent.area()));
             let Some((place, _)) = widest else { break };
-            match split(things, &parts[place]) {
+            match split(pieces, &parts[place]) {
                 Some([left, right]) => {
                     parts[place] = left;
                     parts.insert(place + 1, right);
@@ -151,8 +151,8 @@ impl Node {
 }
 
 /// Divides a part in two, or `None` when it is better as a leaf.
-fn split(things: &mut [Thing], part: &Part) -> Option<[Part; 2]> {
-    let all = &mut things[part.range.clone()];
+fn split(pieces: &mut [Piece], part: &Part) -> Option<[Part; 2]> {
+    let all = &mut pieces[part.range.clone()];
     let by_cost = if part.depth >= DEPTH / 2 {
         None
     } else if all.len() > FEW {
@@ -172,7 +172,7 @@ fn split(things: &mut [Thing], part: &Part) -> Option<[Part; 2]> {
             if all.len() <= LEAF && unsplit <= best.cost + NODE_COST * part.extent.area() {
                 return None;
             }
-            let middle = partition(all, |thing| best.is_left(thing));
+            let middle = partition(all, |piece| best.is_left(piece));
             Some(parts(middle, best.extents))
         }
         None if all.len() <= 4 => None,
@@ -191,18 +191,18 @@ fn split(things: &mut [Thing], part: &Part) -> Option<[Part; 2]> {
 }
 
 /// Moves what is `left` to the front, in place; returns how many.
-fn partition(things: &mut [Thing], left: impl Fn(&Thing) -> bool) -> usize {
+fn partition(pieces: &mut [Piece], left: impl Fn(&Piece) -> bool) -> usize {
     let mut middle = 0;
-    for place in 0..things.len() {
-        if left(&things[place]) {
-            things.swap(middle, place);
+    for place in 0..pieces.len() {
+        if left(&pieces[place]) {
+            pieces.swap(middle, place);
             middle += 1;
         }
     }
     middle
 }
 
-/// The things of a part, sorted coarsely along each axis by their centres.
+/// The pieces of a part, sorted coarsely along each axis by their centres.
 struct Bins<const N: usize> {
     low: Lanes,
     /// Bins for each unit of length; 0 along an axis on which all centres coincide.
@@ -223,21 +223,21 @@ struct Best {
     cost: f32,
 }
 
-fn bins_of<const N: usize>(thing: &Thing, low: Lanes, density: Lanes) -> [usize; 3] {
-    let [x, y, z, _] = ((thing.centre() - low) * density).to_array();
+fn bins_of<const N: usize>(piece: &Piece, low: Lanes, density: Lanes) -> [usize; 3] {
+    let [x, y, z, _] = ((piece.centre() - low) * density).to_array();
     [x, y, z].map(|place| (place as u32 as usize).min(N - 1))
 }
 
 impl Best {
-    fn is_left(&self, thing: &Thing) -> bool {
-        let places = (thing.centre() - self.low) * self.density;
+    fn is_left(&self, piece: &Piece) -> bool {
+        let places = (piece.centre() - self.low) * self.density;
         places[self.axis] < self.bin as f32
     }
 }
 
 impl<const N: usize> Bins<N> {
-    fn fill(things: &[Thing]) -> Self {
-        let centres = things.iter().map(Thing::centre);
+    fn fill(pieces: &[Piece]) -> Self {
+        let centres = pieces.iter().map(Piece::centre);
         let low = centres.clone().fold(Lanes::INFINITY, Lanes::min);
         let high = centres.fold(Lanes::NEG_INFINITY, Lanes::max);
         let size = high - low;
@@ -247,12 +247,12 @@ impl<const N: usize> Bins<N> {
         }));
         let mut bins =
             Self { low, density, counts: [[0; N]; 3], extents: [[Extent::NOTHING; N]; 3] };
-        for thing in things {
-            let places = bins_of::<N>(thing, low, density);
+        for piece in pieces {
+            let places = bins_of::<N>(piece, low, density);
             for (axis, bin) in places.into_iter().enumerate() {
                 bins.counts[axis][bin] += 1;
                 let extent = &mut bins.extents[axis][bin];
-                *extent = extent.with(thing.extent);
+                *extent = extent.with(piece.extent);
             }
         }
         bins

@@ -292,26 +292,6 @@ impl Tree {
         }
     }
 
-    /// Calls `leaf` with each run of pieces whose box touches `wanted`, in no order.
-    pub fn touching(&self, wanted: &Bounds, mut leaf: impl FnMut(Range<usize>)) {
-        let [low, high] = self.space.outward(wanted);
-        let (low, high) = (low.to_array(), high.to_array());
-        let mut stack: SmallVec<[Child; 64]> = SmallVec::from_slice(&[Child::node(0)]);
-        while let Some(child) = stack.pop() {
-            if child.is_leaf() {
-                leaf(child.pieces());
-                continue;
-            }
-            let Node { planes, children } = &self.nodes[child.0 as usize];
-            let mut mask = 15;
-            for axis in 0..3 {
-                mask &= planes[axis][0].cmple(Lanes::splat(high[axis])).bitmask();
-                mask &= planes[axis][1].cmpge(Lanes::splat(low[axis])).bitmask();
-            }
-            stack.extend((0..4).filter(|lane| mask >> lane & 1 == 1).map(|lane| children[lane]));
-        }
-    }
-
     /// Returns the maximum of `leaf` over runs of pieces. Up to rounding, `leaf` must not exceed the maximum of
     /// `along`·P over the box of its run.
     pub fn greatest(&self, along: Vector, leaf: impl Fn(Range<usize>) -> f64) -> f64 {

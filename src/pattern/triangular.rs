@@ -3,7 +3,7 @@
 use super::lattice::remainder;
 use super::parameter::parameters;
 use super::triangle::Triangle;
-use super::{Pattern, Sample, Setting};
+use super::{Cubic, Pattern, Sample, Setting};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
@@ -19,14 +19,7 @@ parameters! {
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
 
 impl Pattern for Triangular {
-    const COLORS: &[(f64, [f64; 3])] = &[
-        (0.0, [1.0, 0.0, 0.0]),
-        (1.0, [0.0, 1.0, 0.0]),
-        (2.0, [0.0, 0.0, 1.0]),
-        (3.0, [1.0, 1.0, 0.0]),
-        (4.0, [0.0, 1.0, 1.0]),
-        (5.0, [1.0, 0.0, 1.0]),
-    ];
+    const COLORS: &[(f64, [f64; 3])] = Cubic::COLORS;
     const LIST: Option<usize> = Some(6);
     const HAS_SEAMS: bool = true;
     const RANGE: Interval = Interval { low: 0.0, high: 5.0 };

@@ -87,7 +87,7 @@ impl Placed {
     #[inline(never)]
     pub fn crosses(&self, ray: &Ray, limit: f64, accepts: impl Fn(&Met) -> bool) -> bool {
         let seen = Seen::new(self, ray, self.edges_moved());
-        if !self.is_in_reach(&seen) {
+        if self.is_out_of_reach(&seen) {
             return false;
         }
         let between = (seen.place(0.0, -1.0), seen.place(limit, 1.0));
@@ -117,7 +117,7 @@ impl Placed {
     fn found(&self, ray: &Ray, moved: f64, find: impl Fn(&Seen, &mut Crossings)) -> Crossings {
         let mut found = Crossings::new();
         let seen = Seen::new(self, ray, moved);
-        if !self.is_in_reach(&seen) {
+        if self.is_out_of_reach(&seen) {
             return found;
         }
         find(&seen, &mut found);
@@ -127,10 +127,11 @@ impl Placed {
         found
     }
 
+    /// Returns whether the line certainly misses the body; `false` where the numbers are beyond what squares can tell.
     #[inline(always)]
-    fn is_in_reach(&self, seen: &Seen) -> bool {
+    fn is_out_of_reach(&self, seen: &Seen) -> bool {
         let miss = seen.line.nearest.length();
-        miss <= self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur
+        miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur
     }
 
     /// Returns the part of the surface that the ray crosses at `t`.

@@ -11,62 +11,39 @@ use crate::scene::{
 
 impl Printer<'_> {
     pub(super) fn texture(&self, out: &mut String, id: TextureId, indent: &str) -> fmt::Result {
-        // Layers and maps may contain a texture twice, and so on.
-        let mut left = MOST_STEPS;
-        let mut stack = vec![(None, id, indent.to_owned())];
-        while let Some((value, id, indent)) = stack.pop() {
-            if left == 0 {
-                return writeln!(out, "{indent}…");
-            }
-            left -= 1;
-            if let Some(value) = value {
-                writeln!(out, "{indent}{value}")?;
-            }
+        nested(out, id, indent, |out, id, indent| {
             let texture = &self.scene.textures[id.index()];
-            let inner = format!("{indent}  ");
+            let mut entries = Vec::new();
             match &texture.kind {
                 TextureKind::Plain { pigment, normal, finish } => {
-                    self.pigment(out, *pigment, &indent)?;
+                    self.pigment(out, *pigment, indent)?;
                     if let Some(normal) = normal {
-                        self.normal(out, *normal, &indent)?;
+                        self.normal(out, *normal, indent)?;
                     }
-                    self.finish(out, &self.scene.finishes[finish.index()], &indent)?;
+                    self.finish(out, &self.scene.finishes[finish.index()], indent)?;
                 }
-                TextureKind::Blend { pattern, steps, entries } => {
+                TextureKind::Blend { pattern, steps, entries: all } => {
                     writeln!(out, "{indent}texture {}", described(pattern))?;
-                    self.steps(out, steps, &inner)?;
-                    let entries = entries.iter().rev();
-                    stack
-                        .extend(entries.map(|(at, id)| (Some(at.to_string()), *id, inner.clone())));
+                    self.steps(out, steps, &format!("{indent}  "))?;
+                    entries = titled(all);
                 }
                 TextureKind::Layers(layers) => {
-                    let layers = layers.iter().rev();
-                    let layer = || Some("layer".to_owned());
-                    stack.extend(layers.map(|id| (layer(), *id, inner.clone())));
+                    entries = layers.iter().map(|id| ("layer".to_owned(), *id)).collect();
                 }
             }
             for &id in &texture.transforms {
-                self.transform(out, id, &indent)?;
+                self.transform(out, id, indent)?;
             }
-        }
-        Ok(())
+            Ok(entries)
+        })
     }
 
     pub(super) fn pigment(&self, out: &mut String, id: PigmentId, indent: &str) -> fmt::Result {
-        let mut left = MOST_STEPS;
-        let mut stack = vec![(None, id, indent.to_owned())];
-        while let Some((value, id, indent)) = stack.pop() {
-            if left == 0 {
-                return writeln!(out, "{indent}…");
-            }
-            left -= 1;
-            if let Some(value) = value {
-                writeln!(out, "{indent}{value}")?;
-            }
+        nested(out, id, indent, |out, id, indent| {
             let pigment = &self.scene.pigments[id.index()];
-            let inner = format!("{indent}  ");
+            let mut entries = Vec::new();
             match &pigment.kind {
-                PigmentKind::Color(c) => writeln!(out, "{indent}pigment color {}", c)?,
+                PigmentKind::Color(c) => writeln!(out, "{indent}pigment color {c}")?,
                 PigmentKind::Faces(colors) => {
                     writeln!(out, "{indent}pigment of {} colors by faces", colors.len())?;
                 }
@@ -75,39 +52,25 @@ impl Printer<'_> {
                     match colors {
                         Colors::Map(map) => {
                             for (value, c) in &map.0 {
-                                writeln!(out, "{indent}  {value} {}", c)?;
+                                writeln!(out, "{indent}  {value} {c}")?;
                             }
                         }
                         Colors::Image => {}
-                        Colors::Pigments(all) => {
-                            let all = all.iter().rev();
-                            let entry = |(at, id): &(f64, PigmentId)| {
-                                (Some(at.to_string()), *id, inner.clone())
-                            };
-                            stack.extend(all.map(entry));
-                        }
+                        Colors::Pigments(all) => entries = titled(all),
                     }
                 }
             }
-            self.steps(out, &pigment.steps, &inner)?;
-        }
-        Ok(())
+            self.steps(out, &pigment.steps, &format!("{indent}  "))?;
+            Ok(entries)
+        })
     }
 
     pub(super) fn normal(&self, out: &mut String, id: NormalId, indent: &str) -> fmt::Result {
-        let mut left = MOST_STEPS;
-        let mut stack = vec![(None, id, indent.to_owned())];
-        while let Some((value, id, indent)) = stack.pop() {
-            if left == 0 {
-                return writeln!(out, "{indent}…");
-            }
-            left -= 1;
-            if let Some(value) = value {
-                writeln!(out, "{indent}{value}")?;
-            }
+        nested(out, id, indent, |out, id, indent| {
             let normal = &self.scene.normals[id.index()];
             let inner = format!("{indent}  ");
             let scale = if normal.keeps_depth { " no_bump_scale" } else { "" };
+            let mut entries = Vec::new();
             match &normal.kind {
                 NormalKind::Bumps { pattern, amount, accuracy, slopes } => {
                     let pattern = described(pattern);
@@ -120,16 +83,14 @@ impl Printer<'_> {
                 NormalKind::Image { pattern, amount } => {
                     writeln!(out, "{indent}normal {} amount {amount}{scale}", described(pattern))?;
                 }
-                NormalKind::Map { pattern, entries } => {
+                NormalKind::Map { pattern, entries: all } => {
                     writeln!(out, "{indent}normal {}{scale}", described(pattern))?;
-                    let entries = entries.iter().rev();
-                    stack
-                        .extend(entries.map(|(at, id)| (Some(at.to_string()), *id, inner.clone())));
+                    entries = titled(all);
                 }
             }
             self.steps(out, &normal.steps, &inner)?;
-        }
-        Ok(())
+            Ok(entries)
+        })
     }
 
     fn steps(&self, out: &mut String, steps: &[Step], indent: &str) -> fmt::Result {
@@ -141,6 +102,36 @@ impl Printer<'_> {
         }
         Ok(())
     }
+}
+
+/// Prints a texture, pigment or normal, and then what it contains, each below its title and further right. `one`
+/// prints a single one and returns what is in it. At most [`MOST_STEPS`] are printed: maps may contain one
+/// twice, and so on.
+fn nested<Id>(
+    out: &mut String,
+    first: Id,
+    indent: &str,
+    mut one: impl FnMut(&mut String, Id, &str) -> Result<Vec<(String, Id)>, fmt::Error>,
+) -> fmt::Result {
+    let mut left = MOST_STEPS;
+    let mut stack = vec![(None, first, indent.to_owned())];
+    while let Some((title, id, indent)) = stack.pop() {
+        if left == 0 {
+            return writeln!(out, "{indent}…");
+        }
+        left -= 1;
+        if let Some(title) = title {
+            writeln!(out, "{indent}{title}")?;
+        }
+        let entries = one(out, id, &indent)?.into_iter().rev();
+        stack.extend(entries.map(|(title, id)| (Some(title), id, format!("{indent}  "))));
+    }
+    Ok(())
+}
+
+/// Returns the entries of a map, titled by their values.
+fn titled<Id: Copy>(entries: &[(f64, Id)]) -> Vec<(String, Id)> {
+    entries.iter().map(|(value, id)| (value.to_string(), *id)).collect()
 }
 
 /// Returns a pattern with its parameters and modifiers.
