@@ -21,8 +21,9 @@ use crate::math::{Lanes, Vector};
 
 /// No leaf lies deeper: splits by cost end at half of it, the rest are by halves.
 pub const DEPTH: usize = 64;
-/// Trees of common depth get by with a short stack, which is cleared sooner.
-const COMMON_DEPTH: usize = 16;
+/// At most three siblings of every node on the path down wait.
+const STACK: usize = 256;
+const _: () = assert!(STACK > 3 * DEPTH);
 /// Most pieces of a leaf that a [`Child`] can name.
 const LEAF: usize = 15;
 /// Distances from the tree beyond which no slab test can be trusted (in the tree's own size).
@@ -156,7 +157,7 @@ impl Slanted {
         }
         // Covers the rounding of the start to `f32`, and what the kernels' `f64` may be off.
         let least = (1.0 + size) * (1.0 / (1u64 << 40) as f64) + slack * space.scale;
-        let axes = [0, 1, 2].map(|axis| {
+        let axis = |axis: usize| {
             let reciprocal = (1.0 / ray.direction[axis]).clamp(-STEEPEST, STEEPEST);
             let padding = start[axis].abs() * f64::from(f32::EPSILON) + least;
             let padding = padding.copysign(reciprocal);
@@ -166,8 +167,8 @@ impl Slanted {
                 far_start: Lanes::splat((start[axis] - padding) as f32),
                 reciprocal: Lanes::splat(reciprocal as f32),
             }
-        });
-        Some(Self { axes })
+        };
+        Some(Self { axes: [axis(0), axis(1), axis(2)] })
     }
 }
 
@@ -214,33 +215,16 @@ impl Tree {
 
     /// Shows `seeker` every run of pieces whose box the ray meets, or passes by at most `slack`, at `limit` or
     /// before. Near boxes come first.
-    #[inline(always)]
-    pub fn visit(&self, ray: &Ray, slack: f64, limit: f64, seeker: &mut impl Seeker) {
-        // At most three siblings of every node on the path down wait.
-        if self.depth <= COMMON_DEPTH {
-            self.visit_with::<_, { 3 * COMMON_DEPTH + 1 }>(ray, slack, limit, seeker);
-        } else {
-            self.visit_with::<_, { 3 * DEPTH + 1 }>(ray, slack, limit, seeker);
-        }
-    }
-
     // However many kernels call it, it is the same code.
     #[inline(never)]
-    fn visit_with<S: Seeker, const STACK: usize>(
-        &self,
-        ray: &Ray,
-        slack: f64,
-        limit: f64,
-        seeker: &mut S,
-    ) {
+    pub fn visit(&self, ray: &Ray, slack: f64, limit: f64, seeker: &mut impl Seeker) {
         let Some(slanted) = Slanted::new(ray, slack, &self.space) else {
             seeker.leaf(0..self.count, limit);
             return;
         };
         let mut reach = limit;
         let mut limit = self.space.limit(reach);
-        let mut stack = [(0.0f32, Child::default()); STACK];
-        let mut waiting = 0;
+        let mut stack: SmallVec<[(f32, Child); STACK]> = SmallVec::new();
         let mut child = Child::node(0);
         loop {
             if !child.is_leaf() {
@@ -252,8 +236,8 @@ impl Tree {
                     let entry = entry.to_array();
                     let lane = (mask.trailing_zeros() & 3) as usize;
                     let mut next = (entry[lane], node.children[lane]);
-                    let bottom = waiting;
                     mask &= mask - 1;
+                    let (mut waiting, mut count) = ([(0.0, Child::ABSENT); 3], 0);
                     while mask != 0 {
                         let lane = (mask.trailing_zeros() & 3) as usize;
                         mask &= mask - 1;
@@ -261,14 +245,15 @@ impl Tree {
                         if other.0 < next.0 {
                             (next, other) = (other, next);
                         }
-                        let mut place = waiting;
-                        while place > bottom && stack[place - 1].0 < other.0 {
-                            stack[place] = stack[place - 1];
+                        let mut place = count;
+                        while place > 0 && waiting[place - 1].0 < other.0 {
+                            waiting[place] = waiting[place - 1];
                             place -= 1;
                         }
-                        stack[place] = other;
-                        waiting += 1;
+                        waiting[place] = other;
+                        count += 1;
                     }
+                    waiting[..count].iter().for_each(|child| stack.push(*child));
                     child = next.1;
                     continue;
                 }
@@ -281,12 +266,10 @@ impl Tree {
                 }
             }
             child = loop {
-                if waiting == 0 {
-                    return;
-                }
-                waiting -= 1;
-                if stack[waiting].0 <= limit {
-                    break stack[waiting].1;
+                match stack.pop() {
+                    Some((entry, child)) if entry <= limit => break child,
+                    Some(_) => {}
+                    None => return,
                 }
             };
         }

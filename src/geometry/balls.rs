@@ -64,13 +64,25 @@ impl Balls {
     /// Not inlined: only in a small function of its own do two lanes go into each instruction.
     #[inline(never)]
     pub fn met(&self, ray: &Ray) -> u32 {
+        self.met_from(ray, 0.0)
+    }
+
+    /// [`Self::met`], also behind the ray's start.
+    #[inline(never)]
+    pub fn met_by_line(&self, ray: &Ray) -> u32 {
+        self.met_from(ray, f64::INFINITY)
+    }
+
+    /// Of a ray that starts so far behind its start.
+    #[inline(always)]
+    fn met_from(&self, ray: &Ray, most: f64) -> u32 {
         const SLACK: f64 = 1.0 + 32.0 * f64::EPSILON;
         let [origin, direction] = [ray.origin, ray.direction].map(|v| v.to_array());
         let mut excess = [0.0; LANES];
         for (lane, excess) in excess.iter_mut().enumerate() {
             let [x, y, z] = [0, 1, 2].map(|axis: usize| origin[axis] - self.centres[axis][lane]);
             let along = x * direction[0] + y * direction[1] + z * direction[2];
-            let toward = if along < 0.0 { along } else { 0.0 };
+            let toward = if along < most { along } else { most };
             *excess =
                 (x * x + y * y + z * z) - toward * toward * SLACK - self.reaches_squared[lane];
         }

@@ -68,15 +68,15 @@ enum Inside {
 }
 
 impl Geometry {
-    /// The crossings with a convex whole; `None` where they are not told so.
-    pub(super) fn events_of_convex(&self, whole: &Whole, ray: &Ray) -> Option<Events> {
+    /// Adds the crossings with a convex whole; `false` where they are not told so.
+    pub(super) fn gather_convex(&self, whole: &Whole, ray: &Ray, events: &mut Events) -> bool {
         let (mut enter, mut leave) = (Last::new(), Last::new());
         for around in &whole.around {
             let [first, last] =
                 match self.inside(&whole.leaves[around.leaf as usize].solid, around, ray) {
-                    Inside::Nowhere => return Some(Events::new()),
+                    Inside::Nowhere => return true,
                     Inside::Once(ends) => ends,
-                    Inside::Often => return None,
+                    Inside::Often => return false,
                 };
             if let Some(met) = first {
                 enter.add(met.t, &met, around.leaf);
@@ -86,13 +86,15 @@ impl Geometry {
             }
             // Certainly left before it is entered.
             if enter.place - enter.error > leave.error - leave.place {
-                return Some(Events::new());
+                return true;
             }
         }
         let is_thick = enter.place + enter.error < -leave.place - leave.error;
         let is_told = is_thick && enter.is_told() && leave.is_told();
-        let ends = [enter.event(1.0), leave.event(-1.0)];
-        is_told.then(|| ends.into_iter().flatten().collect())
+        if is_told {
+            events.extend([enter.event(1.0), leave.event(-1.0)].into_iter().flatten());
+        }
+        is_told
     }
 
     #[inline(always)]

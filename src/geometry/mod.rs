@@ -306,10 +306,11 @@ impl Geometry {
         entry: &Entry,
         ray: &Ray,
         limit: f64,
-    ) -> Option<Met> {
+    ) -> Option<Hit> {
         if KINDS == PLAIN && !entry.solid.is_plain() {
             not_plain();
         }
+        let hit = |met| Some(entry.hit(met));
         let chord = match &entry.solid {
             Solid::Sphere(Sphere { centre, radius }) => {
                 let roots = sphere::roots_ahead(*centre, *radius, ray)?;
@@ -322,7 +323,7 @@ impl Geometry {
                 if BOUND == EASY
                     && let Some(crossing) = roots.roughly(t)
                 {
-                    return (t <= limit).then_some(Met::of(crossing, leaving));
+                    return if t <= limit { hit(Met::of(crossing, leaving)) } else { None };
                 }
                 roots.chord()
             }
@@ -335,7 +336,7 @@ impl Geometry {
                 if BOUND == EASY
                     && let Some(crossing) = plane.roughly(ray, speed, t)
                 {
-                    return Some(Met::of(crossing, leaving));
+                    return hit(Met::of(crossing, leaving));
                 }
                 plane.chord(ray)?
             }
@@ -347,10 +348,10 @@ impl Geometry {
                 box_.chord(ray)?
             }
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray)?,
-            Solid::Placed(i) => return self.first_met(*i, entry.sides, ray, limit),
+            Solid::Placed(i) => return hit(self.first_met(*i, entry.sides, ray, limit)?),
             Solid::Whole(i) => return self.first_of_whole(*i, ray, limit, |_| true),
         };
-        entry.sides.first_seen(&chord).filter(|met| met.t <= limit)
+        entry.sides.first_seen(&chord).filter(|met| met.t <= limit).and_then(hit)
     }
 
     #[inline(never)]

@@ -27,6 +27,23 @@ pub struct Hit {
     pub contested: bool,
 }
 
+impl Hit {
+    /// At ∞: nothing is met. An `Option` would be taken to pieces and put together again on each path of a ray.
+    pub const NOTHING: Self = Self {
+        object: u32::MAX,
+        t: f64::INFINITY,
+        error: 0.0,
+        leaving: false,
+        part: Met::UNKNOWN,
+        contested: false,
+    };
+
+    #[inline(always)]
+    pub fn found(self) -> Option<Self> {
+        (self.t < f64::INFINITY).then_some(self)
+    }
+}
+
 impl Geometry {
     /// The first surface ahead of the ray's start. Of crossings that their error bounds cannot
     /// tell apart, that of the first-declared object, the opaque before the clear: with U the least
@@ -34,13 +51,13 @@ impl Geometry {
     /// search, one of two coinciding faces wins everywhere, and glass on a floor shows the floor.
     /// Where opaque surfaces only touch, that which is nearer all around is seen.
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        self.nearest_counted::<ANY>(ray, &mut Work::default())
+        self.nearest_counted::<ANY>(ray, &mut Work::default()).found()
     }
 
-    /// As [`Geometry::nearest`]; what it takes is added to `work` by a geometry that is
+    /// As [`Geometry::nearest`], or [`Hit::NOTHING`]; what it takes is added to `work` by a geometry that is
     /// [`Geometry::counting`].
     #[inline(always)]
-    pub fn nearest_counted<const KINDS: bool>(&self, ray: &Ray, work: &mut Work) -> Option<Hit> {
+    pub fn nearest_counted<const KINDS: bool>(&self, ray: &Ray, work: &mut Work) -> Hit {
         if self.manner != Manner::Double {
             return self.nearest_in_its_manner(ray, work);
         }
@@ -49,23 +66,23 @@ impl Geometry {
 
     #[cold]
     #[inline(never)]
-    fn nearest_in_its_manner(&self, ray: &Ray, work: &mut Work) -> Option<Hit> {
+    fn nearest_in_its_manner(&self, ray: &Ray, work: &mut Work) -> Hit {
         match self.manner {
             Manner::Double => self.nearest_in_double::<ANY>(ray, Uncounted),
             Manner::DoubleCounted => self.nearest_in_double::<ANY>(ray, work),
-            Manner::Single => self.nearest_in_single(ray, Uncounted),
-            Manner::SingleCounted => self.nearest_in_single(ray, work),
+            Manner::Single => self.nearest_in_single(ray, Uncounted).unwrap_or(Hit::NOTHING),
+            Manner::SingleCounted => self.nearest_in_single(ray, work).unwrap_or(Hit::NOTHING),
         }
     }
 
     #[inline(always)]
-    fn nearest_in_double<const KINDS: bool>(&self, ray: &Ray, tally: impl Tally) -> Option<Hit> {
+    fn nearest_in_double<const KINDS: bool>(&self, ray: &Ray, tally: impl Tally) -> Hit {
         let mut race = Race::<_, KINDS>::new(self, ray, tally);
         self.search(ray, f64::INFINITY, &mut race);
         let limit = race.limit;
         let hit =
-            if race.contested() { self.first_in_double(ray, race.tally) } else { race.winner() }?;
-        Some(if hit.contested { self.as_seen_beside(ray, hit, limit) } else { hit })
+            if race.contested() { self.first_in_double(ray, race.tally) } else { race.winner() };
+        if hit.contested { self.as_seen_beside(ray, hit, limit) } else { hit }
     }
 
     /// The nearest hit; contested where it cannot be told which that is.
@@ -73,16 +90,16 @@ impl Geometry {
         let mut race = Race::<_, ANY>::new(self, ray, Uncounted);
         self.search(ray, f64::INFINITY, &mut race);
         let contested = race.contested();
-        race.winner().map(|hit| Hit { contested: contested || hit.contested, ..hit })
+        race.winner().found().map(|hit| Hit { contested: contested || hit.contested, ..hit })
     }
 
     /// The same by definition, with the tightest error bounds.
     #[cold]
     #[inline(never)]
-    fn first_in_double<T: Tally>(&self, ray: &Ray, mut tally: T) -> Option<Hit> {
+    fn first_in_double<T: Tally>(&self, ray: &Ray, mut tally: T) -> Hit {
         let limit = self.end_of_first(ray, &mut tally);
         let met = |entry: &Entry| self.first_crossing::<TIGHT, ANY>(entry, ray, limit);
-        self.first_declared(ray, limit, tally, met)
+        self.first_declared(ray, limit, tally, met).unwrap_or(Hit::NOTHING)
     }
 
     /// Of the crossings at `limit`, which is U, or before, that of the first object. `met` is where
@@ -94,7 +111,7 @@ impl Geometry {
         ray: &Ray,
         limit: f64,
         tally: T,
-        met: impl Fn(&Entry) -> Option<Met>,
+        met: impl Fn(&Entry) -> Option<Hit>,
     ) -> Option<Hit> {
         let mut first: Option<((bool, u32), Hit)> = None;
         let look = |place: usize, tally: &mut T| {
@@ -102,7 +119,7 @@ impl Geometry {
             let rank = (entry.clear, entry.object);
             if first.is_none_or(|first| rank < first.0) {
                 tally.root_solve(|| self.price(entry));
-                let hit = |met| (rank, Hit { contested: true, ..self.hit(entry, ray, met) });
+                let hit = |hit| (rank, Hit { contested: true, ..hit });
                 first = met(entry).map(hit).or(first);
             }
             limit
@@ -118,7 +135,7 @@ impl Geometry {
             let entry = &self.entries[place];
             tally.root_solve(|| self.price(entry));
             let crossing = self.first_crossing::<TIGHT, ANY>(entry, ray, limit);
-            if let Some(Met { t, error, .. }) = crossing {
+            if let Some(Hit { t, error, .. }) = crossing {
                 limit = limit.min(t + 2.0 * error);
             }
             limit
@@ -132,11 +149,12 @@ impl Geometry {
 struct Race<'a, T, const KINDS: bool> {
     geometry: &'a Geometry,
     ray: &'a Ray,
-    /// The entry whose crossing is nearest so far; none has this place before the first.
-    place: usize,
+    /// The nearest crossing so far. Field by field: a whole [`Hit`] would be read before its parts are written.
+    object: u32,
     t: f64,
     leaving: bool,
     part: u32,
+    is_contested: bool,
     /// Its t + 2·error: what is farther is certainly not first. Whether another crossing is at this
     /// or before is the same as with the least t + 2·error of all: that other's is not before its t.
     limit: f64,
@@ -148,22 +166,19 @@ struct Race<'a, T, const KINDS: bool> {
 impl<'a, T: Tally, const KINDS: bool> Race<'a, T, KINDS> {
     #[inline(always)]
     fn new(geometry: &'a Geometry, ray: &'a Ray, tally: T) -> Self {
-        let (place, t) = (usize::MAX, f64::INFINITY);
-        let (leaving, part) = (false, Met::UNKNOWN);
-        Self { geometry, ray, place, t, leaving, part, limit: t, rival_t: t, tally }
+        let Hit { object, t, leaving, part, contested: is_contested, .. } = Hit::NOTHING;
+        Self { geometry, ray, object, t, leaving, part, is_contested, limit: t, rival_t: t, tally }
     }
 
     #[inline(always)]
     fn contested(&self) -> bool {
-        self.rival_t <= self.limit && self.place != usize::MAX
+        self.rival_t <= self.limit && self.t != f64::INFINITY
     }
 
     #[inline(always)]
-    fn winner(&self) -> Option<Hit> {
-        let entry = self.geometry.entries.get(self.place)?;
-        let error = (self.limit - self.t) / 2.0;
-        let Self { t, leaving, part, .. } = *self;
-        Some(self.geometry.hit(entry, self.ray, Met { t, error, leaving, part }))
+    fn winner(&self) -> Hit {
+        let Self { object, t, leaving, part, is_contested: contested, .. } = *self;
+        Hit { object, t, error: (self.limit - t) / 2.0, leaving, part, contested }
     }
 }
 
@@ -180,13 +195,14 @@ impl<T: Tally, const KINDS: bool> Seeker for Race<'_, T, KINDS> {
         let entry = &self.geometry.entries[place];
         self.tally.root_solve(|| self.geometry.price(entry));
         let crossing = self.geometry.first_crossing::<EASY, KINDS>(entry, self.ray, self.limit);
-        if let Some(Met { t, error, leaving, part }) = crossing {
-            if t < self.t {
+        if let Some(hit) = crossing {
+            if hit.t < self.t {
                 self.rival_t = self.t;
-                self.limit = t + 2.0 * error;
-                (self.place, self.t, self.leaving, self.part) = (place, t, leaving, part);
+                self.limit = hit.t + 2.0 * hit.error;
+                (self.object, self.t, self.leaving) = (hit.object, hit.t, hit.leaving);
+                (self.part, self.is_contested) = (hit.part, hit.contested);
             } else {
-                self.rival_t = if t < self.rival_t { t } else { self.rival_t };
+                self.rival_t = if hit.t < self.rival_t { hit.t } else { self.rival_t };
             }
         }
         self.limit

@@ -2,7 +2,7 @@
 
 use super::search::Seeker;
 use super::work::{Tally, Uncounted};
-use super::{ANY, EASY, Entry, Geometry, Manner, Sides, Solid, TIGHT, Work};
+use super::{ANY, EASY, Entry, Geometry, Hit, Manner, Sides, Solid, TIGHT, Work};
 use crate::shape::Ray;
 use crate::shape::local::Met;
 
@@ -104,7 +104,7 @@ impl<T: Tally, const KINDS: bool> Shade<'_, T, KINDS> {
             return geometry.placed[i as usize].crosses(ray, distance, shadows);
         }
         let crossing = geometry.first_crossing::<EASY, KINDS>(entry, ray, distance);
-        crossing.is_some_and(|Met { t, error, .. }| {
+        crossing.is_some_and(|Hit { t, error, .. }| {
             t + error < distance || geometry.barely_shadows(entry, ray, distance)
         })
     }
@@ -114,14 +114,14 @@ impl Geometry {
     /// Whether one of its opaque leaves' surfaces does.
     pub(super) fn whole_shadows(&self, whole: u32, ray: &Ray, distance: f64) -> bool {
         let crossing = self.first_of_whole(whole, ray, distance, |leaf| leaf.blocks);
-        crossing.is_some_and(|Met { t, error, .. }| t + error < distance)
+        crossing.is_some_and(|Hit { t, error, .. }| t + error < distance)
     }
 
     #[cold]
     #[inline(never)]
     fn barely_shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
         let crossing = self.first_crossing::<TIGHT, ANY>(entry, ray, distance);
-        crossing.is_some_and(|Met { t, error, .. }| t + error < distance)
+        crossing.is_some_and(|Hit { t, error, .. }| t + error < distance)
     }
 }
 

@@ -48,28 +48,25 @@ impl Geometry {
         let look = |place: usize, tally: &mut &mut T| {
             let entry = &self.entries[place];
             tally.root_solve(|| self.price(entry));
-            if let Some(Met { t, error, leaving, .. }) = self.met(entry, &rounded, limit) {
-                limit = limit.min(t + 2.0 * error);
-                if t < best_t {
+            if let Some(hit) = self.met(entry, &rounded, limit) {
+                limit = limit.min(hit.t + 2.0 * hit.error);
+                if hit.t < best_t {
                     rival_t = best_t;
-                    best_t = t;
-                    best = Some((place, t, leaving));
+                    best_t = hit.t;
+                    best = Some(hit);
                 } else {
-                    rival_t = rival_t.min(t);
+                    rival_t = rival_t.min(hit.t);
                 }
             }
             limit
         };
         self.search(ray, f64::INFINITY, &mut Each(&mut tally, look));
         if rival_t > limit {
-            let (place, t, leaving) = best?;
-            let met = Met::of(Crossing { t, error: 0.0 }, leaving);
-            let hit = self.hit(&self.entries[place], ray, met);
-            return Some(Hit { error: f64::INFINITY, ..hit });
+            return best.map(|hit| Hit { error: f64::INFINITY, ..hit });
         }
         self.first_declared(ray, limit, tally, |entry| {
-            let met = self.met(entry, &rounded, limit)?;
-            Some(Met { error: f64::INFINITY, ..met })
+            let hit = self.met(entry, &rounded, limit)?;
+            Some(Hit { error: f64::INFINITY, ..hit })
         })
     }
 
@@ -93,7 +90,7 @@ impl Geometry {
                 return self.whole_shadows(whole, ray, distance);
             }
             self.met(entry, &rounded, distance)
-                .is_some_and(|Met { t, error, .. }| t + error < distance)
+                .is_some_and(|Hit { t, error, .. }| t + error < distance)
         };
         if self.entries.get(guess.0).is_some_and(|entry| shadows(entry, &mut tally)) {
             return guess;
@@ -112,7 +109,7 @@ impl Geometry {
 
     /// Where the ray first meets a side of the object that is seen, at `limit` or before.
     #[inline(always)]
-    fn met(&self, entry: &Entry, rounded: &Rounded, limit: f64) -> Option<Met> {
+    fn met(&self, entry: &Entry, rounded: &Rounded, limit: f64) -> Option<Hit> {
         let zero = Narrow::from_vector(Vector::ZERO);
         let chord = match &entry.solid {
             Solid::Sphere(ball) => {
@@ -139,7 +136,8 @@ impl Geometry {
                 return self.first_crossing::<TIGHT, ANY>(entry, rounded.ray, limit);
             }
         };
-        first_seen(entry.sides, chord).filter(|met| met.t <= limit)
+        let first = first_seen(entry.sides, chord).filter(|met| met.t <= limit);
+        first.map(|met| entry.hit(met))
     }
 }
 

@@ -246,7 +246,7 @@ fn an_easy_bound_is_of_the_same_crossing_and_never_under_the_tightest() {
             for entry in &geometry.entries {
                 let tight = geometry.first_crossing::<TIGHT, ANY>(entry, &ray, f64::INFINITY);
                 let easy = geometry.first_crossing::<EASY, ANY>(entry, &ray, f64::INFINITY);
-                let both = |found: Option<Met>| found.map(|met| (met.t, met.leaving));
+                let both = |found: Option<Hit>| found.map(|hit| (hit.t, hit.leaving));
                 assert_eq!(both(easy), both(tight), "{ray:?} {entry:?}");
                 if let (Some(easy), Some(tight)) = (easy, tight) {
                     assert!(tight.error <= easy.error, "{ray:?} {entry:?}");

@@ -4,6 +4,9 @@
 
 use std::ops::Range;
 
+use smallvec::SmallVec;
+
+use super::balls::{self, Ball, Balls};
 use super::span::{Around, Span, around};
 use super::{Entry, Geometry, Hit, Solid, TREE_FROM, bounds_of_part};
 use crate::bvh::Tree;
@@ -29,6 +32,10 @@ pub(super) struct Whole {
     pub is_convex: bool,
     /// What holds it.
     pub bounds: Option<Bounds>,
+    /// Around its first leaves, four by four.
+    pub balls: [Balls; GROUPS],
+    /// A bit for each of these that all of it lies in.
+    pub inside: u32,
     /// What it takes to find where a line crosses it, in equations of a sphere.
     pub price: u64,
     /// Those that every line may meet.
@@ -37,9 +44,15 @@ pub(super) struct Whole {
     pub tree: Option<(Tree, Vec<u32>)>,
 }
 
+/// Of so many fours of leaves there are [`Balls`].
+const GROUPS: usize = 2;
+const MOST_BALLS: u32 = (GROUPS * balls::LANES) as u32;
+
 /// What is asked of a leaf once.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Part {
+    /// Holds all of it.
+    ball: Ball,
     /// `None` where it has no end.
     bounds: Option<Bounds>,
     /// What it takes to find where a line crosses it.
@@ -50,8 +63,10 @@ pub(super) struct Part {
 
 impl Part {
     pub fn of(world: &World, geometry: &Geometry, leaf: &Entry) -> Self {
+        let bounds = bounds_of_part(world, leaf.object);
         Self {
-            bounds: bounds_of_part(world, leaf.object),
+            ball: if bounds.is_some() { geometry.ball(world, leaf) } else { Ball::EVERYWHERE },
+            bounds,
             price: geometry.price(leaf),
             is_sheet: geometry.is_sheet(&leaf.solid),
         }
@@ -105,7 +120,45 @@ impl Whole {
         };
         let price = price(parts, &always, tree.as_ref().map(|(_, order)| order.as_slice()));
         let nodes = csg::Tree::new(&whole.nodes);
-        Self { nodes, leaves, around, is_around, is_convex, bounds, price, always, tree }
+        let mut balls = parts.chunks(balls::LANES).map(|parts| {
+            let balls: SmallVec<[Ball; balls::LANES]> =
+                parts.iter().map(|part| part.ball).collect();
+            Balls::new(&balls)
+        });
+        let balls = [(); GROUPS].map(|()| balls.next().unwrap_or_else(|| Balls::new(&[])));
+        let inside = around.iter().filter(|part| !part.inverse && part.leaf < MOST_BALLS);
+        let inside = inside.fold(0, |all, part| all | 1 << part.leaf);
+        Self {
+            nodes,
+            leaves,
+            around,
+            is_around,
+            is_convex,
+            bounds,
+            balls,
+            inside,
+            price,
+            always,
+            tree,
+        }
+    }
+
+    fn leaf(&self, event: &Event) -> &Entry {
+        &self.leaves[event.leaf as usize]
+    }
+
+    /// A crossing with the whole. Where several leaves are crossed in one place, which part it is is not known.
+    fn hit(&self, event: &Event) -> Hit {
+        let contested = event.shared;
+        let part = if contested { Met::UNKNOWN } else { event.met.part };
+        Hit { contested, part, ..self.leaf(event).hit(event.met) }
+    }
+
+    /// A bit for each leaf that the line of a ray may meet; of the first ones only.
+    #[inline(always)]
+    fn near(&self, ray: &Ray) -> u32 {
+        let near = |group: usize| self.balls[group].met_by_line(ray) << (group * balls::LANES);
+        (0..GROUPS).fold(0, |all, group| all | near(group))
     }
 
     /// Shows `look` those leaves at least that the line of a ray may meet from one place to another.
@@ -129,44 +182,54 @@ impl Geometry {
     /// All crossings with a whole, in order.
     pub(super) fn events(&self, whole: &Whole, ray: &Ray) -> Events {
         let mut events = Events::new();
+        if !self.gather(whole, ray, EVERYWHERE, &mut events) {
+            whole.nodes.keep(&mut events);
+        }
+        events
+    }
+
+    /// Gathers the crossings with a whole's leaves, in order; returns whether they are the whole's already. None of
+    /// the whole's that lie from one place to another are missing.
+    fn gather(&self, whole: &Whole, ray: &Ray, between: (f64, f64), events: &mut Events) -> bool {
         let mut span = match &whole.bounds {
             Some(bounds) => Span::of_bounds(bounds, ray),
             None => Span::ALL,
         };
-        if span.is_empty() {
-            return events;
+        let near = whole.near(ray);
+        if span.is_empty() || near & whole.inside != whole.inside {
+            return true;
         }
-        if whole.is_convex
-            && let Some(events) = self.events_of_convex(whole, ray)
-        {
-            return events;
+        if whole.is_convex && self.gather_convex(whole, ray, events) {
+            return true;
         }
+        let is_near = |leaf: u32| leaf >= MOST_BALLS || near >> leaf & 1 != 0;
         for part in &whole.around {
             let leaf = &whole.leaves[part.leaf as usize];
-            self.with_crossings(&leaf.solid, ray, |all| {
-                span = span.and(Span::of_crossings(all, part.inverse));
-                add_events(part.leaf, false, all, Span::ALL.reach(), &mut events);
-            });
-            if span.is_empty() {
-                return Events::new();
+            if is_near(part.leaf) {
+                self.with_crossings(&leaf.solid, ray, |all| {
+                    span = span.and(Span::of_crossings(all, part.inverse));
+                    add_events(part.leaf, false, all, EVERYWHERE, events);
+                });
+            }
+            let (low, high) = span.reach();
+            if span.is_empty() || high < between.0 || low > between.1 {
+                events.clear();
+                return true;
             }
         }
         let reach = span.reach();
         whole.search_within(ray, reach, |leaf| {
-            if !whole.is_around[leaf as usize] {
+            if !whole.is_around[leaf as usize] && is_near(leaf) {
                 let solid = &whole.leaves[leaf as usize].solid;
                 let sheet = self.is_sheet(solid);
                 self.with_crossings(solid, ray, |all| {
-                    add_events(leaf, sheet, all, reach, &mut events);
+                    add_events(leaf, sheet, all, reach, events);
                 });
             }
         });
-        if !events.is_empty() {
-            // Stable: those of one leaf stay as they are.
-            events.sort_by(|a, b| a.met.t.total_cmp(&b.met.t).then(a.leaf.cmp(&b.leaf)));
-            whole.nodes.keep(&mut events);
-        }
-        events
+        // Stable: those of one leaf stay as they are.
+        events.sort_by(|a, b| a.met.t.total_cmp(&b.met.t).then(a.leaf.cmp(&b.leaf)));
+        events.is_empty()
     }
 
     /// Shows `look` where a line crosses a leaf of a whole: a solid is entered and left in turn.
@@ -280,13 +343,11 @@ impl Geometry {
         counts: fn(&Entry) -> bool,
     ) -> impl Iterator<Item = Hit> {
         let whole = &self.wholes[whole as usize];
-        let leaf = |event: &Event| &whole.leaves[event.leaf as usize];
         self.events(whole, ray).into_iter().filter_map(move |event| {
-            let leaf = leaf(&event);
-            let met = event.met;
+            let leaf = whole.leaf(&event);
+            let met = &event.met;
             let seen = met.is_seen() && leaf.sides.shows(met.leaving) && counts(leaf);
-            let contested = event.shared;
-            seen.then(|| Hit { contested, ..leaf.hit(Met { part: Met::UNKNOWN, ..met }) })
+            seen.then(|| whole.hit(&event))
         })
     }
 
@@ -298,40 +359,24 @@ impl Geometry {
         ray: &Ray,
         limit: f64,
         counts: fn(&Entry) -> bool,
-    ) -> Option<Met> {
+    ) -> Option<Hit> {
         let whole = &self.wholes[whole as usize];
-        let events = self.events(whole, ray);
-        let mut seen = events.iter().filter(|event| {
-            let leaf = &whole.leaves[event.leaf as usize];
+        let mut events = Events::new();
+        let is_kept = self.gather(whole, ray, (0.0, limit), &mut events);
+        let is_seen = |event: &Event| {
+            let leaf = whole.leaf(event);
             leaf.sides.see(&event.met) && counts(leaf)
-        });
-        let Event { met, .. } = seen.next()?;
-        (met.t <= limit).then_some(Met { part: Met::UNKNOWN, ..*met })
-    }
-
-    /// The object that is met where an entry is: of a whole, one of its leaves.
-    #[inline(always)]
-    pub(super) fn hit(&self, entry: &Entry, ray: &Ray, met: Met) -> Hit {
-        match entry.solid {
-            Solid::Whole(whole) => self.hit_of_whole(entry, whole, ray, met),
-            Solid::Sphere(_)
-            | Solid::Plane(_)
-            | Solid::Box(_)
-            | Solid::Ellipsoid(_)
-            | Solid::Placed(_) => entry.hit(met),
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn hit_of_whole(&self, entry: &Entry, whole: u32, ray: &Ray, met: Met) -> Hit {
-        let mut all = self.seen_of_whole(whole, ray, |_| true);
-        let part = all.find(|hit| hit.t == met.t && hit.leaving == met.leaving);
-        let (object, contested) =
-            part.map_or((entry.object, false), |hit| (hit.object, hit.contested));
-        Hit { object, contested, ..entry.hit(met) }
+        };
+        let event = match is_kept {
+            true => events.iter().find(|event| is_seen(event)).copied(),
+            false => whole.nodes.first(&mut events, is_seen),
+        }?;
+        (event.met.t <= limit).then(|| whole.hit(&event))
     }
 }
+
+/// All of a line.
+const EVERYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 /// Where a line enters what it comes from inside of.
 const FROM_INSIDE: Met =

@@ -10,7 +10,7 @@ use super::height_field::HeightField;
 use super::isosurface::Isosurface;
 use super::julia_fractal::JuliaFractal;
 use super::lathe::Lathe;
-use super::local::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Facet, Height, Local, LocalRay, Met};
 use super::mesh::Mesh;
 use super::ovus::Ovus;
 use super::parametric::Parametric;
@@ -83,6 +83,12 @@ macro_rules! bodies {
             fn height(&self, part: u32, point: Vector) -> Height {
                 match self {
                     $(Self::$kind(body) => body.height(part, point),)*
+                }
+            }
+
+            fn facet(&self, part: u32) -> Option<Facet> {
+                match self {
+                    $(Self::$kind(body) => body.facet(part),)*
                 }
             }
 

@@ -56,7 +56,7 @@ impl Event {
 }
 
 /// Events in order.
-pub type Events = SmallVec<[Event; 16]>;
+pub type Events = SmallVec<[Event; 8]>;
 
 /// The state of a node at one position on the line.
 #[derive(Debug, Clone, Copy)]
@@ -148,22 +148,25 @@ impl Tree {
 
     /// Retains the crossings with the combined solid among `events`, which are in order.
     pub fn keep(&self, events: &mut Events) {
-        let mut counts: SmallVec<[u32; 16]> = SmallVec::from_slice(&self.outside);
-        let mut changes = SmallVec::new();
+        let mut sweep = Sweep::new(self);
         let mut kept = 0;
-        let mut first = 0;
-        while first < events.len() {
-            let mut end = end_of_place(events, first);
-            if events.get(end).is_some_and(|next| next.crosses_again_since(&events[first])) {
-                end = gather_place(events, first, end);
-            }
-            if let Some(shown) = self.pass(&mut counts, events, first..end, &mut changes) {
-                events[kept] = Event { shared: end - first > 1, ..events[shown] };
-                kept += 1;
-            }
-            first = end;
+        while let Some(event) = sweep.next(events) {
+            events[kept] = event;
+            kept += 1;
         }
         events.truncate(kept);
+    }
+
+    /// Returns the first crossing with the combined solid that `accepts` does, of `events`, which are in
+    /// order.
+    pub fn first(&self, events: &mut [Event], accepts: impl Fn(&Event) -> bool) -> Option<Event> {
+        let mut sweep = Sweep::new(self);
+        loop {
+            let event = sweep.next(events)?;
+            if accepts(&event) {
+                return Some(event);
+            }
+        }
     }
 
     /// Advances past the events at one position and returns the one that is a crossing of the combined solid.
@@ -240,6 +243,41 @@ impl Tree {
     }
 }
 
+/// A position on the line that moves from its start to its end.
+struct Sweep<'a> {
+    tree: &'a Tree,
+    /// For each operation, the weight of the operands that the line is inside of.
+    counts: SmallVec<[u32; 16]>,
+    /// Scratch.
+    changes: SmallVec<[Change; 8]>,
+    /// Index of the first event ahead.
+    ahead: usize,
+}
+
+impl<'a> Sweep<'a> {
+    fn new(tree: &'a Tree) -> Self {
+        let counts = tree.outside.iter().copied().collect();
+        Self { tree, counts, changes: SmallVec::new(), ahead: 0 }
+    }
+
+    /// Moves to the next crossing with the combined solid.
+    fn next(&mut self, events: &mut [Event]) -> Option<Event> {
+        while self.ahead < events.len() {
+            let first = self.ahead;
+            let mut end = end_of_place(events, first);
+            if events.get(end).is_some_and(|next| next.crosses_again_since(&events[first])) {
+                end = gather_place(events, first, end);
+            }
+            self.ahead = end;
+            let shown = self.tree.pass(&mut self.counts, events, first..end, &mut self.changes);
+            if let Some(shown) = shown {
+                return Some(Event { shared: end - first > 1, ..events[shown] });
+            }
+        }
+        None
+    }
+}
+
 /// The state of an operand at a position where it is crossed.
 #[derive(Debug, Clone, Copy)]
 struct Change {
@@ -306,37 +344,45 @@ impl Node {
         }
     }
 
+    #[inline(always)]
     fn state(self, sums: &Sums, changes: &[Change]) -> State {
         let (before, after) = (self.holds(sums.before), self.holds(sums.after));
         let begins_or_ends = before != after;
-        // Of the parts that show themselves here the first for which something holds.
-        let first = |holds: &dyn Fn(State, Part) -> bool| {
-            let shown = changes
-                .iter()
-                .filter(|change| holds(change.state, change.part))
-                .filter_map(|change| change.state.shown);
-            shown.min()
-        };
         let shown = match self {
             Self::Leaf { .. } => None,
             // Where the whole begins or ends, what does so is shown, and not a wall.
-            Self::Union(_) => first(&|part, _| part.before == before && part.after == after)
-                .or_else(|| first(&|_, _| true)),
+            Self::Union(_) => {
+                first_shown(changes, |part, _| part.before == before && part.after == after)
+                    .or_else(|| first_shown(changes, |_, _| true))
+            }
             // A sheet shows itself where it lies in no other part; of what is shared, in all others.
-            Self::Merge(_) => first(&|part, _| match part.changes() {
+            Self::Merge(_) => first_shown(changes, |part, _| match part.changes() {
                 true => begins_or_ends,
                 false => sums.stay == u32::from(part.stays()),
             }),
-            Self::Intersection(all) => first(&|part, _| match part.changes() {
+            Self::Intersection(all) => first_shown(changes, |part, _| match part.changes() {
                 true => begins_or_ends,
                 false => sums.touch() + u32::from(!part.touches()) == all,
             }),
             Self::Clip { .. } => {
                 let region = (sums.before | sums.after) & 2 != 0;
-                first(&|_, part| region && part.weight == 1)
+                first_shown(changes, |_, part| region && part.weight == 1)
             }
         };
         State { before, after, shown }
+    }
+}
+
+/// Of the operands that show themselves, the first for which something holds.
+#[inline(always)]
+fn first_shown(
+    changes: &[Change],
+    holds: impl Fn(State, Part) -> bool,
+) -> Option<(bool, u32, usize)> {
+    let shown = |change: &Change| change.state.shown.filter(|_| holds(change.state, change.part));
+    match changes {
+        [only] => shown(only),
+        _ => changes.iter().filter_map(shown).min(),
     }
 }
 

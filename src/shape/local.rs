@@ -36,6 +36,11 @@ pub trait Local {
     /// Returns the height of `point` over one part of the surface; valid near that part.
     fn height(&self, part: u32, point: Vector) -> Height;
 
+    /// Returns the plane of a part, where that is flat and its [`Local::height`] is the height over the plane.
+    fn facet(&self, _part: u32) -> Option<Facet> {
+        None
+    }
+
     /// Returns the minimum and maximum of `along`·P over the visible surface; infinite where it is unbounded.
     fn extent(&self, along: Vector) -> (f64, f64);
 
@@ -92,6 +97,25 @@ pub struct Height {
     pub gradient: Vector,
     /// Bound on the rounding error of `value`, for an exact point.
     pub error: f64,
+}
+
+/// The plane of a flat part of a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facet {
+    /// A point of the plane.
+    pub corner: Vector,
+    /// Outward, of length about 1.
+    pub normal: Vector,
+    /// Angular error of the normal, from rounding.
+    pub turn: f64,
+}
+
+impl Facet {
+    pub fn height(&self, point: Vector) -> Height {
+        let off = point - self.corner;
+        let error = (self.turn + 4.0 * U) * off.length() + U * point.length();
+        Height { value: self.normal.dot(off), gradient: self.normal, error }
+    }
 }
 
 /// A ray's line in the local space of a body.

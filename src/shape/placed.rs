@@ -167,8 +167,13 @@ impl Placed {
     pub fn surface_of_part(&self, part: u32, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
         let Placement { centre, local_from_world, .. } = self.placement;
         let out = local_from_world.transpose();
+        let facet = self.body.facet(part);
         let height = |point: Vector| {
-            let local = self.body.height(part, local_from_world * (point - centre));
+            let point = local_from_world * (point - centre);
+            let local = match &facet {
+                Some(facet) => facet.height(point),
+                None => self.body.height(part, point),
+            };
             Height { gradient: out * local.gradient, ..local }
         };
         let mut point = ray.at(t);

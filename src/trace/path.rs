@@ -146,17 +146,17 @@ impl<'a> Tracer<'a> {
         loop {
             let mut seen = loop {
                 let found = met_by.nearest_counted::<KINDS>(&way.ray, &mut walk.counters.work);
-                let found = match way.inside {
+                let hit = match way.inside {
                     Some(inside) if SECONDARY => self.left(walk, &way, inside, found),
                     Some(_) | None => found,
                 };
                 if COUNTS {
                     let hidden = !std::ptr::eq(met_by, self.geometry);
-                    walk.counters.evaluations.count(self.world, found.as_ref(), hidden);
+                    walk.counters.evaluations.count(self.world, hit.found().as_ref(), hidden);
                 }
-                let Some(hit) = found else {
+                if hit.found().is_none() {
                     break sky::seen(self.world, &self.sharpness, way.ray.direction);
-                };
+                }
                 let object = &self.world.objects[hit.object as usize];
                 let texture = self.world.coat(object, hit.leaving).texture;
                 let Texture::Plain(plain) = &self.world.textures[texture as usize] else {
@@ -231,14 +231,13 @@ impl<'a> Tracer<'a> {
     /// What a ray meets that starts inside of an object, on its surface: it leaves that first, even where
     /// it starts in an edge, too near to the other face to tell.
     #[inline(always)]
-    fn left(&self, walk: &mut Walk, way: &Way, inside: Inside, found: Option<Hit>) -> Option<Hit> {
-        if found.is_some_and(|hit| hit.leaving) {
+    fn left(&self, walk: &mut Walk, way: &Way, inside: Inside, found: Hit) -> Hit {
+        if found.leaving {
             return found;
         }
-        let limit = found.map_or(f64::INFINITY, |hit| hit.t);
         let work = &mut walk.counters.work;
         let Inside { object, off } = inside;
-        self.met_by(way).left_at_start(&way.ray, object, off, limit, work).or(found)
+        self.met_by(way).left_at_start(&way.ray, object, off, found.t, work).unwrap_or(found)
     }
 
     /// What there is where a ray meets a surface, on the side it comes from.

@@ -9,7 +9,9 @@ use crate::shape::{Cylinder, Placed};
 impl Whole {
     /// Each leaf is tried.
     pub fn without_tree(&self) -> Self {
-        Self { always: (0..self.leaves.len() as u32).collect(), tree: None, ..self.clone() }
+        let all = Balls::new(&[Ball::EVERYWHERE; balls::LANES]);
+        let always = (0..self.leaves.len() as u32).collect();
+        Self { always, tree: None, balls: self.balls.map(|_| all), inside: 0, ..self.clone() }
     }
 }
 

@@ -8,7 +8,7 @@ mod skin;
 
 use std::ops::Range;
 
-use super::local::{Crossings, Height, Local, LocalRay, Met};
+use super::local::{Crossings, Facet, Height, Local, LocalRay, Met};
 use super::{Bounds, U};
 use crate::bvh::Tree;
 use crate::math::ray::Ray;
@@ -258,14 +258,15 @@ impl Local for Mesh {
 
     /// Measured from the plane of the face, relative to its corner.
     fn height(&self, part: u32, point: Vector) -> Height {
-        let corners = self.faces.get(part as usize / 2).map(|face| self.corners_of(face));
-        let Some((corners, flat)) = corners.and_then(|all| Some((all, Flat::through(all)?))) else {
-            return Height { value: 0.0, gradient: Vector::Z, error: 0.0 };
-        };
-        let normal = if part % 2 == 1 { -flat.normal } else { flat.normal };
-        let off = point - corners[0];
-        let error = (flat.turn + 4.0 * U) * off.length() + U * point.length();
-        Height { value: normal.dot(off), gradient: normal, error }
+        let nothing = Height { value: 0.0, gradient: Vector::Z, error: 0.0 };
+        self.facet(part).map_or(nothing, |facet| facet.height(point))
+    }
+
+    fn facet(&self, part: u32) -> Option<Facet> {
+        let corners = self.corners_of(self.faces.get(part as usize / 2)?);
+        let Flat { normal, turn } = Flat::through(corners)?;
+        let normal = if part % 2 == 1 { -normal } else { normal };
+        Some(Facet { corner: corners[0], normal, turn })
     }
 
     fn extent(&self, along: Vector) -> (f64, f64) {
