@@ -179,6 +179,8 @@ pub enum ModifierKind {
     /// Likewise, lights on either side illuminate both sides.
     DoubleIlluminate(bool),
     Inverse,
+    /// The parts of the operation without a texture show those of the parts around their points.
+    CutawayTextures,
     /// Keeps only the part of the surface inside this object.
     ClippedBy(ObjectId),
 }

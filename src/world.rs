@@ -4,16 +4,18 @@
 //! invertible; every number is finite. One flat list per kind; an object is (kind, index, texture).
 //! Specified in `docs/world.md`.
 
+mod csg_solid;
 pub mod print;
 mod solid;
 
 use crate::color::{Clearness, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::math::{UnitVector, Vector};
-use crate::shape::csg::Node;
 use crate::shape::uv::Mapping;
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
 use crate::source::{Expansions, Site, Span};
+pub use csg_solid::{CsgSolid, Cutaway};
+
 pub use crate::texture::{
     Extras, Finish, Irid, Lobe, LobeKind, Pigment, Plain, Reflection, Texture,
 };
@@ -50,23 +52,6 @@ pub struct World {
     pub uv_mappings: Vec<Mapping>,
     /// Texture coordinates that are constant over a flat face; see `Object::faces`.
     pub faces: Vec<FaceCoordinates>,
-}
-
-/// A CSG solid.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CsgSolid {
-    /// In postfix order.
-    pub nodes: Vec<Node>,
-    /// The index of its first leaf in `World::objects`; the leaves follow in the order of the nodes.
-    pub first: u32,
-    pub count: u32,
-}
-
-impl CsgSolid {
-    /// Returns the indices of its leaves in `World::objects`.
-    pub fn leaves(&self) -> std::ops::Range<usize> {
-        self.first as usize..(self.first + self.count) as usize
-    }
 }
 
 /// The origins of the World's parts, one list for each of its lists. Never compared.

@@ -5,6 +5,7 @@
 //! is not a CSG solid.
 
 use super::Lowering;
+use super::cutaway::Part;
 use super::empty::Known;
 use crate::scene::Operation;
 use crate::shape::csg::Node;
@@ -25,6 +26,8 @@ pub(super) struct Building {
     operations: Vec<OperationOrigin>,
     /// What is known of the parts; an operation that ends becomes one part.
     pub(super) known: Vec<Known>,
+    /// What the leaves show, if the scene has `cutaway_textures`.
+    pub(super) shown: Vec<Part>,
 }
 
 /// The effect of an operation on solids or on their complements.
@@ -65,6 +68,11 @@ impl Making {
             Self::Operation(operation) => operation.word().name(),
             Self::Clip => "clipped_by",
         }
+    }
+
+    /// Returns whether it keeps what all parts contain, by de Morgan's laws.
+    pub(super) fn intersects(self, inverse: bool) -> bool {
+        self.kind(inverse) == Kind::Intersection
     }
 
     /// Returns the effect, by de Morgan's laws.
@@ -121,9 +129,9 @@ impl Lowering<'_, '_> {
             return None;
         }
         let first = self.world.objects.len() as u32;
-        let (nodes, known) = (Vec::new(), Vec::new());
+        let (nodes, known, shown) = (Vec::new(), Vec::new(), Vec::new());
         let operations = vec![written];
-        self.building = Some(Building { first, nodes, kind, parts: 0, operations, known });
+        self.building = Some(Building { first, nodes, kind, parts: 0, operations, known, shown });
         Some(Open { making, inverse, site, known: 0, outer: None })
     }
 
@@ -173,17 +181,22 @@ impl Lowering<'_, '_> {
         for part in &mut self.world.objects[building.first as usize..] {
             part.csg_solid = None;
         }
+        self.show_own(building.first, building.shown);
     }
 
     fn finish(&mut self) {
         let Some(building) = self.building.take() else { return };
-        let Building { first, nodes, operations, .. } = building;
+        let Building { first, nodes, operations, shown, .. } = building;
         match &mut self.world.objects[first as usize..] {
             [] => {}
-            [only] if nodes.len() == 1 => only.csg_solid = None,
+            [only] if nodes.len() == 1 => {
+                only.csg_solid = None;
+                self.show_own(first, shown);
+            }
             leaves => {
                 let count = leaves.len() as u32;
-                self.world.csg_solids.push(CsgSolid { nodes, first, count });
+                let cutaway = self.cut_away(first, shown);
+                self.world.csg_solids.push(CsgSolid { nodes, first, count, cutaway });
                 self.origins.operations.extend(operations);
             }
         }

@@ -118,7 +118,11 @@ impl Lowering<'_, '_> {
             }
             surface.places = std::rc::Rc::new(places);
         }
-        Ok(Inherited { surface, ..here.clone() })
+        let mut cut = here.cut.clone();
+        if parts.is_painted() {
+            cut.whole = Some(here.surface.clone());
+        }
+        Ok(Inherited { surface, cut, ..here.clone() })
     }
 
     /// Returns the colours of a solid whose parts have textures of their own, and their finish, if each is of

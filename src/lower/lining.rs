@@ -12,7 +12,6 @@ use crate::scene::Solid;
 use crate::scene::outline::Point;
 use crate::source::Site;
 use crate::vocabulary::Word;
-use crate::world::Coat;
 
 impl Inherited {
     /// Returns what a solid inherits whose outer side is the one that others have inside; `None` for others.
@@ -57,18 +56,10 @@ impl Lowering<'_, '_> {
         casts_shadow: bool,
         site: Site,
     ) -> Result<u32, Fault> {
-        let texture = self.seen_texture(surface, site)?;
-        let places = self.places(surface, texture)?;
-        let faces = match faces {
-            [] => None,
-            faces => self.faces(surface, texture, faces)?,
-        };
+        let lining = self.coat(surface, faces, site)?;
         if casts_shadow {
-            for (pigment, _) in surface.all(self.scene) {
-                self.note_filter(texture, pigment);
-            }
+            self.note_filters(lining.texture, surface);
         }
-        let lining = Coat { texture, places, faces };
         let known = self.world.linings.iter().rposition(|known| *known == lining);
         Ok(known.map_or_else(|| next(&mut self.world.linings, lining), |known| known as u32))
     }

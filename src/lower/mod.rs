@@ -11,6 +11,7 @@ mod camera;
 mod cause;
 mod coinciding;
 mod csg;
+mod cutaway;
 mod doubled;
 mod empty;
 mod faces;
@@ -95,6 +96,7 @@ pub fn lower(
         emptied: BTreeMap::new(),
         idle: BTreeMap::new(),
         building: None,
+        cuts_away: cutaway::any(&scene),
         shared: BTreeMap::new(),
         meshes: HashMap::new(),
         scene: &scene,
@@ -158,6 +160,8 @@ struct Lowering<'s, 'd> {
     idle: BTreeMap<Span, Option<(Diagnostic, Site)>>,
     /// The CSG solid under construction.
     building: Option<csg::Building>,
+    /// An object has `cutaway_textures`.
+    cuts_away: bool,
     /// The body of each mesh and blob, stored once however often it is used; `None` where it is empty.
     shared: BTreeMap<ObjectId, Option<(Arc<Body>, transform::Affine)>>,
     /// The first object of those that share the same triangles.

@@ -27,6 +27,18 @@ pub(super) struct Modified {
     pub calls: Calls,
     /// The clipping objects, each with the map to the parent's space.
     pub clips: Vec<(ObjectId, Affine)>,
+    /// `cutaway_textures`.
+    pub cuts_away: bool,
+}
+
+impl Modified {
+    /// Returns a surface that the object inherits.
+    pub fn under(&self, inherited: Surface) -> Surface {
+        match &self.map {
+            Some(map) => inherited.under(map),
+            None => inherited,
+        }
+    }
 }
 
 /// Flags of an object, all unset by default.
@@ -150,6 +162,7 @@ impl Lowering<'_, '_> {
                     calls.note(Word::DoubleIlluminate, on, modifier.site);
                 }
                 ModifierKind::Inverse => flags.inverse = !flags.inverse,
+                ModifierKind::CutawayTextures => modified.cuts_away = true,
                 ModifierKind::ClippedBy(region) => modified.clips.push((region, Affine::IDENTITY)),
             }
             let hiding = flags.hide();

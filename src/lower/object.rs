@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use super::csg::{Making, Open};
+use super::cutaway::CutFaces;
 use super::modifier::{Calls, Flags, Modified};
 use super::place::next;
 use super::shape::{Round, no_size};
@@ -36,6 +37,7 @@ pub(super) struct Inherited {
     pub strained: bool,
     /// No ray hits the CSG solid that this object belongs to.
     pub unseen: bool,
+    pub cut: CutFaces,
 }
 
 impl Inherited {
@@ -51,6 +53,7 @@ impl Inherited {
             item: None,
             strained: false,
             unseen: false,
+            cut: CutFaces::default(),
         }
     }
 }
@@ -162,21 +165,20 @@ impl<'s> Lowering<'s, '_> {
             self.drop_flags_of_part(&mut modified, object.site);
         }
         let flags = modified.flags.under(inherited.flags);
+        let cut = inherited.cut.within(&object.kind, &modified, flags.inverse);
         let by_both = flags.hide().then_some(id);
         let mut here = Inherited {
             world_from_here: match &modified.map {
                 Some(map) => above.after(map),
                 None => *above,
             },
-            surface: match (modified.surface.take(), &modified.map) {
-                (Some(own), _) => own.within(above),
-                (None, Some(map)) => inherited.surface.clone().under(map),
-                (None, None) => inherited.surface.clone(),
+            surface: match modified.surface.take() {
+                Some(own) => own.within(above),
+                None => modified.under(inherited.surface.clone()),
             },
-            lining: match (modified.lining.take(), &modified.map) {
-                (Some(own), _) => Some(own.within(above)),
-                (None, Some(map)) => inherited.lining.clone().map(|lining| lining.under(map)),
-                (None, None) => inherited.lining.clone(),
+            lining: match modified.lining.take() {
+                Some(own) => Some(own.within(above)),
+                None => inherited.lining.clone().map(|lining| modified.under(lining)),
             },
             interior: modified.interior.or(inherited.interior),
             flags,
@@ -184,6 +186,7 @@ impl<'s> Lowering<'s, '_> {
             item: own.or(inherited.item),
             strained: inherited.strained || modified.strained,
             unseen: inherited.unseen,
+            cut,
         };
         let is_whole = !modified.clips.is_empty() || matches!(object.kind, ObjectKind::Csg { .. });
         here.unseen |= is_whole && self.building.is_none() && self.drop_unseen_whole(&here);
@@ -205,6 +208,7 @@ impl<'s> Lowering<'s, '_> {
                 hidden_by: Some(id),
                 flags: Flags { inverse: false, ..here.flags },
                 unseen: here.unseen,
+                cut: CutFaces::HIDDEN,
                 ..inherited.clone()
             };
             let clips = Children::Clips(modified.clips.into_iter());
@@ -420,6 +424,7 @@ impl Frame<'_> {
         };
         let is_first = std::mem::replace(&mut self.is_first, false);
         inherited.flags.inverse ^= self.difference && !is_first;
+        inherited.cut.is_subtracted |= self.difference && !is_first;
         Some((id, inherited))
     }
 }

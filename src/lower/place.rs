@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::cutaway::UNKNOWN;
 use super::modifier::{Calls, Flags, Modified};
 use super::object::Inherited;
 use super::shape::LocalFace;
@@ -12,7 +13,7 @@ use crate::scene::ObjectId;
 use crate::shape::{Body, Shape};
 use crate::source::Site;
 use crate::vocabulary::Word;
-use crate::world::{NearSingular, Object, Plain};
+use crate::world::{Coat, NearSingular, Object, Plain};
 
 impl Lowering<'_, '_> {
     /// Drops a solid that is empty, for the reason given.
@@ -120,15 +121,12 @@ impl Lowering<'_, '_> {
             return Ok(());
         }
         let surface = &here.surface;
-        let texture = match here.hidden_by {
-            Some(_) => self.bare_texture(),
-            None => self.seen_texture(surface, site)?,
-        };
-        let places = self.places(surface, texture)?;
+        let is_cut = self.building.is_some() && here.is_cut();
         let written = faces;
-        let faces = match faces {
-            [] => None,
-            faces => self.faces(surface, texture, faces)?,
+        let Coat { texture, places, faces } = match here.hidden_by {
+            Some(_) => Coat { texture: self.bare_texture(), places: None, faces: None },
+            None if is_cut => UNKNOWN,
+            None => self.coat(surface, faces, site)?,
         };
         let lining = match (&here.lining, here.hidden_by) {
             (Some(lining), None) => {
@@ -137,10 +135,8 @@ impl Lowering<'_, '_> {
             (Some(_), Some(_)) | (None, _) => None,
         };
         self.note_near_singular(here, site);
-        if object.casts_shadow {
-            for (pigment, _) in surface.all(self.scene) {
-                self.note_filter(texture, pigment);
-            }
+        if object.casts_shadow && !is_cut {
+            self.note_filters(texture, surface);
         }
         let interior = self.interior(here.interior, surface.medium(self.scene), site);
         let csg_solid = self.leaf(inverse);
@@ -154,8 +150,32 @@ impl Lowering<'_, '_> {
         self.origins.objects.push(site);
         if csg_solid.is_some() {
             self.know_leaf(inverse, site);
+            self.note_shown(here, written, site);
         }
         Ok(())
+    }
+
+    /// Returns a visible surface in the World's terms; `faces` are the solid's flat faces.
+    pub(super) fn coat(
+        &mut self,
+        surface: &Surface,
+        faces: &[LocalFace],
+        site: Site,
+    ) -> Result<Coat, Fault> {
+        let texture = self.seen_texture(surface, site)?;
+        let places = self.places(surface, texture)?;
+        let faces = match faces {
+            [] => None,
+            faces => self.faces(surface, texture, faces)?,
+        };
+        Ok(Coat { texture, places, faces })
+    }
+
+    /// Records the filters of a surface that casts a shadow.
+    pub(super) fn note_filters(&mut self, texture: u32, surface: &Surface) {
+        for (pigment, _) in surface.all(self.scene) {
+            self.note_filter(texture, pigment);
+        }
     }
 
     /// Returns the texture of an object that may be visible.

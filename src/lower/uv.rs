@@ -17,7 +17,9 @@ impl Lowering<'_, '_> {
     /// Maps the surface of the last object, which is a solid placed by `map`, if its texture asks for it.
     pub(super) fn map_surface(&mut self, solid: &Solid, map: &Affine) {
         let Some(object) = self.world.objects.last_mut() else { return };
-        if !asks(&self.world.textures[object.texture as usize]) {
+        // That of a cut face is not known yet.
+        let texture = self.world.textures.get(object.texture as usize);
+        if texture.is_some_and(|texture| !asks(texture)) {
             return;
         }
         let Some((form, frame)) = form_of(solid) else { return };

@@ -197,6 +197,7 @@ impl Printer<'_> {
             ModifierKind::DoubleIlluminate(on) => {
                 writeln!(out, "{indent}double_illuminate{}", off(on))
             }
+            ModifierKind::CutawayTextures => writeln!(out, "{indent}cutaway_textures"),
             ModifierKind::Inverse => writeln!(out, "{indent}inverse"),
             ModifierKind::ClippedBy(id) => writeln!(out, "{indent}clipped_by {}", id.0),
         }

@@ -52,15 +52,15 @@ pub enum Texture {
     },
     /// At least two, the last on top.
     Layers(Vec<Arc<Texture>>),
-    /// Those of a mesh's faces, by corner, `shape::mesh::Skin::paint`, or of a blob's components. At least one;
-    /// never within another.
+    /// Those of a mesh's faces, by corner, `shape::mesh::Skin::paint`, of a blob's components, or of the parts
+    /// that a cut face shows, `world::Cutaway`. At least one; never within another.
     Faces(Vec<Arc<Texture>>),
 }
 
 /// The textures of a face, each with its share, the shares summing to 1.
 pub type Shares<'a> = SmallVec<[(&'a Texture, f64); 3]>;
 
-/// Returns the textures that count at a point of a face or a blob. A point alone does not identify the face.
+/// Returns the textures that count at a point of a face, a blob or a cut face. A point alone does not identify the face.
 pub fn at_face<'a>(textures: &'a [Arc<Texture>], around: &dyn Surroundings) -> Shares<'a> {
     let mut shares = Shares::new();
     for (index, weight) in around.paint().unwrap_or_else(|| Paint::from_slice(&[(0, 1.0)])) {

@@ -96,8 +96,8 @@ pub trait Surroundings {
     /// Returns how far they may be off where they are constant over a flat face.
     fn uv_error(&self) -> Vector;
 
-    /// Returns the weights of the textures of a mesh's face or of a blob's components, by their places in
-    /// [`super::Texture::Faces`] or [`super::Pigment::Faces`].
+    /// Returns the weights of the textures of a mesh's face, of a blob's components or of a cut face, by their
+    /// places in [`super::Texture::Faces`] or [`super::Pigment::Faces`].
     fn paint(&self) -> Option<Paint>;
 }
 

@@ -297,6 +297,11 @@ impl Surroundings for SurfaceInteraction<'_, '_> {
     }
 
     fn paint(&self) -> Option<Paint> {
+        // Just inside, where rounding does not decide.
+        let inside = self.surface.spawn(-self.surface.normal);
+        if let Some(cutaway) = self.world.cutaway(self.hit.object, inside) {
+            return Some(cutaway);
+        }
         let Shape::Placed(placed) = self.world.objects[self.hit.object as usize].shape else {
             return None;
         };

@@ -127,7 +127,7 @@ vocabulary! {
     Modifier {
         BoundedBy "bounded_by" statement inert "`bounded_by { shape … }` or `{ clipped_by }`: a bounding shape for faster rendering; lucarne uses a tree of its own";
         ClippedBy "clipped_by" statement built "a shape; the parts of the object outside it are cut away";
-        CutawayTextures "cutaway_textures" statement later "cut faces keep the textures of what they cut";
+        CutawayTextures "cutaway_textures" statement built "in a `difference` or an `intersection`: parts without a texture show those of the parts that they cut";
         DoubleIlluminate "double_illuminate" statement built "light on one side of the surface also illuminates the other side";
         Hollow "hollow" statement built "the atmosphere also fills the object; without fog and media it has no effect";
         Inverse "inverse" statement built "swaps inside and outside";

@@ -8,8 +8,8 @@ mod texture;
 use std::fmt::{self, Write};
 
 use super::{
-    Absorption, Attenuation, Beam, CameraKind, Coat, CsgSolid, Dispersion, Fade, LightKind, Object,
-    Origins, World,
+    Absorption, Attenuation, Beam, CameraKind, Coat, CsgSolid, Cutaway, Dispersion, Fade,
+    LightKind, Object, Origins, World,
 };
 use crate::color::Clearness;
 use crate::math::placement::{Map, Placement};
@@ -202,6 +202,12 @@ impl Printer<'_> {
         }
         if let Some(solid) = object.csg_solid {
             write!(out, " of csg_solid {solid}")?;
+            let solid = &self.world.csg_solids[solid as usize];
+            match solid.cutaway.get(i - solid.first as usize) {
+                Some(Cutaway::Cut) => write!(out, " cut")?,
+                Some(Cutaway::Shown(texture)) => write!(out, " shown as {texture}")?,
+                Some(Cutaway::Own) | None => {}
+            }
         }
         writeln!(out, "{}", self.at(self.origins.objects.get(i).copied()))?;
         out.push_str(&more);

@@ -88,6 +88,14 @@ impl Evaluator<'_> {
                     within = true;
                 }
                 TokenKind::Word(Word::Material) => painted = None,
+                TokenKind::Word(Word::CutawayTextures) => {
+                    let of = used.map_or(word, |used| self.made[used.index()].word);
+                    if !matches!(of, Word::Difference | Word::Intersection) {
+                        self.cuts_nothing(&token, of);
+                        failed = true;
+                        continue;
+                    }
+                }
                 _ => {}
             }
             match self.modifier(&token, used, modifiers, &mut textured) {
@@ -212,6 +220,16 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
+    /// Reports `cutaway_textures` of an object that has no cut faces.
+    fn cuts_nothing(&mut self, token: &Token, of: Word) {
+        let message = format!("`cutaway_textures` has no meaning for `{}`", of.name());
+        let diagnostic = Diagnostic::new(Code::MisplacedBlock, message)
+            .at(token.span, "only a `difference` or an `intersection` has cut faces")
+            .help("remove it")
+            .fix(token.span, "");
+        self.report(&token.here, diagnostic);
+    }
+
     /// Reads one modifier; returns `None` if the token is not one, `Some(Ok(None))` if it has no effect.
     pub(super) fn modifier(
         &mut self,
@@ -295,6 +313,7 @@ impl Evaluator<'_> {
             Word::Inverse => {
                 self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse))
             }
+            Word::CutawayTextures => Ok(Some(ModifierKind::CutawayTextures)),
             Word::ClippedBy => self.clips(token).map(|clips| {
                 modifiers.extend(
                     clips

@@ -13,7 +13,7 @@ use super::{Place, opens_object};
 #[derive(Debug, Clone, Copy)]
 pub(in crate::evaluate) struct Made {
     /// Keyword of its kind.
-    word: Word,
+    pub(super) word: Word,
     /// Whether it, or the object that it uses, has its own texture.
     pub(super) textured: bool,
 }

@@ -14,7 +14,12 @@ fn polyhedron(planes: &[Plane]) -> World {
     }
     world.objects.iter_mut().for_each(|object| object.csg_solid = Some(0));
     nodes.push(Node::Intersection(planes.len() as u32));
-    world.csg_solids.push(crate::world::CsgSolid { nodes, first: 0, count: planes.len() as u32 });
+    world.csg_solids.push(crate::world::CsgSolid {
+        nodes,
+        first: 0,
+        count: planes.len() as u32,
+        cutaway: Vec::new(),
+    });
     world
 }
 

@@ -82,7 +82,7 @@ fn add_whole(
         add_parts(world, random, place, depth, walls, &mut nodes);
     }
     let count = world.objects.len() as u32 - first;
-    world.csg_solids.push(crate::world::CsgSolid { nodes, first, count });
+    world.csg_solids.push(crate::world::CsgSolid { nodes, first, count, cutaway: Vec::new() });
 }
 
 #[test]
@@ -229,7 +229,12 @@ fn a_block_with_ten_thousand_balls_taken_out_asks_few_of_them() {
         object.csg_solid = Some(0);
         object.inverse = object.shape != Shape::Box(0);
     }
-    world.csg_solids.push(crate::world::CsgSolid { nodes, first: 0, count: 10_001 });
+    world.csg_solids.push(crate::world::CsgSolid {
+        nodes,
+        first: 0,
+        count: 10_001,
+        cutaway: Vec::new(),
+    });
     let geometry = Geometry::build(&world);
     let list = without_tree(&geometry);
     let (mut asked, mut balls) = (0, 0);
@@ -260,7 +265,12 @@ fn a_ray_that_starts_where_parts_begin_and_end_enters_before_it_leaves() {
             world.objects.iter_mut().for_each(|object| object.csg_solid = Some(0));
             let leaf = Node::Leaf { inverse: false };
             let nodes = vec![leaf, leaf, node];
-            world.csg_solids.push(crate::world::CsgSolid { nodes, first: 0, count: 2 });
+            world.csg_solids.push(crate::world::CsgSolid {
+                nodes,
+                first: 0,
+                count: 2,
+                cutaway: Vec::new(),
+            });
             let geometry = Geometry::build(&world);
             let Some(whole) = geometry.wholes.first() else { continue };
             let mut random = Random(24);
