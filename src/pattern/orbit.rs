@@ -149,8 +149,8 @@ impl Reading {
                     4 => factor * (re * re),
                     5 => factor * (im * im),
                     6 => factor * (re * re + im * im).sqrt(),
-                    7 => fmod(count, factor) / factor,
-                    _ => fmod(count, factor + 1.0) / factor,
+                    7 => remainder(count, factor) / factor,
+                    _ => remainder(count, factor + 1.0) / factor,
                 }
             }
             None => {
@@ -193,6 +193,18 @@ impl Reading {
             [kind, finite(factor)]
         };
         Self { exterior: known(self.exterior, 1.0, 8.0), interior: known(self.interior, 0.0, 6.0) }
+    }
+}
+
+/// Returns the remainder of a number of iterations. Only the integer part of the divisor counts; below 0 it is
+/// more than any number, and so the number remains. 0 by 0, where POV-Ray 3.7 stops.
+///
+/// **Source:** POV-Ray 3.7's behaviour, measured.
+fn remainder(count: f64, by: f64) -> f64 {
+    match by.trunc() {
+        0.0 => 0.0,
+        ..0.0 => count,
+        by => fmod(count, by),
     }
 }
 

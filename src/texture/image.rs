@@ -211,14 +211,21 @@ impl ImageMap {
     }
 
     /// Returns a function of the heights around a point, by pixels to the right and up; `None` where the map
-    /// shows nothing. Neighbours wrap, also in a picture that is shown once.
+    /// shows nothing. Neighbours wrap, also in a picture that is shown once; but what is interpolated there
+    /// ends at its edges.
+    ///
+    /// **Source:** POV-Ray 3.7's behaviour, measured.
     pub fn heights(&self, point: Vector) -> Option<impl Fn(f64, f64) -> f64> {
         let place = self.map_type.place(point, Vector::ZERO)?;
         let place = if self.once { place.inside()? } else { place };
         let Picture { width, height, .. } = *self.picture;
         Some(move |right: f64, up: f64| {
-            let u = place.u + right / width as f64;
-            self.value_at(Place::new(u, place.v + up / height as f64), false)
+            let (u, v) = (place.u + right / width as f64, place.v + up / height as f64);
+            let place = match self.once {
+                true => Place::new(fraction(u), fraction(v)),
+                false => Place::new(u, v),
+            };
+            self.value_at(place, self.once)
         })
     }
 
@@ -275,7 +282,7 @@ impl ImageMap {
         };
         let Some([value]) = self.blend(place, once, |x, y| [self.number(x, y)]) else { return 0.0 };
         match (self.source, most == 1.0) {
-            (Source::Index, false) => whole(value),
+            (Source::Index | Source::Material, false) => whole(value),
             _ => value.clamp(0.0, most),
         }
     }
@@ -360,6 +367,12 @@ fn whole(number: f64) -> f64 {
     let nearest = number.round();
     let rounding = 16.0 * f64::EPSILON * nearest.abs();
     if (number - nearest).abs() <= rounding { nearest } else { number.trunc() }
+}
+
+/// Returns the distance above the next lower integer, less than 1.
+fn fraction(number: f64) -> f64 {
+    let fraction = number - number.floor();
+    if fraction < 1.0 { fraction } else { 0.0 }
 }
 
 fn color([r, g, b, filter, transmit]: Pixel) -> Color {

@@ -181,6 +181,32 @@ fn an_index_between_pixels_has_no_fraction() {
     }
 }
 
+/// As in POV-Ray 3.7 (measured).
+#[test]
+fn heights_of_a_picture_shown_once_wrap_but_do_not_blend_across_its_edges() {
+    let picture = picture(4, 1, 1, Samples::Eight(vec![255, 0, 0, 0]));
+    let mut map = ImageMap::new(picture, Purpose::Values, None, None);
+    map.interpolation = Interpolation::Bilinear;
+    let heights = |map: &ImageMap| {
+        let heights = map.heights(Vector::new(0.95, 0.5, 0.0)).expect("a place in the picture");
+        [heights(0.0, 0.0), heights(1.0, 0.0)]
+    };
+    close(heights(&map), [0.3, 0.7]);
+    map.once = true;
+    close(heights(&map), [0.0, 0.7]);
+}
+
+/// As in POV-Ray 3.7 (measured), except where its weights round to less than 1: it has 0 there.
+#[test]
+fn a_texture_between_pixels_is_that_of_the_number_without_its_fraction() {
+    let picture = picture(2, 1, 3, Samples::Eight(vec![10, 200, 0, 20, 0, 200]));
+    let mut map = ImageMap::new(picture, Purpose::Values, None, None);
+    (map.source, map.interpolation) = (Source::Material, Interpolation::Bilinear);
+    let entries = [0.25, 0.29, 0.5, 0.54, 0.56, 0.74, 0.75];
+    let entries = entries.map(|u| map.entry(Vector::new(u, 0.5, 0.0), 256));
+    assert_eq!(entries, [10.0, 10.0, 15.0, 15.0, 16.0, 19.0, 20.0]);
+}
+
 #[test]
 fn colors_and_values_are_finite_at_all_points() {
     let mut random = Random(7);
