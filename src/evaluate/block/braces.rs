@@ -41,6 +41,33 @@ impl Evaluator<'_> {
         Some(self.report(&token.here, diagnostic))
     }
 
+    /// Returns whether `span` is the name of a file, as the block of `word` has it.
+    pub(super) fn is_picture(&self, word: Word, span: Span) -> bool {
+        matches!(word, Word::ImageMap | Word::BumpMap | Word::ImagePattern)
+            && self.whole_string(span).is_some()
+    }
+
+    /// Completes the diagnostic for a file without the braces of `word`: `bump_map "a.png"`.
+    pub(super) fn braces_around_file(
+        &self,
+        word: Word,
+        file: Span,
+        told: Diagnostic,
+    ) -> Diagnostic {
+        let name = self.whole_string(file).unwrap_or_default().to_ascii_lowercase();
+        let kind = match name.rsplit_once('.').map_or("", |(_, extension)| extension) {
+            "jpg" => "jpeg",
+            "tif" => "tiff",
+            extension => extension,
+        };
+        let kind = Word::from_name(kind).filter(|kind| kind.family() == Family::FileKind);
+        let kind = kind.map_or(String::new(), |kind| format!("{} ", kind.name()));
+        let text = self.sources.text(file);
+        told.help(format!("write `{} {{ {kind}{text} }}`", word.name()))
+            .fix(Span { end: file.start, ..file }, format!("{{ {kind}"))
+            .fix(file.after(), " }")
+    }
+
     /// Handles a name and its modifiers that belong in the braces of `word`: `object Tree { translate x }`,
     /// `object Tree translate x`. Returns the span to replace, and its replacement.
     pub(super) fn named_outside(&mut self, word: Word, name: Span) -> (Span, String) {

@@ -214,6 +214,9 @@ impl Evaluator<'_> {
                     let of = place.word.map_or("", Word::name);
                     format!("it stands beside `{of}`, not in it")
                 }
+                None if word.family() == Family::Texture && place.word == Some(Word::Interior) => {
+                    "it stands in the object, beside its `interior`".to_owned()
+                }
                 None if word == Word::Interior && place.word.is_some() => {
                     "it stands in the object, beside its `texture`".to_owned()
                 }
@@ -273,6 +276,12 @@ impl Evaluator<'_> {
             _ if has_block && Self::knows_items(word) => self.pass_not_built(token, word),
             _ => self.skip_arguments(word),
         }
+        let diagnostic = match place.word {
+            Some(Word::Interior) if has_block && word.family() == Family::Texture => {
+                self.before_its_block(token, diagnostic)
+            }
+            _ => diagnostic,
+        };
         let own = home(word).filter(|home| *home != word && Some(*home) != place.word);
         let beside = match own.filter(|_| near.is_none() && meant.is_none()) {
             Some(own) => self.skip_of_home(own, place),
@@ -304,6 +313,20 @@ impl Evaluator<'_> {
                 self.next();
                 self.skip_arguments(word);
             }
+        }
+    }
+
+    /// Completes the diagnostic for items from `token` to the one taken last that belong before the block that
+    /// they are in: `interior { ior 1.5 texture { … } }`.
+    fn before_its_block(&self, token: &Token, told: Diagnostic) -> Diagnostic {
+        let whole = self.whole(token).span;
+        let text = self.sources.text(whole);
+        match self.openers.last() {
+            Some(opener) if opener.file == whole.file && whole.start == token.span.start => told
+                .help(format!("move it before `{}`", self.sources.text(*opener)))
+                .fix(Span { end: opener.start, ..*opener }, format!("{text} "))
+                .fix(whole, ""),
+            _ => told,
         }
     }
 

@@ -99,7 +99,7 @@ impl Evaluator<'_> {
 
     /// Completes the diagnostic for a pattern's colours in braces: `checker { rgb 1 rgb 0 }`, `gradient y {
     /// [0 rgb 1] [1 rgb 0] }`.
-    pub(super) fn braced_colors(&self, block: Span, told: Diagnostic) -> Diagnostic {
+    pub(super) fn braced_colors(&self, block: Span, place: Place, told: Diagnostic) -> Diagnostic {
         let text = self.sources.text(block);
         let before = self.sources.get(block.file).text.get(..block.start as usize).unwrap_or("");
         let mut words = before.trim_end().rsplit(|c: char| !c.is_ascii_alphanumeric() && c != '_');
@@ -117,9 +117,15 @@ impl Evaluator<'_> {
                 .fix(closer, "");
         }
         if text.contains('[') && (is_pattern(last) || is_pattern(words.next())) {
+            let (entries, map) = match place.word {
+                Some(Word::Normal) => ("normals", Word::NormalMap),
+                Some(Word::Texture) => ("textures", Word::TextureMap),
+                _ if last == Some("average") => ("pigments", Word::PigmentMap),
+                _ => ("colours", Word::ColorMap),
+            };
             return told
-                .help("entries of colours stand in a `color_map { … }`")
-                .fix(Span { end: block.start, ..block }, "color_map ");
+                .help(format!("entries of {entries} stand in a `{} {{ … }}`", map.name()))
+                .fix(Span { end: block.start, ..block }, format!("{} ", map.name()));
         }
         told
     }

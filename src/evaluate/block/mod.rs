@@ -360,6 +360,9 @@ impl Evaluator<'_> {
                         let diagnostic = self.braces_around(token, span, diagnostic, word);
                         return Err(self.report(&token.here, diagnostic));
                     }
+                    Some(Token { span, .. }) if self.is_picture(word, span) => {
+                        self.braces_around_file(word, span, diagnostic)
+                    }
                     _ => diagnostic.help(self.form_of(word)),
                 };
                 let reported = self.report(&token.here, diagnostic);

@@ -193,6 +193,7 @@ impl Place {
             (None, Word::Sky) if has_block => Some(Word::SkySphere),
             (None, Word::Floor) if has_block => Some(Word::Plane),
             (Some(Word::GlobalSettings), Word::GammaWord) => Some(Word::AssumedGamma),
+            (Some(Word::Normal), Word::ImageMap) if has_block => Some(Word::BumpMap),
             (Some(Word::Fog), Word::Density) => Some(Word::Distance),
             (Some(Word::Fog), Word::Type) => Some(Word::FogType),
             (Some(Word::LightSource), Word::NoShadow) => Some(Word::Shadowless),

@@ -146,7 +146,7 @@ impl Evaluator<'_> {
                         );
                         let told = Diagnostic::new(Code::ExtraPart, message)
                             .at(opener(token.span), "expected a word before this");
-                        self.braced_colors(token.span, told)
+                        self.braced_colors(token.span, place, told)
                     }
                 };
                 if place.word.is_none() && self.is_prose(token.span) {
