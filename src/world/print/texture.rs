@@ -1,59 +1,132 @@
 //! Prints textures, pigments, normals and finishes of a World.
 
+use std::collections::HashMap;
 use std::fmt::{self, Write};
 use std::sync::Arc;
 
 use super::affine;
 use crate::texture::normal::Bumps;
 use crate::texture::space::Start;
+use crate::texture::walk::Node;
 use crate::texture::{Normal, Pattern, Source, Space, Step};
 use crate::world::{Extras, Finish, Irid, LobeKind, Pigment, Texture};
 
 /// Prints a texture; its entries and layers are indented.
 pub(super) fn texture(out: &mut String, texture: &Texture, indent: &str) -> fmt::Result {
+    let mut branches = Branches::default();
+    branches.count(texture);
+    for plain in texture.plains() {
+        branches.count(&plain.pigment);
+        plain.normal.iter().for_each(|normal| branches.count(normal));
+    }
+    part(out, texture, indent, &mut branches)
+}
+
+/// Prints a pigment; its entries are indented.
+pub(super) fn pigment(out: &mut String, pigment: &Pigment, indent: &str) -> fmt::Result {
+    let mut branches = Branches::default();
+    branches.count(pigment);
+    paint(out, pigment, indent, &mut branches)
+}
+
+/// The branches that several entries share: each is printed once, and named where it occurs again.
+#[derive(Debug, Default)]
+struct Branches {
+    /// How often each branch occurs.
+    times: HashMap<*const (), u32>,
+    /// The numbers of those printed so far.
+    names: HashMap<*const (), usize>,
+}
+
+impl Branches {
+    /// Counts the occurrences of all branches below a node.
+    fn count<N: Node>(&mut self, node: &N) {
+        for child in node.children() {
+            let times = self.times.entry(std::ptr::from_ref(child).cast()).or_default();
+            *times += 1;
+            if *times == 1 {
+                self.count(child);
+            }
+        }
+    }
+
+    /// Prints the line above a branch; returns whether the branch follows.
+    fn head<N: Node>(
+        &mut self,
+        out: &mut String,
+        line: &str,
+        node: &N,
+    ) -> Result<bool, fmt::Error> {
+        let key = std::ptr::from_ref(node).cast();
+        let is_shared = self.times.get(&key).is_some_and(|&times| times > 1);
+        if !is_shared || node.children().is_empty() {
+            writeln!(out, "{line}")?;
+            return Ok(true);
+        }
+        if let Some(name) = self.names.get(&key) {
+            writeln!(out, "{line} branch {name} again")?;
+            return Ok(false);
+        }
+        let name = self.names.len() + 1;
+        self.names.insert(key, name);
+        writeln!(out, "{line} branch {name}")?;
+        Ok(true)
+    }
+}
+
+fn part(out: &mut String, texture: &Texture, indent: &str, branches: &mut Branches) -> fmt::Result {
     let inner = format!("{indent}  ");
     match texture {
         Texture::Plain(plain) => {
-            pigment(out, &plain.pigment, indent)?;
+            paint(out, &plain.pigment, indent, branches)?;
             if let Some(normal) = &plain.normal {
-                self::normal(out, normal, indent)?;
+                self::normal(out, normal, indent, branches)?;
             }
             finish(out, &plain.finish, indent)
         }
         Texture::Blend(blend) => {
             writeln!(out, "{indent}texture {}", pattern(&blend.pattern, &blend.space))?;
             for (value, entry) in &blend.entries {
-                writeln!(out, "{inner}{value}")?;
-                self::texture(out, entry, &format!("{inner}  "))?;
+                if branches.head(out, &format!("{inner}{value}"), &**entry)? {
+                    part(out, entry, &format!("{inner}  "), branches)?;
+                }
             }
             Ok(())
         }
         Texture::Average { space, entries } => {
             writeln!(out, "{indent}texture average{}", moved(space))?;
             for (weight, entry) in entries {
-                writeln!(out, "{inner}{weight}")?;
-                self::texture(out, entry, &format!("{inner}  "))?;
+                if branches.head(out, &format!("{inner}{weight}"), &**entry)? {
+                    part(out, entry, &format!("{inner}  "), branches)?;
+                }
             }
             Ok(())
         }
         Texture::Faces(textures) => {
             for texture in textures {
-                writeln!(out, "{indent}of faces")?;
-                self::texture(out, texture, &inner)?;
+                if branches.head(out, &format!("{indent}of faces"), &**texture)? {
+                    part(out, texture, &inner, branches)?;
+                }
             }
             Ok(())
         }
         Texture::Layers(layers) => {
             for layer in layers {
-                writeln!(out, "{indent}layer")?;
-                self::texture(out, layer, &inner)?;
+                if branches.head(out, &format!("{indent}layer"), &**layer)? {
+                    part(out, layer, &inner, branches)?;
+                }
             }
             Ok(())
         }
     }
 }
 
-pub(super) fn pigment(out: &mut String, pigment: &Pigment, indent: &str) -> fmt::Result {
+fn paint(
+    out: &mut String,
+    pigment: &Pigment,
+    indent: &str,
+    branches: &mut Branches,
+) -> fmt::Result {
     let inner = format!("{indent}  ");
     match pigment {
         Pigment::Color(c) => writeln!(out, "{indent}color {}", c),
@@ -68,8 +141,9 @@ pub(super) fn pigment(out: &mut String, pigment: &Pigment, indent: &str) -> fmt:
         Pigment::Blend(blend) => {
             writeln!(out, "{indent}{}", pattern(&blend.pattern, &blend.space))?;
             for (value, entry) in &blend.entries {
-                writeln!(out, "{inner}{value}")?;
-                self::pigment(out, entry, &format!("{inner}  "))?;
+                if branches.head(out, &format!("{inner}{value}"), &**entry)? {
+                    paint(out, entry, &format!("{inner}  "), branches)?;
+                }
             }
             Ok(())
         }
@@ -77,15 +151,16 @@ pub(super) fn pigment(out: &mut String, pigment: &Pigment, indent: &str) -> fmt:
         Pigment::Average { space, entries } => {
             writeln!(out, "{indent}average{}", moved(space))?;
             for (weight, entry) in entries {
-                writeln!(out, "{inner}{weight}")?;
-                self::pigment(out, entry, &format!("{inner}  "))?;
+                if branches.head(out, &format!("{inner}{weight}"), &**entry)? {
+                    paint(out, entry, &format!("{inner}  "), branches)?;
+                }
             }
             Ok(())
         }
     }
 }
 
-fn normal(out: &mut String, normal: &Normal, indent: &str) -> fmt::Result {
+fn normal(out: &mut String, normal: &Normal, indent: &str, branches: &mut Branches) -> fmt::Result {
     let inner = format!("{indent}  ");
     let scale = |keeps_depth: &bool| if *keeps_depth { " no_bump_scale" } else { "" };
     match normal {
@@ -106,19 +181,25 @@ fn normal(out: &mut String, normal: &Normal, indent: &str) -> fmt::Result {
         Normal::Blend { blend, keeps_depth } => {
             let pattern = self::pattern(&blend.pattern, &blend.space);
             writeln!(out, "{indent}normal {pattern}{}", scale(keeps_depth))?;
-            entries(out, &blend.entries, &inner)
+            entries(out, &blend.entries, &inner, branches)
         }
         Normal::Average { space, entries, keeps_depth } => {
             writeln!(out, "{indent}normal average{}{}", moved(space), scale(keeps_depth))?;
-            self::entries(out, entries, &inner)
+            self::entries(out, entries, &inner, branches)
         }
     }
 }
 
-fn entries(out: &mut String, entries: &[(f64, Arc<Normal>)], indent: &str) -> fmt::Result {
+fn entries(
+    out: &mut String,
+    entries: &[(f64, Arc<Normal>)],
+    indent: &str,
+    branches: &mut Branches,
+) -> fmt::Result {
     for (value, entry) in entries {
-        writeln!(out, "{indent}{value}")?;
-        normal(out, entry, &format!("{indent}  "))?;
+        if branches.head(out, &format!("{indent}{value}"), &**entry)? {
+            normal(out, entry, &format!("{indent}  "), branches)?;
+        }
     }
     Ok(())
 }
@@ -222,4 +303,25 @@ fn rare(extras: &Extras) -> Vec<String> {
         parts.push(format!("refraction {passed}"));
     }
     parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Color;
+
+    #[test]
+    fn a_shared_branch_is_printed_once() {
+        let double = |below: Pigment| {
+            let below = Arc::new(below);
+            let entries = vec![(0.5, below.clone()), (0.5, below)];
+            Pigment::Average { space: Space::default(), entries }
+        };
+        let whole = (0..60).fold(Pigment::Color(Color::WHITE), |below, _| double(below));
+        let mut out = String::new();
+        assert!(pigment(&mut out, &whole, "").is_ok());
+        assert!(out.lines().count() < 250);
+        assert!(out.starts_with("average\n  0.5 branch 1\n    average\n"));
+        assert!(out.ends_with("\n  0.5 branch 1 again\n"));
+    }
 }
