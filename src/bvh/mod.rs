@@ -8,6 +8,7 @@
 //! together: I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", RT 2008.
 
 mod build;
+pub mod packet;
 #[cfg(test)]
 mod tests;
 
@@ -145,28 +146,37 @@ struct Axis {
     reciprocal: Lanes,
 }
 
+/// Along each axis: the start for the near plane, the start for the far plane, and the reciprocal of the direction.
+type Starts = [[f32; 3]; 3];
+
+/// `None` when the ray starts so far off that its crossings mean nothing in `f32`.
+#[inline(always)]
+fn starts(ray: &Ray, slack: f64, space: &Space) -> Option<Starts> {
+    let start = (ray.origin - space.origin) * space.scale;
+    let size = start.abs().max_element();
+    let is_in_range = size < FAR && slack * space.scale < FAR;
+    if !is_in_range {
+        return None;
+    }
+    // Covers the rounding of the start to `f32`, and what the kernels' `f64` may be off.
+    let least = (1.0 + size) * (1.0 / (1u64 << 40) as f64) + slack * space.scale;
+    let axis = |axis: usize| {
+        let reciprocal = (1.0 / ray.direction[axis]).clamp(-STEEPEST, STEEPEST);
+        let padding = start[axis].abs() * f64::from(f32::EPSILON) + least;
+        let padding = padding.copysign(reciprocal);
+        [(start[axis] + padding) as f32, (start[axis] - padding) as f32, reciprocal as f32]
+    };
+    Some([axis(0), axis(1), axis(2)])
+}
+
 impl Slanted {
-    /// `None` when the ray starts so far off that its crossings mean nothing in `f32`.
+    /// `None` as of [`starts`].
     #[inline(always)]
     fn new(ray: &Ray, slack: f64, space: &Space) -> Option<Self> {
-        let start = (ray.origin - space.origin) * space.scale;
-        let size = start.abs().max_element();
-        let is_in_range = size < FAR && slack * space.scale < FAR;
-        if !is_in_range {
-            return None;
-        }
-        // Covers the rounding of the start to `f32`, and what the kernels' `f64` may be off.
-        let least = (1.0 + size) * (1.0 / (1u64 << 40) as f64) + slack * space.scale;
+        let starts = starts(ray, slack, space)?;
         let axis = |axis: usize| {
-            let reciprocal = (1.0 / ray.direction[axis]).clamp(-STEEPEST, STEEPEST);
-            let padding = start[axis].abs() * f64::from(f32::EPSILON) + least;
-            let padding = padding.copysign(reciprocal);
-            Axis {
-                near: usize::from(reciprocal < 0.0),
-                near_start: Lanes::splat((start[axis] + padding) as f32),
-                far_start: Lanes::splat((start[axis] - padding) as f32),
-                reciprocal: Lanes::splat(reciprocal as f32),
-            }
+            let [near_start, far_start, reciprocal] = starts[axis].map(Lanes::splat);
+            Axis { near: usize::from(reciprocal.x < 0.0), near_start, far_start, reciprocal }
         };
         Some(Self { axes: [axis(0), axis(1), axis(2)] })
     }

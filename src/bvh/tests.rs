@@ -1,5 +1,6 @@
 //! Tests of the tree: boxes hold what they stand for.
 
+use super::packet::PacketSeeker;
 use super::*;
 use crate::math::random::{Random, tries};
 
@@ -91,4 +92,56 @@ fn the_greatest_extent_is_that_of_all_pieces() {
         });
         assert_eq!(greatest, all.iter().map(extent).fold(f64::NEG_INFINITY, f64::max));
     }
+}
+
+/// Shows which pieces are shown for which ray.
+struct Noted<'a> {
+    order: &'a [u32],
+    shown: Vec<Vec<bool>>,
+}
+
+impl PacketSeeker for Noted<'_> {
+    fn leaf(&mut self, ray: usize, pieces: Range<usize>, limit: f64) -> f64 {
+        self.order[pieces].iter().for_each(|&piece| self.shown[ray][piece as usize] = true);
+        limit
+    }
+
+    fn node(&mut self) {}
+}
+
+#[test]
+fn every_box_that_a_ray_of_a_packet_meets_is_shown_for_it() {
+    let mut random = Random(10);
+    let mut common = 0;
+    for _ in 0..40 {
+        let size = random.size(-30.0, 30.0);
+        let count = 1 + random.below(200);
+        let all = boxes(&mut random, count, size);
+        let (tree, order) = Tree::build(&all);
+        for _ in 0..tries() / 100 {
+            let far = size * random.size(-1.0, 2.0);
+            let origin = random.point(far);
+            let spread = random.size(-9.0, 0.5);
+            let main = random.direction().get();
+            let rays: Vec<Ray> = (0..1 + random.below(packet::MOST))
+                .map(|_| Ray {
+                    origin: origin + random.point(size * spread),
+                    direction: (main + random.point(spread)).normalize(),
+                })
+                .collect();
+            let given: Vec<f64> =
+                rays.iter().map(|_| [f64::INFINITY, size][random.below(2)]).collect();
+            let shown = vec![vec![false; count]; rays.len()];
+            let mut noted = Noted { order: &order, shown };
+            tree.visit_together(&rays, &mut given.clone(), &mut noted);
+            for ((ray, limit), shown) in rays.iter().zip(given).zip(noted.shown) {
+                for (bounds, shown) in all.iter().zip(shown) {
+                    let met = is_met(bounds, ray, 0.0, limit);
+                    assert!(shown || !met, "{bounds:?} {ray:?} of {}", rays.len());
+                    common += usize::from(met && rays.len() > 3);
+                }
+            }
+        }
+    }
+    assert!(common > tries() / 20, "{common}");
 }

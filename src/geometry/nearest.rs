@@ -3,9 +3,12 @@
 //! **Invariant:** the answer does not depend on the order of the search; only what error bounds cannot
 //! tell apart is decided by rank.
 
+use smallvec::SmallVec;
+
 use super::search::{Each, Seeker};
 use super::work::{Tally, Uncounted};
 use super::{ANY, EASY, Entry, Geometry, Manner, TIGHT, Work};
+use crate::bvh::packet;
 use crate::shape::Ray;
 use crate::shape::local::Met;
 
@@ -64,6 +67,52 @@ impl Geometry {
         self.nearest_in_double::<KINDS>(ray, Uncounted)
     }
 
+    /// Whether it pays to find what several rays meet together.
+    pub fn has_tree(&self) -> bool {
+        self.tree.is_some()
+    }
+
+    /// As [`Geometry::nearest_counted`] for up to [`packet::MOST`] rays, which are found together where they go
+    /// much the same way: adds a hit for each to `hits`.
+    pub fn nearest_together<const KINDS: bool>(
+        &self,
+        rays: &[Ray],
+        hits: &mut Vec<Hit>,
+        work: &mut Work,
+    ) {
+        match self.manner {
+            Manner::Double => {
+                let tallies = std::iter::repeat_with(|| Uncounted);
+                self.race_together::<KINDS, _>(rays, hits, tallies);
+            }
+            Manner::DoubleCounted => {
+                let mut works = [Work::default(); packet::MOST];
+                self.race_together::<ANY, _>(rays, hits, works.iter_mut());
+                works.into_iter().for_each(|one| *work += one);
+            }
+            Manner::Single | Manner::SingleCounted => {
+                hits.extend(rays.iter().map(|ray| self.nearest_in_its_manner(ray, work)));
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn race_together<const KINDS: bool, T: Tally>(
+        &self,
+        rays: &[Ray],
+        hits: &mut Vec<Hit>,
+        tallies: impl Iterator<Item = T>,
+    ) {
+        let mut races: SmallVec<[Race<T, KINDS>; packet::MOST]> = SmallVec::new();
+        for (ray, tally) in rays.iter().zip(tallies) {
+            races.push(Race::new(self, ray, tally));
+        }
+        self.search_together(rays, &mut races);
+        for race in races {
+            hits.push(race.finish());
+        }
+    }
+
     #[cold]
     #[inline(never)]
     fn nearest_in_its_manner(&self, ray: &Ray, work: &mut Work) -> Hit {
@@ -79,10 +128,7 @@ impl Geometry {
     fn nearest_in_double<const KINDS: bool>(&self, ray: &Ray, tally: impl Tally) -> Hit {
         let mut race = Race::<_, KINDS>::new(self, ray, tally);
         self.search(ray, f64::INFINITY, &mut race);
-        let limit = race.limit;
-        let hit =
-            if race.contested() { self.first_in_double(ray, race.tally) } else { race.winner() };
-        if hit.contested { self.as_seen_beside(ray, hit, limit) } else { hit }
+        race.finish()
     }
 
     /// The nearest hit; contested where it cannot be told which that is.
@@ -173,6 +219,17 @@ impl<'a, T: Tally, const KINDS: bool> Race<'a, T, KINDS> {
     #[inline(always)]
     fn contested(&self) -> bool {
         self.rival_t <= self.limit && self.t != f64::INFINITY
+    }
+
+    /// The first surface, once all entries that may be met were looked at.
+    #[inline(always)]
+    fn finish(self) -> Hit {
+        let Self { geometry, ray, limit, .. } = self;
+        let hit = match self.contested() {
+            true => geometry.first_in_double(ray, self.tally),
+            false => self.winner(),
+        };
+        if hit.contested { geometry.as_seen_beside(ray, hit, limit) } else { hit }
     }
 
     #[inline(always)]

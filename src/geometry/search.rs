@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use super::work::Tally;
 use super::{Entry, Geometry, Solid, balls};
+use crate::bvh::packet::{self, PacketSeeker};
 use crate::bvh::{self, Tree};
 use crate::shape::Ray;
 
@@ -77,6 +78,51 @@ impl Geometry {
     #[inline(never)]
     fn search_tree<S: Seeker>(&self, tree: &Tree, ray: &Ray, limit: f64, seeker: &mut S) {
         tree.visit(ray, 0.0, limit, &mut Entries { seeker, first: self.unbounded });
+    }
+}
+
+impl Geometry {
+    /// [`Self::search`] for each of up to [`packet::MOST`] rays that go much the same way, each with its seeker.
+    pub(super) fn search_together(&self, rays: &[Ray], seekers: &mut [impl Seeker]) {
+        let Some(tree) = &self.tree else {
+            for (ray, seeker) in rays.iter().zip(seekers) {
+                self.search(ray, f64::INFINITY, seeker);
+            }
+            return;
+        };
+        let mut limits = [f64::INFINITY; packet::MOST];
+        for ((ray, seeker), limit) in rays.iter().zip(&mut *seekers).zip(&mut limits) {
+            for place in 0..self.unbounded {
+                if self.entries[place].is_ahead(ray) {
+                    *limit = look(seeker, place);
+                }
+            }
+        }
+        let mut packet = PacketEntries { seekers, first: self.unbounded };
+        tree.visit_together(rays, &mut limits, &mut packet);
+    }
+}
+
+/// Shows the seeker of each ray the entries of the tree's leaves, one by one.
+struct PacketEntries<'a, S> {
+    seekers: &'a mut [S],
+    /// The place of the tree's first piece.
+    first: usize,
+}
+
+impl<S: Seeker> PacketSeeker for PacketEntries<'_, S> {
+    #[inline(always)]
+    fn leaf(&mut self, ray: usize, pieces: Range<usize>, mut limit: f64) -> f64 {
+        for piece in pieces {
+            limit = self.seekers[ray].look(self.first + piece);
+        }
+        limit
+    }
+
+    #[inline(always)]
+    fn node(&mut self) {
+        // Of all rays together.
+        self.seekers[0].tally().box_visit();
     }
 }
 

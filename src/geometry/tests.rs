@@ -1,5 +1,6 @@
 mod algebraic;
 mod every_body;
+mod packets;
 mod polyhedra;
 mod wholes;
 

@@ -6,6 +6,7 @@
 //! beam) asks where it stands.
 
 mod absorption;
+mod ahead;
 mod antialias;
 mod attenuation;
 mod bumpy;
@@ -42,6 +43,7 @@ use crate::geometry::{Geometry, Hit, Occluder};
 use crate::plan::{Antialias, Frame, Plan, Precision, Region};
 use crate::world::World;
 
+use ahead::Ahead;
 use antialias::Shown;
 use camera::Lens;
 use kernel::kernel;
@@ -91,6 +93,7 @@ impl Traced {
 /// What a thread keeps from ray to ray.
 #[derive(Debug, Default)]
 pub(crate) struct Walk {
+    ahead: Ahead,
     chain: Vec<Link>,
     /// Rays that wait until a mirrored one has come back, the last to be traced next.
     forks: Vec<Fork>,
@@ -171,25 +174,36 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool, const KINDS: bool, const CO
     let lens = Lens::new(&tracer.world.camera, width, height);
     // Inlined into each pass: as a closure of its own it would be called for each pixel.
     let sampled = sampled::<SHADOWS, SECONDARY, KINDS, COUNTS>;
+    let together = tracer.in_image.has_tree();
+    // Of pixels with one sample each; more of them look ahead themselves.
+    let prepared = |walk: &mut Walk, Region { x, y, width, height }: Region| {
+        if together {
+            let places = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y)));
+            tracer.look_ahead::<KINDS>(walk, places.map(|place| lens.ray(place, (0, 0), 1)));
+        }
+    };
+    let alone = |_: &mut Walk, _: Region| {};
     let region = plan.frame.region;
     let empty =
         |region| Film::new(Frame { region, ..plan.frame }, tracer.world.settings.assumed_gamma);
     match plan.antialias {
-        Antialias::Off | Antialias::Grid(_) => {
-            let grid = if let Antialias::Grid(n) = plan.antialias { n.max(1) } else { 1 };
-            crew.pass(empty(region), (0, 1), |walk, x, y| {
-                Some(sampled(tracer, &lens, walk, (x, y), grid))
+        Antialias::Off | Antialias::Grid(0..=1) => {
+            crew.pass(empty(region), (0, 1), prepared, |walk, x, y| {
+                Some(sampled(tracer, &lens, walk, (x, y), 1))
             })
         }
+        Antialias::Grid(grid) => crew.pass(empty(region), (0, 1), alone, |walk, x, y| {
+            Some(sampled(tracer, &lens, walk, (x, y), grid))
+        }),
         Antialias::Adaptive { threshold, grid } => {
             let border = grown(region, width, height);
-            let first = crew.pass(empty(border), (0, 2), |walk, x, y| {
+            let first = crew.pass(empty(border), (0, 2), prepared, |walk, x, y| {
                 Some(sampled(tracer, &lens, walk, (x, y), 1))
             });
             let shown = first.complete.then(|| Shown::new(&first.film));
             let film = first.film.crop(region);
             let Some(shown) = shown else { return Traced { film, ..first } };
-            let mut second = crew.pass(film, (1, 2), |walk, x, y| {
+            let mut second = crew.pass(film, (1, 2), alone, |walk, x, y| {
                 let edge = shown.is_edge(x, y, threshold);
                 edge.then(|| sampled(tracer, &lens, walk, (x, y), grid.max(1)))
             });
@@ -208,9 +222,23 @@ fn sampled<const SHADOWS: bool, const SECONDARY: bool, const KINDS: bool, const 
     pixel: (u32, u32),
     grid: u32,
 ) -> (Rgb, u32) {
+    let together = tracer.in_image.has_tree();
+    if together && grid > 1 {
+        walk.ahead.clear();
+    }
     let radiance = antialias::mean(walk, tracer.watch, grid, |walk, i, j| {
         walk.counters.camera += 1;
-        tracer.radiance::<SHADOWS, SECONDARY, KINDS, COUNTS>(walk, lens.ray(pixel, (i, j), grid))
+        if !together {
+            let ray = lens.ray(pixel, (i, j), grid);
+            return tracer.seen::<SHADOWS, SECONDARY, KINDS, COUNTS>(walk, ray);
+        }
+        let (ray, hit) = walk.ahead.next().unwrap_or_else(|| {
+            let rest = j * grid + i..grid * grid;
+            let rays = rest.map(|k| lens.ray(pixel, (k % grid, k / grid), grid));
+            tracer.look_ahead::<KINDS>(walk, rays);
+            walk.ahead.next().unwrap_or((lens.ray(pixel, (i, j), grid), Hit::NOTHING))
+        });
+        tracer.radiance::<SHADOWS, SECONDARY, KINDS, COUNTS>(walk, ray, hit)
     });
     (radiance, grid * grid)
 }

@@ -25,7 +25,7 @@ pub(super) struct Tracer<'a> {
     /// Everything: what stands in the way of light.
     pub geometry: &'a Geometry,
     /// What the camera's rays meet.
-    in_image: &'a Geometry,
+    pub in_image: &'a Geometry,
     /// What mirrored rays meet.
     in_reflections: &'a Geometry,
     pub sharpness: Sharpness,
@@ -120,7 +120,23 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// The radiance seen along `ray`.
+    /// The radiance seen along a ray of the camera.
+    #[inline(never)]
+    pub fn seen<
+        const SHADOWS: bool,
+        const SECONDARY: bool,
+        const KINDS: bool,
+        const COUNTS: bool,
+    >(
+        &self,
+        walk: &mut Walk,
+        ray: Ray,
+    ) -> Rgb {
+        let hit = self.in_image.nearest_counted::<KINDS>(&ray, &mut walk.counters.work);
+        self.radiance::<SHADOWS, SECONDARY, KINDS, COUNTS>(walk, ray, hit)
+    }
+
+    /// The radiance seen along a ray of the camera, which meets `first`.
     ///
     /// The weight that `adc_bailout` cuts at is the product of [`reflection::most`] of each surface
     /// that mirrors, and of the largest component of what each surface lets through; of a surface
@@ -136,7 +152,9 @@ impl<'a> Tracer<'a> {
         &self,
         walk: &mut Walk,
         ray: Ray,
+        first: Hit,
     ) -> Rgb {
+        let mut is_first = true;
         let mut way = Way::from_camera(ray);
         let mut met_by = self.in_image;
         walk.chain.clear();
@@ -145,7 +163,11 @@ impl<'a> Tracer<'a> {
         }
         loop {
             let mut seen = loop {
-                let found = met_by.nearest_counted::<KINDS>(&way.ray, &mut walk.counters.work);
+                let found = match is_first {
+                    true => first,
+                    false => met_by.nearest_counted::<KINDS>(&way.ray, &mut walk.counters.work),
+                };
+                is_first = false;
                 let hit = match way.inside {
                     Some(inside) if SECONDARY => self.left(walk, &way, inside, found),
                     Some(_) | None => found,

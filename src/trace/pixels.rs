@@ -112,7 +112,7 @@ struct Pixel<'a> {
 impl<'a> Pixel<'a> {
     fn new(tracer: &'a Tracer<'a>, plan: &'a Plan, geometry: &Geometry) -> Self {
         let Frame { width, height, .. } = plan.frame;
-        let kernel = kernel!(plan.kernel, geometry.counts(), Tracer::radiance);
+        let kernel = kernel!(plan.kernel, geometry.counts(), Tracer::seen);
         Self { plan, kernel, tracer, lens: Lens::new(&tracer.world.camera, width, height) }
     }
 

@@ -16,6 +16,8 @@ use crate::plan::Region;
 /// Pixels along a tile's side: small enough to share a picture evenly, large enough that handing
 /// out costs nothing.
 const SIDE: u32 = 32;
+/// Pixels along the side of a block, whose rays go together: `BLOCK`² are at most `bvh::packet::MOST`.
+const BLOCK: usize = 4;
 /// Things of a list that a thread takes at once.
 const PART: usize = 16;
 
@@ -80,37 +82,49 @@ impl<'a> Crew<'a> {
     }
 
     /// Computes the pixels of `film`, `which.0` being the number of this pass among `which.1`;
-    /// `None` leaves a pixel as it is.
+    /// `None` leaves a pixel as it is. Neighbours are computed one after the other, once a block of them was
+    /// `prepared`.
     pub fn pass(
         &self,
         mut film: Film,
         which: (usize, usize),
+        prepared: impl Fn(&mut Walk, Region) + Sync,
         pixel: impl Fn(&mut Walk, u32, u32) -> Option<(Rgb, u32)> + Sync,
     ) -> Traced {
         let tiles = tiles(&mut film, self.side);
         let total = tiles.len();
         let counters = Mutex::new(Counters::default());
         let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let work = |walk: &mut Walk, tile: Tile| {
+        let work = |walk: &mut Walk, mut tile: Tile| {
             if stopped.load(Ordering::Relaxed) || self.watch.should_stop() {
                 stopped.store(true, Ordering::Relaxed);
                 return;
             }
             walk.occluders.clear();
-            for (y, (radiance, samples)) in (tile.y..).zip(tile.rows) {
-                // A row may take long; what is done of the tile is kept.
+            for (y, rows) in (tile.y..).step_by(BLOCK).zip(tile.rows.chunks_mut(BLOCK)) {
+                // A row of blocks may take long; what is done of the tile is kept.
                 if y > tile.y && self.watch.should_stop() {
                     stopped.store(true, Ordering::Relaxed);
                     break;
                 }
-                for ((x, radiance), samples) in (tile.x..).zip(radiance).zip(samples) {
-                    let seen = pixel(walk, x, y);
+                let width = rows.first().map_or(0, |(radiance, _)| radiance.len());
+                for left in (0..width).step_by(BLOCK) {
+                    let columns = left..width.min(left + BLOCK);
+                    let x = tile.x + left as u32;
+                    let (width, height) = (columns.len() as u32, rows.len() as u32);
+                    prepared(walk, Region { x, y, width, height });
+                    for (y, (radiance, samples)) in (y..).zip(&mut *rows) {
+                        let places = radiance[columns.clone()].iter_mut().zip(x..);
+                        for ((radiance, x), samples) in places.zip(&mut samples[columns.clone()]) {
+                            let seen = pixel(walk, x, y);
+                            if let Some(seen) = seen.filter(|_| !walk.patience.is_over) {
+                                (*radiance, *samples) = seen;
+                            }
+                        }
+                    }
                     if walk.patience.is_over {
                         stopped.store(true, Ordering::Relaxed);
                         break;
-                    }
-                    if let Some(seen) = seen {
-                        (*radiance, *samples) = seen;
                     }
                 }
                 if walk.patience.is_over {

@@ -1,18 +1,22 @@
 //! Whole pictures, beside POV-Ray 3.7 where it is installed.
 //!
-//! `cargo bench --bench render`. **In:** scenes written here, one text for both programs. **Out:**
-//! a table: CPU seconds of our `--stats json` and of POV-Ray's own report, runs alternating, and
-//! how far the two pictures are apart. Ratios of one run can be compared, seconds of two cannot:
-//! the machine may have been busy.
+//! `cargo bench --bench render` prints the table of `docs/performance.md`; words behind `--` choose rows. **In:**
+//! scenes generated here, one text for both programs. **Out:** CPU seconds of our `--stats json` and of POV-Ray's
+//! own report, runs alternating, the rays a second, and how far the two pictures are apart. Ratios of one run can
+//! be compared, seconds of two cannot: the machine may have been busy.
 
-use std::fmt::Write;
+#[path = "render/scenes.rs"]
+mod scenes;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Instant;
 
+use scenes::Row;
+
 const SIZE: (u32, u32) = (1920, 1080);
-const PAIRS: usize = 7;
+const PAIRS: usize = 5;
 const STARTS: usize = 20;
 
 fn main() -> ExitCode {
@@ -23,105 +27,66 @@ fn main() -> ExitCode {
         Some(version) => println!("{version}"),
         None => println!("POV-Ray is not installed (`povray`): nothing to compare with"),
     }
-    let with_povray = povray.is_some();
-    pair(folder, "3 spheres, box, plane, 2 lights, reflection", "few", &few(), 2.5, with_povray);
-    pair(folder, "100,000 spheres, 2 lights", "many", &many(100_000), 3.0, with_povray);
-    starts(folder);
-    ExitCode::SUCCESS
-}
-
-/// The kind of scene the speed promise is about.
-fn few() -> String {
-    let gloss = "phong 0.4 phong_size 40";
-    let mut scene = head("<0, 1.2, 6>", "<0, 0.9, 0>");
-    let mut add = |shape: &str, color: &str, gloss: &str, reflection: f64| {
-        writeln!(
-            scene,
-            "{shape} pigment {{ rgb {color} }} finish {{ ambient 0.1 diffuse 0.6 {gloss} \
-             reflection {reflection} }} }}"
-        )
-        .expect("written");
-    };
-    add("plane { y, 0", "<0.8, 0.8, 0.7>", "", 0.1);
-    add("sphere { <0, 1, 0>, 1", "<0.8, 0.2, 0.2>", gloss, 0.3);
-    add("sphere { <-2, 0.6, 0.8>, 0.6", "<0.2, 0.7, 0.3>", "specular 0.4 roughness 0.02", 0.2);
-    add("sphere { <1.6, 0.5, 1.6>, 0.5", "<0.2, 0.3, 0.8>", gloss, 0.2);
-    let turned = "box { -0.5, 0.5 rotate 30*y translate <2.4, 0.5, -0.6>";
-    add(turned, "<0.8, 0.7, 0.2>", gloss, 0.1);
-    scene
-}
-
-fn many(count: usize) -> String {
-    let mut scene = head("<0, 0, 30>", "<0, 0, 0>");
-    scene += "#default { pigment { rgb <0.8, 0.6, 0.4> } finish { ambient 0.1 diffuse 0.6 } }\n";
-    let mut state = 7u64;
-    let mut number = || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    };
-    for _ in 0..count {
-        let [x, y, z] = [(); 3].map(|()| number() * 20.0 - 10.0);
-        let radius = 0.03 + 0.09 * number();
-        writeln!(scene, "sphere {{ <{x:.6}, {y:.6}, {z:.6}>, {radius:.6} }}").expect("written");
+    let words: Vec<String> =
+        std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    let is_chosen = |row: &Row| words.is_empty() || words.iter().any(|w| row.title.contains(w));
+    println!("{}×{}, one ray a pixel, one thread, least of {PAIRS} pairs\n", SIZE.0, SIZE.1);
+    println!(
+        "| scene | POV-Ray s | here s | ratio | goal | before tracing, ratio | million rays/s | pixels apart |"
+    );
+    println!("|---|---:|---:|---:|---:|---:|---:|---:|");
+    for row in scenes::rows().iter().filter(|row| is_chosen(row)) {
+        pair(folder, row, povray.is_some());
     }
-    scene
-}
-
-fn head(location: &str, look_at: &str) -> String {
-    format!(
-        "#version 3.7;
-global_settings {{ assumed_gamma 1 max_trace_level 5 }}
-camera {{ location {location} right -x*16/9 up y direction -1.2*z look_at {look_at} }}
-background {{ rgb <0.2, 0.3, 0.5> }}
-light_source {{ <50, 80, 60>, rgb 0.7 }}
-light_source {{ <-60, 50, 30>, rgb 0.5 }}
-"
-    )
+    if words.is_empty() {
+        starts(folder);
+    }
+    ExitCode::SUCCESS
 }
 
 /// CPU seconds of the stages both programs have.
 #[derive(Debug, Clone, Copy)]
 struct Cost {
-    parse: f64,
-    build: f64,
+    /// Reading and building what rays search.
+    prepare: f64,
     trace: f64,
+    /// Of all kinds; 0 where it is not known.
+    rays: f64,
 }
 
 /// Both programs on one scene, taking turns.
-fn pair(folder: &Path, title: &str, name: &str, scene: &str, bar: f64, with_povray: bool) {
-    let source = folder.join(format!("{name}.pov"));
-    fs::write(&source, scene).expect("a scene written");
+fn pair(folder: &Path, row: &Row, with_povray: bool) {
+    let source = folder.join("scene.pov");
+    fs::write(&source, &row.scene).expect("a scene written");
     let (ours, theirs) = (folder.join("ours.png"), folder.join("theirs.png"));
     let mut runs = Vec::new();
     for _ in 0..PAIRS {
         let lucarne = lucarne(&source, &ours);
         runs.push((lucarne, with_povray.then(|| povray(&source, &theirs))));
     }
-    println!("\n{title}: {}×{}, one ray a pixel, one thread, n = {PAIRS}", SIZE.0, SIZE.1);
-    println!("  CPU seconds         lucarne         POV-Ray        ratio of");
-    println!("                    min   median    min   median    min  median");
-    let row = |what: &str, cost: fn(&Cost) -> f64, note: &str| {
-        let (least, median) = spread(runs.iter().map(|(ours, _)| cost(ours)));
-        print!("  {what:14} {least:8.3} {median:8.3}");
-        if with_povray {
-            let theirs = spread(runs.iter().filter_map(|(_, theirs)| theirs.as_ref().map(cost)));
-            let (a, b) = (theirs.0 / least, theirs.1 / median);
-            print!(" {:7.3} {:8.3} {a:7.2} {b:7.2}{note}", theirs.0, theirs.1);
-        }
-        println!();
+    let least = |seconds: &dyn Fn(&(Cost, Option<Cost>)) -> Option<f64>| {
+        runs.iter().filter_map(seconds).fold(f64::INFINITY, f64::min)
     };
-    let note = format!("   promised: {bar}");
-    let of_trace = name == "few";
-    row("trace", |cost| cost.trace, if of_trace { &note } else { "" });
-    row("build, trace", |cost| cost.build + cost.trace, if of_trace { "" } else { &note });
-    row("all but files", |cost| cost.parse + cost.build + cost.trace, "");
-    if with_povray {
-        let (most, count, all) = difference(&ours, &theirs);
-        println!("  pictures: {count} of {all} numbers differ, by at most {most} of 255");
+    let trace = least(&|run| Some(run.0.trace));
+    let prepare = least(&|run| Some(run.0.prepare));
+    let rays = runs[0].0.rays / trace / 1e6;
+    let Row { title, goal, .. } = row;
+    if !with_povray {
+        println!("| {title} | | {trace:.3} | | {goal} | | {rays:.1} | |");
+        return;
     }
+    let their_trace = least(&|run| run.1.map(|cost| cost.trace));
+    let their_prepare = least(&|run| run.1.map(|cost| cost.prepare));
+    let (ratio, before) = (their_trace / trace, their_prepare / prepare);
+    let (count, all) = difference(&ours, &theirs);
+    let apart = 100.0 * count as f64 / all as f64;
+    println!(
+        "| {title} | {their_trace:.3} | {trace:.3} | {ratio:.2} | {goal} | {before:.2} | \
+         {rays:.1} | {apart:.3} % |"
+    );
 }
 
-/// One render by ours: `parse` is up to the World, `build` the tree.
+/// One render by ours.
 fn lucarne(source: &Path, picture: &Path) -> Cost {
     let output = Command::new(env!("CARGO_BIN_EXE_lucarne"))
         .args(["render", "--antialias", "off", "--threads", "1", "--stats=json"])
@@ -133,10 +98,12 @@ fn lucarne(source: &Path, picture: &Path) -> Cost {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let stats: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
     let seconds = |key: &str| stats[key].as_f64().expect("seconds");
+    let parts = ["parse_cpu_s", "evaluate_cpu_s", "lower_cpu_s", "build_cpu_s"];
+    let rays = stats["rays"].as_object().expect("rays by kind");
     Cost {
-        parse: seconds("parse_cpu_s") + seconds("evaluate_cpu_s") + seconds("lower_cpu_s"),
-        build: seconds("build_cpu_s"),
+        prepare: parts.into_iter().map(seconds).sum(),
         trace: seconds("trace_cpu_s"),
+        rays: rays.values().filter_map(serde_json::Value::as_f64).sum(),
     }
 }
 
@@ -164,20 +131,19 @@ fn povray(source: &Path, picture: &Path) -> Cost {
         number.and_then(|number| number.parse().ok()).expect("CPU seconds")
     };
     Cost {
-        parse: seconds("Parse Time:"),
-        build: seconds("Bounding Time:"),
+        prepare: seconds("Parse Time:") + seconds("Bounding Time:"),
         trace: seconds("Trace Time:"),
+        rays: 0.0,
     }
 }
 
-/// The largest difference of two 8-bit pictures, how many numbers differ, and of how many.
-fn difference(one: &Path, other: &Path) -> (u8, usize, usize) {
-    let [one, other] =
-        [one, other].map(|path| image::open(path).expect("a picture").to_rgb8().into_raw());
-    assert_eq!(one.len(), other.len());
-    let apart: Vec<u8> = one.iter().zip(&other).map(|(a, b)| a.abs_diff(*b)).collect();
-    let most = apart.iter().max().copied().unwrap_or(0);
-    (most, apart.iter().filter(|&&d| d > 0).count(), apart.len())
+/// Of how many pixels of two pictures, and of how many in all, a component differs by more than 2 of 255.
+fn difference(one: &Path, other: &Path) -> (usize, usize) {
+    let [one, other] = [one, other].map(|path| image::open(path).expect("a picture").to_rgb8());
+    assert_eq!(one.dimensions(), other.dimensions());
+    let pixels = one.pixels().zip(other.pixels());
+    let apart = pixels.filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 2));
+    (apart.count(), (SIZE.0 * SIZE.1) as usize)
 }
 
 /// How long one waits for next to nothing, by the clock.
@@ -190,6 +156,8 @@ fn starts(folder: &Path) {
     )
     .expect("a scene written");
     let small = folder.join("few.pov");
+    let few = scenes::rows().into_iter().next().expect("a row");
+    fs::write(&small, few.scene).expect("a scene written");
     println!("\nFrom start to finish, by the clock, n = {STARTS}     min   median");
     let row = |what: &str, command: &mut Command| {
         let times = (0..STARTS).map(|_| {
