@@ -151,7 +151,11 @@ fn function_of(word: Word, power: [f64; 2]) -> Function {
         Word::Tanh => Function::Tanh,
         Word::Atanh => Function::Atanh,
         Word::Ln => Function::Ln,
-        Word::Pwr => Function::Pwr(power),
+        Word::Pwr => match power {
+            [2.0, 0.0] => Function::Sqr,
+            [3.0, 0.0] => Function::Cube,
+            _ => Function::Pwr(power),
+        },
         _ => Function::Sqr,
     }
 }

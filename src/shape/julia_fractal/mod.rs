@@ -2,9 +2,11 @@
 //! slice of the four-dimensional space of h₀.
 //!
 //! With a finite number of iterations, the surface is as smooth as the map: it is where the largest norm of
-//! h₀, h₁ … equals the radius of the ball. Ball arithmetic bounds that norm and its slope over entire pieces
-//! of a line, so no thin filament is missed. **Invariant:** a crossing lies between two positions where the
-//! bounds, over all lines that may be intended, have opposite signs.
+//! h₀, h₁ … equals the radius of the ball. A line is followed by stretches on which no orbit changes between
+//! escaping and staying, as Taylor polynomials tell ([`taylor`]); where these are short, ball arithmetic bounds
+//! that norm and its slope over entire pieces of the line. So no thin filament is missed. **Invariant:** a
+//! crossing lies between two positions where the bounds, over all lines that may be intended, have opposite
+//! signs.
 //!
 //! **Source:** A. Norton, "Generation and display of geometric fractals in 3-D", Computer Graphics 16
 //! (SIGGRAPH 1982); J. Hart, D. Sandin, L. Kauffman, "Ray tracing deterministic 3-D fractals", Computer
@@ -13,6 +15,7 @@
 mod ball;
 mod function;
 mod orbit;
+mod taylor;
 
 use super::U;
 use super::local::{Crossings, Height, Local, LocalRay, Met};
@@ -28,6 +31,12 @@ use orbit::{Hypercomplex, Orbit, Quaternion};
 const FINEST: f64 = 1.0 / 4096.0;
 /// Maximum error of a crossing found in such pieces, relative to the ball's radius.
 const FAR: f64 = 1.0 / (1 << 30) as f64;
+
+/// Length of a piece of a line that is searched where no stretch is known, relative to the ball's radius;
+/// the next piece, if it follows at once, is twice as long.
+const SHORTEST: f64 = 1.0 / 32768.0;
+/// Length of the first stretch that is tried, relative to the ball's radius.
+const FIRST: f64 = 0.25;
 
 /// An uninformative bound, for pieces that are subdivided as finely as those with a bound.
 const ANYTHING: f64 = f64::MAX;
@@ -195,19 +204,50 @@ impl JuliaFractal {
         let fineness = Fineness { resolution: FINEST * radius, least };
         let mut search = Search::new(|s| self.looked_at(ray, s), fineness);
         // With what lies around the place from which on it is searched.
-        let begin = (from - 64.0 * least).max(-reach);
-        search.begin(begin, reach);
-        while search.goes_on() {
-            let Some(change) = search.found().all.last() else { return };
-            let (outside, inside) = match change.rising {
-                true => (change.after, change.before),
-                false => (change.before, change.after),
+        let mut place = (from - 64.0 * least).max(-reach);
+        let mut told = 0;
+        // How long the next stretch may be, and the next piece where there is none.
+        let (mut most, mut piece) = (FIRST * radius, SHORTEST * radius);
+        while place < reach {
+            let (next, is_told) = match self.stretch(ray, place, most) {
+                Some((far, escapes)) if far > 0.25 * piece => {
+                    most = if far < most { 2.0 * far } else { 4.0 * most };
+                    piece = SHORTEST * radius;
+                    let next = (place + far).min(reach);
+                    search.certain(place, next, !escapes);
+                    (next, true)
+                }
+                Some(_) if most > piece => {
+                    most *= 0.25;
+                    continue;
+                }
+                stretch => {
+                    let next = if stretch.is_some() { (place + piece).min(reach) } else { reach };
+                    search.begin(place, next);
+                    piece *= 2.0;
+                    most = 2.0 * piece;
+                    (next, false)
+                }
             };
-            let root = root(|s| self.sample(ray, s), (outside, inside), f64::NAN, ray.tolerance);
-            found.push(Met { t: root.t, error: root.error, leaving: change.rising, part: 0 });
-            if !all && root.t - root.error > ray.ahead_of(from) {
-                return;
+            let mut goes_on = true;
+            while goes_on {
+                goes_on = !is_told && search.goes_on();
+                for change in &search.found().all[told..] {
+                    let (outside, inside) = match change.rising {
+                        true => (change.after, change.before),
+                        false => (change.before, change.after),
+                    };
+                    let root =
+                        root(|s| self.sample(ray, s), (outside, inside), f64::NAN, ray.tolerance);
+                    let leaving = change.rising;
+                    found.push(Met { t: root.t, error: root.error, leaving, part: 0 });
+                    if !all && root.t - root.error > ray.ahead_of(from) {
+                        return;
+                    }
+                }
+                told = search.found().all.len();
             }
+            place = next;
         }
     }
 }
