@@ -9,6 +9,8 @@
 
 mod walk;
 
+use std::cell::Cell;
+
 use super::U;
 use super::local::{Crossings, Height, Local, LocalRay, Met, Span, unite};
 use super::mesh::Flat;
@@ -119,24 +121,29 @@ impl HeightField {
         self.places(part).map(|place| self.corner(place))
     }
 
-    /// Calls `found` with every triangle that a line pierces, in no order.
-    fn pierced(&self, ray: &LocalRay, mut found: impl FnMut(Met)) {
+    /// Calls `found` with triangles that a line pierces, roughly in the order of the line: with all that may
+    /// lie between `from` and the limit, which is `to` at first and then what `found` returns.
+    fn pierced(&self, ray: &LocalRay, between: (f64, f64), mut found: impl FnMut(Met) -> f64) {
         // Of the box from which heights are told.
         let view = View::along(ray, 1.0);
-        let Some(track) = Track::new(ray, view.doubt, self.cells, self.range) else { return };
+        let Some(track) = Track::new(ray, view.doubt, between, self.cells, self.range) else {
+            return;
+        };
+        let limit = Cell::new(f64::INFINITY);
+        let mut found = |met| limit.set(found(met));
         let apart = |[low, high]: [f32; 2], heights: [f64; 2]| {
             f64::from(low) > heights[1] || f64::from(high) < heights[0]
         };
         let all = Cells { from: [0; 2], to: self.cells };
-        track.blocks(all, BLOCK, |block, heights| {
+        track.blocks(all, BLOCK, &limit, |block, heights| {
             if apart(self.blocks[self.number_of(block, BLOCK)], heights) {
                 return;
             }
-            track.blocks(block, SMALL, |block, heights| {
+            track.blocks(block, SMALL, &limit, |block, heights| {
                 if apart(self.small[self.number_of(block, SMALL)], heights) {
                     return;
                 }
-                track.blocks(block, 1, |cell, heights| {
+                track.blocks(block, 1, &limit, |cell, heights| {
                     if !apart(self.range_of(cell), heights) {
                         self.pierced_in(cell, ray, &view, &mut found);
                     }
@@ -186,8 +193,11 @@ impl HeightField {
     /// at an end of its range between the walls, it enters or leaves there.
     fn under_ground(&self, ray: &LocalRay, [enter, leave]: [Met; 2]) -> SmallVec<[Span; 4]> {
         let mut own = Crossings::new();
-        self.pierced(ray, |met| own.push(met));
-        own.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
+        self.pierced(ray, (f64::NEG_INFINITY, f64::INFINITY), |met| {
+            own.push(met);
+            f64::INFINITY
+        });
+        own.sort_unstable_by(by_place);
         let (Some(&first), Some(&last)) = (own.first(), own.last()) else {
             // It passes above all of it, or below. Of a line along the walls, a place beside the end that
             // there is.
@@ -289,6 +299,10 @@ impl HeightField {
     }
 }
 
+fn by_place(a: &Met, b: &Met) -> std::cmp::Ordering {
+    a.t.total_cmp(&b.t).then(a.part.cmp(&b.part))
+}
+
 impl Local for HeightField {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         let Some(walls) = self.between_walls(ray) else { return };
@@ -306,6 +320,23 @@ impl Local for HeightField {
         unite(&mut spans, &mut all);
         // What has no end is not crossed there.
         found.extend(all.into_iter().filter(|met| met.t.is_finite()));
+    }
+
+    /// Only those that are visible.
+    fn first_crossings(&self, ray: &LocalRay, between: (f64, f64), found: &mut Crossings) {
+        let ahead = ray.ahead_of(between.0);
+        let mut limit = between.1;
+        self.pierced(ray, between, |met| {
+            if met.t <= limit && !self.is_under_water(ray, &met) {
+                found.push(met);
+                if met.t - met.error > ahead {
+                    limit = met.t;
+                }
+            }
+            limit
+        });
+        found.retain(|met| met.t <= limit);
+        found.sort_unstable_by(by_place);
     }
 
     /// Measured from the plane of the triangle, relative to its corner.

@@ -2,6 +2,8 @@
 //!
 //! **Invariant:** every cell that the line may pass over is reported once; rounding may add a few more.
 
+use std::cell::Cell;
+
 use super::super::local::LocalRay;
 use super::U;
 
@@ -11,6 +13,8 @@ pub(super) struct Track {
     /// Its position at s = 0: along x and z, in cells; along y, as it is.
     start: [f64; 3],
     step: [f64; 3],
+    /// 1 over that.
+    inverse: [f64; 3],
     /// Rounding error of each coordinate.
     slack: [f64; 3],
     /// The range of s that counts.
@@ -25,22 +29,25 @@ pub(super) struct Cells {
 }
 
 impl Track {
-    /// Returns the part of a line, with position error `doubt`, over the unit square around the origin and
-    /// between two heights. `None` if it is empty.
+    /// Returns the part of a line, with position error `doubt`, over the unit square around the origin,
+    /// between two heights and in a range of s. `None` if it is empty.
     pub fn new(
         ray: &LocalRay,
         doubt: f64,
+        (from, to): (f64, f64),
         cells: [usize; 2],
         [low, high]: [f64; 2],
     ) -> Option<Self> {
         let (n, d) = (ray.nearest, ray.direction);
         let off = 64.0 * U * (2.0 + n.length()) + doubt;
         let sizes = cells.map(|count| count as f64);
+        let step = [d.x * sizes[0], d.z * sizes[1], d.y];
         let mut track = Self {
             start: [(n.x + 0.5) * sizes[0], (n.z + 0.5) * sizes[1], n.y],
-            step: [d.x * sizes[0], d.z * sizes[1], d.y],
+            step,
+            inverse: step.map(f64::recip),
             slack: [off * sizes[0], off * sizes[1], off],
-            span: [-4.0, 4.0],
+            span: [from.max(-4.0) - off, to.min(4.0) + off],
         };
         for (axis, [low, high]) in
             [[0.0, sizes[0]], [0.0, sizes[1]], [low, high]].into_iter().enumerate()
@@ -52,9 +59,9 @@ impl Track {
 
     /// Returns the part of the span where a coordinate may be between two values.
     fn within(&self, axis: usize, low: f64, high: f64) -> Option<[f64; 2]> {
-        let (start, step, slack) = (self.start[axis], self.step[axis], self.slack[axis]);
+        let (start, inverse, slack) = (self.start[axis], self.inverse[axis], self.slack[axis]);
         let (low, high) = (low - slack - start, high + slack - start);
-        let (a, b) = (low / step, high / step);
+        let (a, b) = (low * inverse, high * inverse);
         if !(a.is_finite() && b.is_finite()) {
             return (low <= 0.0 && 0.0 <= high).then_some(self.span);
         }
@@ -70,8 +77,15 @@ impl Track {
     }
 
     /// Calls `found` with the blocks of `size` cells of a region that the line may pass over, and with the
-    /// range of the line's heights there.
-    pub fn blocks(&self, region: Cells, size: usize, mut found: impl FnMut(Cells, [f64; 2])) {
+    /// range of the line's heights there; column by column as the line goes, up to the limit, which `found`
+    /// may lower.
+    pub fn blocks(
+        &self,
+        region: Cells,
+        size: usize,
+        limit: &Cell<f64>,
+        mut found: impl FnMut(Cells, [f64; 2]),
+    ) {
         let main = usize::from(self.step[1].abs() > self.step[0].abs());
         let other = 1 - main;
         // The numbers of the blocks that hold a range of places along an axis.
@@ -85,9 +99,16 @@ impl Track {
             let from = (number * size).max(region.from[axis]);
             (from, ((number + 1) * size).min(region.to[axis]))
         };
-        for column in numbers(main, self.range(main, self.span)) {
+        let columns = numbers(main, self.range(main, self.span));
+        let (first, last) = (*columns.start(), *columns.end());
+        let is_backward = self.step[main] < 0.0;
+        for column in columns {
+            let column = if is_backward { first + (last - column) } else { column };
             let (from, to) = block(main, column);
             let Some(span) = self.within(main, from as f64, to as f64) else { continue };
+            if span[0] > limit.get() {
+                return;
+            }
             let heights = self.range(2, span);
             for row in numbers(other, self.range(other, span)) {
                 let (begin, end) = block(other, row);
