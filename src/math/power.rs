@@ -1,9 +1,11 @@
 //! Powers of non-negative numbers, by multiplications and square roots where possible.
 
-use super::elementary::pow;
+use super::elementary::{cbrt, pow};
 
 /// The largest exponent computed by multiplications.
 const MOST: u8 = 16;
+
+const TWO_THIRDS: f64 = 2.0 / 3.0;
 
 /// The function x ↦ xᵖ for x ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,6 +15,10 @@ pub enum Power {
     Products {
         times: u8,
         roots: u8,
+        inverse: bool,
+    },
+    /// The square of the cube root, or its inverse: of 2/3 itself, which the exponent rounds.
+    TwoThirds {
         inverse: bool,
     },
     Other(f64),
@@ -27,6 +33,7 @@ impl Power {
             0.25 => Self::Products { times: 1, roots: 2, inverse },
             0.5 => Self::Products { times: 1, roots: 1, inverse },
             1.5 => Self::Products { times: 3, roots: 1, inverse },
+            TWO_THIRDS => Self::TwoThirds { inverse },
             _ if whole(size) => Self::Products { times: size as u8, roots: 0, inverse },
             _ => Self::Other(exponent),
         }
@@ -42,6 +49,10 @@ impl Power {
                 let root = (0..roots).fold(x, |x, _| x.sqrt());
                 let product = products(root, times.into());
                 if inverse { 1.0 / product } else { product }
+            }
+            Self::TwoThirds { inverse } => {
+                let root = cbrt(x);
+                if inverse { 1.0 / (root * root) } else { root * root }
             }
             Self::Other(exponent) => pow(x, exponent),
         }
@@ -95,6 +106,20 @@ mod tests {
             // The library's own is off by 2 roundings at most.
             let most = (size + 5.0 + 2.0) * 0.5 * f64::EPSILON * expected;
             assert!((found - expected).abs() <= most, "{x}^{exponent}: {found} {expected}");
+        }
+    }
+
+    #[test]
+    fn the_cube_of_two_thirds_is_the_square() {
+        let mut random = Random(32);
+        let power = Power::new(TWO_THIRDS);
+        assert!(matches!(power, Power::TwoThirds { inverse: false }));
+        for _ in 0..tries() {
+            let x = random.size(-9.0, 9.0);
+            let (cube, square) = (products(power.of(x), 3), x * x);
+            assert!((cube - square).abs() <= 8.0 * f64::EPSILON * square, "{x}");
+            let one = power.of(x) * Power::new(-TWO_THIRDS).of(x);
+            assert!((one - 1.0).abs() <= 2.0 * f64::EPSILON, "{x}");
         }
     }
 

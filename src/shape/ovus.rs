@@ -13,7 +13,7 @@ use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::double::Double;
 use crate::math::roots::bracket::{Root, Sample};
-use crate::math::roots::convex::{Tangent, chord};
+use crate::math::roots::convex::{Tangent, dip};
 
 /// The line is searched from −`FAR` to `FAR`; the body ends at 1.
 const FAR: f64 = 2.0;
@@ -114,6 +114,19 @@ impl Ovus {
         (length - self.arc, (away * out + Vector::Z * up) / length)
     }
 
+    /// Returns the height along a line; it is the distance to the surface, which is convex.
+    ///
+    /// **Error** of the height: the error of the point, and the roundings of three squares, a root, and the
+    /// parameters of the spheres and the arc, the largest of which is 4.
+    fn tangent(&self, ray: &LocalRay) -> impl Fn(f64) -> Tangent {
+        let slope_error = TURN + ray.turn;
+        move |s: f64| {
+            let Height { value, gradient, error } = self.height(0, ray.at(s));
+            let error = error + ray.blur_at(s) + 2.0 * U * s.abs();
+            Tangent { at: Sample { value, slope: gradient.dot(ray.direction), error }, slope_error }
+        }
+    }
+
     fn greatest(&self, along: Vector) -> f64 {
         let out = Vector::new(along.x, along.y, 0.0).length();
         let [low, high] = self.centres();
@@ -125,21 +138,30 @@ impl Ovus {
     }
 }
 
+fn met(Root { t, error }: Root, leaving: bool) -> Met {
+    Met { t, error, leaving, part: 0 }
+}
+
 impl Local for Ovus {
-    /// The height is the distance to the surface, which is convex.
-    ///
-    /// **Error** of the height: the error of the point, and the roundings of three squares, a root, and the
-    /// parameters of the spheres and the arc, the largest of which is 4.
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        let slope_error = TURN + ray.turn;
-        let tangent = |s: f64| {
-            let Height { value, gradient, error } = self.height(0, ray.at(s));
-            let error = error + ray.blur_at(s) + 2.0 * U * s.abs();
-            Tangent { at: Sample { value, slope: gradient.dot(ray.direction), error }, slope_error }
-        };
-        let Some([enter, leave]) = chord(tangent, (-FAR, FAR), ray.tolerance) else { return };
-        let met = |Root { t, error }, leaving| Met { t, error, leaving, part: 0 };
+        let tangent = self.tangent(ray);
+        let Some(dip) = dip(&tangent, (-FAR, FAR), 0.0) else { return };
+        let (enter, leave) =
+            (dip.enter(&tangent, ray.tolerance), dip.leave(&tangent, ray.tolerance));
         found.extend([met(enter, false), met(leave, true)]);
+    }
+
+    fn first_crossings(&self, ray: &LocalRay, (from, _): (f64, f64), found: &mut Crossings) {
+        let tangent = self.tangent(ray);
+        let Some(dip) = dip(&tangent, (-FAR, FAR), 0.0) else { return };
+        if dip.inside() >= from {
+            let enter = dip.enter(&tangent, ray.tolerance);
+            found.push(met(enter, false));
+            if enter.t - enter.error > ray.ahead_of(from) {
+                return;
+            }
+        }
+        found.push(met(dip.leave(&tangent, ray.tolerance), true));
     }
 
     fn part_at(&self, _: &LocalRay, _: f64, _: bool) -> Option<u32> {

@@ -6,20 +6,22 @@
 //! toward its axes and a line may cross it often, but only within the *hull*, the body whose exponents are
 //! limited to 2. If both are at least 2, the gauge is concave in each octant.
 
+mod norms;
+
+use std::cell::Cell;
+
 use super::U;
 use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::math::power::Power;
-use crate::math::roots::bracket::{Root, Sample};
-use crate::math::roots::convex::{Dip, Tangent, dip};
+use crate::math::roots::bracket::Root;
+use crate::math::roots::convex::{Dip, dip};
 use crate::math::roots::monotone::Walk;
+use norms::{Norm, Norms};
 
 /// Size, relative to the body's, of the box in which the line is searched.
 const AROUND: f64 = 1.0625;
-
-/// Upper limit of a gauge; larger values are clamped.
-const MOST: f64 = 1e100;
 
 /// First part number of the two sides of plates that are too thin to be separated from their planes, axis by
 /// axis.
@@ -39,123 +41,6 @@ pub struct Superellipsoid {
     slopes: Slopes,
     /// The smallest convex body of this kind that contains it.
     hull: Norms,
-}
-
-/// The exponents of a gauge, and its two norms.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Norms {
-    east: f64,
-    north: f64,
-    /// Norm of x and y, with p = 2/e.
-    round: Norm,
-    /// Norm of that and z, with q = 2/n.
-    tall: Norm,
-}
-
-/// The norm (aᵖ + bᵖ)^1/p for a, b ≥ 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Norm {
-    /// p.
-    exponent: f64,
-    power: Power,
-    root: Power,
-}
-
-impl Norm {
-    /// Builds the norm with 1/p = `share`.
-    fn new(share: f64) -> Self {
-        let exponent = 1.0 / share;
-        Self { exponent, power: Power::new(exponent), root: Power::new(share) }
-    }
-
-    /// Returns the norm, and the fraction of the sum that each of the two contributes.
-    fn of(self, a: f64, b: f64) -> (f64, [f64; 2]) {
-        let (most, least) = if a > b { (a, b) } else { (b, a) };
-        if most == 0.0 {
-            return (0.0, [0.5, 0.5]);
-        }
-        let part = self.power.of(least / most);
-        let size = (most * self.root.of(1.0 + part)).min(MOST);
-        let (greater, lesser) = (1.0 / (1.0 + part), part / (1.0 + part));
-        (size, if a > b { [greater, lesser] } else { [lesser, greater] })
-    }
-}
-
-/// The gauge at a point with no negative coordinate, and the fraction that each coordinate contributes.
-struct Gauge {
-    value: f64,
-    parts: Vector,
-}
-
-impl Norms {
-    fn new(east: f64, north: f64) -> Self {
-        Self { east, north, round: Norm::new(0.5 * east), tall: Norm::new(0.5 * north) }
-    }
-
-    fn is_convex(&self) -> bool {
-        self.east.max(self.north) <= 2.0
-    }
-
-    /// Returns whether the gauge is concave in each octant.
-    fn is_concave(&self) -> bool {
-        self.east.min(self.north) >= 2.0
-    }
-
-    fn gauge(&self, Vector { x, y, z }: Vector) -> Gauge {
-        let (round, [of_x, of_y]) = self.round.of(x, y);
-        let (value, [of_round, of_z]) = self.tall.of(round, z);
-        Gauge { value, parts: Vector::new(of_round * of_x, of_round * of_y, of_z) }
-    }
-
-    /// Relative rounding error of a gauge. With 1/p = e/2, the power of the ratio is off by 2p + 5 roundings
-    /// and is at most half of the sum; the root of the sum is off by e/2 times as many plus 1, and by 5 + e/2
-    /// of its own; likewise for the second norm.
-    fn rounding(&self) -> f64 {
-        U * (16.0 + 4.0 * self.east + 4.0 * self.north)
-    }
-
-    /// Error that the line's blur causes in a gauge. A norm of vectors of length `blur` is at most √3 times
-    /// that.
-    fn blurred(&self, place: Vector, Gauge { value, parts }: Gauge, blur: f64) -> f64 {
-        if self.is_convex() {
-            return 2.0 * blur;
-        }
-        // Its logarithm's slope along the logarithm of a coordinate is that one's part of it. While none is
-        // moved by much, no part changes by as much as half, and this is less than twice too much.
-        let moved = Vector::splat(blur) / place;
-        let changed = moved.max_element() * (self.round.exponent + self.tall.exponent);
-        if moved.is_finite() && changed < 0.0625 {
-            return 2.0 * value * parts.dot(moved);
-        }
-        let more = self.gauge(place + blur).value;
-        let less = self.gauge((place - blur).max(Vector::ZERO)).value;
-        (more - value).max(value - less)
-    }
-
-    fn at(&self, point: Vector) -> (f64, Vector, Vector) {
-        let place = point.abs();
-        let Gauge { value, parts } = self.gauge(place);
-        let slope = |axis: usize| match place[axis] {
-            0.0 => 0.0,
-            size => (value * (parts[axis] / size)).min(MOST).copysign(point[axis]),
-        };
-        (value, Vector::new(slope(0), slope(1), slope(2)), parts)
-    }
-
-    fn tangent(&self, ray: &LocalRay, s: f64) -> Tangent {
-        let point = ray.at(s);
-        let (value, gradient, parts) = self.at(point);
-        let blur = ray.blur_at(s) + 2.0 * U * s.abs();
-        let error =
-            self.rounding() * value + self.blurred(point.abs(), Gauge { value, parts }, blur);
-        let slope = gradient.dot(ray.direction);
-        // A power with the exponent p is off by p roundings of its base, and there are no two parts that
-        // are both of some size but near an edge.
-        let (p, q) = (self.round.exponent, self.tall.exponent);
-        let edges = p * parts.x.min(parts.y) + q * parts.z.min(1.0 - parts.z);
-        let slope_error = (U * (32.0 + 16.0 * edges) + 2.0 * ray.turn).min(4.0);
-        Tangent { at: Sample { value: value - 1.0, slope, error }, slope_error }
-    }
 }
 
 impl Superellipsoid {
@@ -209,7 +94,7 @@ impl Superellipsoid {
         power(round, tall_over_round) * (slope(0, across) + slope(1, across)) + slope(2, tall)
     }
 
-    /// Returns where the line is in the box around the body.
+    /// Returns where the line is in the box around the body; `None` where its blur hides that.
     fn around(&self, ray: &LocalRay) -> Option<(f64, f64)> {
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
         for axis in 0..3 {
@@ -224,7 +109,8 @@ impl Superellipsoid {
             enter = enter.max(a.min(b));
             leave = leave.min(a.max(b));
         }
-        (enter < leave).then_some((enter, leave))
+        let blur = ray.blur_at(enter.abs().max(leave.abs()));
+        (enter < leave && 4.0 * blur < AROUND - 1.0).then_some((enter, leave))
     }
 
     /// Returns where the line enters or leaves a convex body.
@@ -239,45 +125,61 @@ impl Superellipsoid {
 
     /// Returns an enclosure of where the line is in the hull; the line is certainly outside at both ends.
     fn in_hull(&self, ray: &LocalRay) -> Option<Dip> {
-        dip(|s| self.hull.tangent(ray, s), self.around(ray)?)
+        dip(|s| self.hull.tangent(ray, s), self.around(ray)?, 0.0)
     }
 
-    /// Finds the crossings of a body that is not convex, octant by octant.
-    fn hollow(&self, ray: &LocalRay, found: &mut Crossings) {
+    /// Finds the crossings of a body that is not convex, octant by octant: those that may lie in a range, up
+    /// to the first that is certainly behind its start.
+    fn hollow(&self, ray: &LocalRay, (from, to): (f64, f64), found: &mut Crossings) {
         let Some((low, high)) = self.in_hull(ray).map(|dip| dip.around()) else { return };
+        if low > to || high < from {
+            return;
+        }
+        let ahead = ray.ahead_of(from);
+        let is_enough = Cell::new(false);
         let zero = |axis: usize| -ray.nearest[axis] / ray.direction[axis];
         let mut ends = [low, zero(0), zero(1), zero(2), high];
         ends.sort_unstable_by(f64::total_cmp);
         let sample = |s: f64| self.norms.tangent(ray, s).at;
         let mut walk = Walk::new(sample, ray.tolerance);
         let mut note = |Root { t, error }: Root, leaving: bool| {
+            is_enough.set(is_enough.get() || t - error > ahead);
             found.push(Met { t, error, leaving, part: 0 });
         };
         walk.note(low, true, &mut note);
+        let mut end = low;
         for pair in ends.windows(2) {
-            let (from, to) = (pair[0].max(low), pair[1].min(high));
-            if from.partial_cmp(&to) != Some(std::cmp::Ordering::Less) {
+            let (begin, to) = (pair[0].max(low), pair[1].min(high));
+            if is_enough.get() || begin.partial_cmp(&to) != Some(std::cmp::Ordering::Less) {
                 continue;
             }
-            let ways = ray.at(0.5 * (from + to)).signum();
+            end = to;
+            if ray.ahead_of(to) < from {
+                walk.advance(to, &mut note);
+                continue;
+            }
+            let ways = ray.at(0.5 * (begin + to)).signum();
             let speeds = ray.direction * ways;
             // Away from all three planes, or toward them, the gauge grows or falls.
             let goes_one_way = speeds.min_element() > ray.turn || speeds.max_element() < -ray.turn;
             // What is concave is nowhere less than at both of its ends.
             let has_one_root = || {
                 let is_concave = self.norms.is_concave();
-                is_concave && (walk.sign_at(from) == Some(true) || sample(to).is_outside())
+                is_concave && (walk.sign_at(begin) == Some(true) || sample(to).is_outside())
             };
             if !goes_one_way && !has_one_root() {
                 let value = |piece| self.range(Self::sizes(ray, piece));
                 let slope = |piece| self.slopes(ray, ways, Self::sizes(ray, piece));
-                walk.through((from, to), value, slope, &mut note);
+                walk.through((begin, to), value, slope, &mut note);
             } else if to < high {
                 walk.advance(to, &mut note);
             }
         }
-        walk.note(high, true, &mut note);
-        self.plates(ray, (low, high), found);
+        if !is_enough.get() {
+            walk.note(high, true, &mut note);
+            end = high;
+        }
+        self.plates(ray, (low, end), found);
     }
 
     /// Adds the crossings with plates. If the exponents are large, the body is a plate in the plane of two
@@ -316,7 +218,7 @@ impl Superellipsoid {
 impl Local for Superellipsoid {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
         if !self.norms.is_convex() {
-            return self.hollow(ray, found);
+            return self.hollow(ray, (f64::NEG_INFINITY, f64::INFINITY), found);
         }
         let Some(dip) = self.in_hull(ray) else { return };
         found.extend([false, true].map(|leaving| self.end(ray, &dip, leaving)));
@@ -324,7 +226,7 @@ impl Local for Superellipsoid {
 
     fn first_crossings(&self, ray: &LocalRay, (from, to): (f64, f64), found: &mut Crossings) {
         if !self.norms.is_convex() {
-            return self.hollow(ray, found);
+            return self.hollow(ray, (from, to), found);
         }
         let Some(dip) = self.in_hull(ray) else { return };
         let (before, behind) = dip.around();

@@ -20,36 +20,23 @@ pub struct Tangent {
 type Place = (f64, Tangent);
 
 /// A position where the function is certainly negative, with the nearest known positions on both sides where
-/// it is certainly positive.
+/// it is certainly positive, and the tangents there, where they are known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dip {
-    before: Place,
+    before: (f64, Option<Tangent>),
     inside: f64,
-    behind: Place,
+    behind: (f64, Option<Tangent>),
 }
 
-/// Returns where the function becomes negative and where it becomes positive again; `tolerance` is the error
-/// that each may have in addition to that caused by the errors of the samples.
-pub fn chord(
-    tangent: impl Fn(f64) -> Tangent,
-    ends: (f64, f64),
-    tolerance: f64,
-) -> Option<[Root; 2]> {
-    let dip = dip(&tangent, ends)?;
-    Some([dip.enter(&tangent, tolerance), dip.leave(&tangent, tolerance)])
-}
-
-/// Returns where the function is negative, if anywhere between two positions.
-pub fn dip(tangent: impl Fn(f64) -> Tangent, (low, high): (f64, f64)) -> Option<Dip> {
-    let (mut before, mut behind) = ((low, tangent(low)), (high, tangent(high)));
-    if !(before.1.at.is_outside() && behind.1.at.is_outside()) {
-        return None;
-    }
+/// Returns where the function is negative, if anywhere between two positions where it is certainly positive;
+/// looks at `guess` first.
+pub fn dip(tangent: impl Fn(f64) -> Tangent, (low, high): (f64, f64), guess: f64) -> Option<Dip> {
     // The nearest places that are certainly positive.
-    let (mut outer_before, mut outer_behind) = (before, behind);
+    let (mut outer_before, mut outer_behind) = ((low, None), (high, None));
+    let (mut before, mut behind) = (None, None);
     let mut width = high - low;
+    let mut next = if low < guess && guess < high { guess } else { low + 0.5 * width };
     loop {
-        let next = between(before, behind, &mut width)?;
         let here = tangent(next);
         if here.at.is_inside() {
             return Some(Dip { before: outer_before, inside: next, behind: outer_behind });
@@ -60,10 +47,14 @@ pub fn dip(tangent: impl Fn(f64) -> Tangent, (low, high): (f64, f64)) -> Option<
             slope if slope < 0.0 => (&mut before, &mut outer_before),
             _ => return None,
         };
-        *end = (next, here);
+        *end = Some((next, here));
         if here.at.is_outside() {
-            *outer_end = *end;
+            *outer_end = (next, Some(here));
         }
+        let first = before.unwrap_or_else(|| (low, tangent(low)));
+        let last = behind.unwrap_or_else(|| (high, tangent(high)));
+        (before, behind) = (Some(first), Some(last));
+        next = between(first, last, &mut width)?;
     }
 }
 
@@ -90,10 +81,11 @@ impl Dip {
 
     fn end(
         &self,
-        (outside, Tangent { at, .. }): Place,
+        (outside, known): (f64, Option<Tangent>),
         tangent: impl Fn(f64) -> Tangent,
         tolerance: f64,
     ) -> Root {
+        let Tangent { at, .. } = known.unwrap_or_else(|| tangent(outside));
         // From outside, Newton's step does not reach beyond the root.
         let start = outside - at.value / at.slope;
         root(|s| tangent(s).at, (outside, self.inside), start, tolerance)
@@ -148,11 +140,13 @@ mod tests {
         for _ in 0..tries() {
             let depth = random.size(-10.0, -1.0);
             let error = depth * random.size(-6.0, -0.5);
+            let guess = random.number(-9.5, 9.5);
             let (centre, sample) = valley(&mut random, depth, error);
             if !(sample(-9.0).at.is_outside() && sample(9.0).at.is_outside()) {
                 continue;
             }
-            let [enter, leave] = chord(&sample, (-9.0, 9.0), 0.0).expect("negative at the centre");
+            let dip = dip(&sample, (-9.0, 9.0), guess).expect("negative at the centre");
+            let (enter, leave) = (dip.enter(&sample, 0.0), dip.leave(&sample, 0.0));
             assert!(enter.t < centre && centre < leave.t, "{enter:?} {centre} {leave:?}");
             for (root, way) in [(enter, -1.0), (leave, 1.0)] {
                 let out = sample(root.t + way * root.error).at;
@@ -167,8 +161,9 @@ mod tests {
         let mut random = Random(12);
         for _ in 0..tries() {
             let height = random.size(-14.0, 0.0);
+            let guess = random.number(-9.5, 9.5);
             let (_, sample) = valley(&mut random, -height, height * 0.5);
-            assert_eq!(chord(&sample, (-9.0, 9.0), 0.0), None);
+            assert_eq!(dip(&sample, (-9.0, 9.0), guess), None);
         }
     }
 }
