@@ -194,31 +194,50 @@ impl Found {
     }
 }
 
-impl Local for Torus {
-    /// The minima of h inside, and the maximum between them outside, divide the line into pieces with one
-    /// root each, which are then bracketed.
-    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+impl Torus {
+    /// Adds the crossings that may lie behind `from`, until `is_enough` accepts one. The minima of h inside,
+    /// and the maximum between them outside, divide the line into pieces with one root each, which are then
+    /// bracketed.
+    fn meet(
+        &self,
+        ray: &LocalRay,
+        from: f64,
+        found: &mut Crossings,
+        is_enough: impl Fn(&Met) -> bool,
+    ) {
         let line = Line::new(self, ray);
         let Parts { left, crest, right } = line.parts();
-        match (left, right) {
-            (None, None) => {}
-            (Some(dip), None) => {
-                found.push(line.met(-FAR, &dip, false));
-                found.push(line.met(crest.unwrap_or(FAR), &dip, true));
-            }
-            (None, Some(dip)) => {
-                found.push(line.met(crest.unwrap_or(-FAR), &dip, false));
-                found.push(line.met(FAR, &dip, true));
-            }
-            (Some(left), Some(right)) => {
-                found.push(line.met(-FAR, &left, false));
-                if let Some(crest) = crest {
-                    found.push(line.met(crest, &left, true));
-                    found.push(line.met(crest, &right, false));
+        let left_end = crest.or(right.is_none().then_some(FAR));
+        let right_start = crest.or(left.is_none().then_some(-FAR));
+        let (left, right) = (left.as_ref(), right.as_ref());
+        let ends = [
+            (Some(-FAR), left, false),
+            (left_end, left, true),
+            (right_start, right, false),
+            (Some(FAR), right, true),
+        ];
+        for (outside, dip, leaving) in ends {
+            if let (Some(outside), Some(dip)) = (outside, dip)
+                && outside.max(dip.s) >= from
+            {
+                let met = line.met(outside, dip, leaving);
+                found.push(met);
+                if is_enough(&met) {
+                    return;
                 }
-                found.push(line.met(FAR, &right, true));
             }
         }
+    }
+}
+
+impl Local for Torus {
+    fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        self.meet(ray, f64::NEG_INFINITY, found, |_| false);
+    }
+
+    fn first_crossings(&self, ray: &LocalRay, (from, _): (f64, f64), found: &mut Crossings) {
+        let ahead = ray.ahead_of(from);
+        self.meet(ray, from, found, |met| met.t - met.error > ahead);
     }
 
     fn part_at(&self, _: &LocalRay, _: f64, _: bool) -> Option<u32> {
