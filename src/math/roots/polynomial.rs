@@ -17,6 +17,8 @@ mod bernstein;
 mod formula;
 mod turning;
 
+use std::cell::OnceCell;
+
 use smallvec::SmallVec;
 
 use crate::math::double::{power_of_two, power_of_two_near};
@@ -110,11 +112,12 @@ impl Polynomial {
             return;
         }
         let Some((near, scale)) = self.parted(size) else { return };
-        let far = (scale < end).then(|| near.reversed());
+        let far = OnceCell::new();
+        let outer = |ends| far.get_or_init(|| near.reversed()).all_between(ends).into_iter().rev();
         let odd = near.degree % 2 == 1;
-        if let Some(far) = far.as_ref().filter(|_| from < -scale) {
+        if scale < end && from < -scale {
             // From −∞ to −σ: w = σ/s goes from 0 down to −1.
-            let before = far.all_between((-1.0, 0.0)).into_iter().rev();
+            let before = outer((-1.0, 0.0));
             if !before.filter_map(|bracket| bracket.outer(scale, odd)).all(&mut *show) {
                 return;
             }
@@ -124,9 +127,8 @@ impl Polynomial {
         if !near.between((-1.0, 1.0), tolerance / scale, asked, within) {
             return;
         }
-        if let Some(far) = far.filter(|_| to > scale) {
-            let behind = far.all_between((0.0, 1.0)).into_iter().rev();
-            behind.filter_map(|bracket| bracket.outer(scale, false)).all(show);
+        if scale < end && to > scale {
+            outer((0.0, 1.0)).filter_map(|bracket| bracket.outer(scale, false)).all(show);
         }
     }
 

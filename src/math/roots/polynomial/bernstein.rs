@@ -6,7 +6,29 @@
 //! **Source:** G. Farin, *Curves and Surfaces for CAGD* (2002), ch. 5 (the coefficients bound the polynomial,
 //! and it changes its sign at most as often as they do) and 4 (halves).
 
-use super::{Coefficients, U};
+use super::{Coefficients, MOST, U};
+
+/// C(i, k) / C(n, k), by n, i and k.
+static SHARES: [[Coefficients; MOST + 1]; MOST + 1] = {
+    let mut all = [[[0.0; MOST + 1]; MOST + 1]; MOST + 1];
+    let mut n = 0;
+    while n <= MOST {
+        let mut i = 0;
+        while i <= n {
+            let (mut share, mut k) = (1.0, 0);
+            while k <= i {
+                all[n][i][k] = share;
+                if k < n {
+                    share *= (i - k) as f64 / (n - k) as f64;
+                }
+                k += 1;
+            }
+            i += 1;
+        }
+        n += 1;
+    }
+    all
+};
 
 /// The coefficients over a piece, in order along the line.
 #[derive(Clone, Copy)]
@@ -32,15 +54,12 @@ impl Form {
     /// sum. `slack` are the error bounds of `values`.
     pub fn of(values: &[f64], slack: &[f64], way: f64) -> Self {
         let degree = values.len() - 1;
-        let n = degree as f64;
         let (mut forms, mut bounds) = (Coefficients::default(), Coefficients::default());
         for i in 0..=degree {
-            let (mut sum, mut bound, mut share, mut power) = (0.0, 0.0, 1.0, 1.0);
-            for k in 0..=i {
-                // share = C(i, k) / C(n, k)
-                sum += share * power * values[k];
-                bound += share * (slack[k] + 64.0 * U * values[k].abs());
-                share *= (i - k) as f64 / (n - k as f64).max(1.0);
+            let (mut sum, mut bound, mut power) = (0.0, 0.0, 1.0);
+            for ((share, value), slack) in SHARES[degree][i][..=i].iter().zip(values).zip(slack) {
+                sum += share * power * value;
+                bound += share * (slack + 64.0 * U * value.abs());
                 power *= way;
             }
             let place = if way < 0.0 { degree - i } else { i };
