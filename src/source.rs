@@ -181,18 +181,18 @@ pub struct Position {
 impl Source {
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
-        let breaks = text.bytes().enumerate().filter(|(i, b)| {
-            // A lone carriage return ends a line too (old Macintosh files).
-            *b == b'\n' || (*b == b'\r' && text.as_bytes().get(i + 1) != Some(&b'\n'))
-        });
-        let line_starts = std::iter::once(0).chain(breaks.map(|(i, _)| i as u32 + 1)).collect();
+        let ends = text.match_indices('\n').chain(text.match_indices('\r'));
+        // A lone carriage return ends a line too (old Macintosh files).
+        let ends = ends.filter(|(at, end)| *end == "\n" || !text[at + 1..].starts_with('\n'));
+        let mut line_starts = vec![0];
+        line_starts.extend(ends.map(|(at, _)| at as u32 + 1));
+        line_starts.sort_unstable();
         let blocks = text.as_bytes().chunks(BLOCK).scan(0, |before, block| {
             let start = *before;
             *before += characters(block) as u32;
             Some(start)
         });
-        let (name, blocks) = (name.into(), blocks.collect());
-        Self { name, line_starts, blocks, text, is_latin: false }
+        Self { name: name.into(), line_starts, blocks: blocks.collect(), text, is_latin: false }
     }
 
     /// As [`Self::new`], of what [`decode`] gave.

@@ -2,6 +2,8 @@
 //!
 //! **Invariant:** each place is listed once a texture, however many loops and macros visit it.
 
+use smallvec::{SmallVec, smallvec};
+
 use super::Lowering;
 use super::surface::Surface;
 use crate::scene::{self, Colors, FinishId, PigmentId, PigmentKind};
@@ -82,8 +84,8 @@ impl Lowering<'_, '_> {
 }
 
 /// Returns a pigment and all pigments inside it.
-pub(super) fn pigments_in(scene: &scene::Scene, id: PigmentId) -> Vec<PigmentId> {
-    let mut all = vec![id];
+pub(super) fn pigments_in(scene: &scene::Scene, id: PigmentId) -> SmallVec<[PigmentId; 1]> {
+    let mut all: SmallVec<[PigmentId; 1]> = smallvec![id];
     let mut at = 0;
     while let Some(id) = all.get(at) {
         at += 1;

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use rustc_hash::FxHashSet;
+use smallvec::SmallVec;
 
 use super::finish::lower_finish;
 use super::object::Inherited;
@@ -32,8 +33,8 @@ impl Surface {
 
     /// Returns the pigments and finishes of all textures that may be visible: those of faces, in their order,
     /// and then its own. An entry of a blend that several share counts once.
-    pub fn all(&self, scene: &scene::Scene) -> Vec<(PigmentId, FinishId)> {
-        let mut all = Vec::new();
+    pub fn all(&self, scene: &scene::Scene) -> SmallVec<[(PigmentId, FinishId); 1]> {
+        let mut all = SmallVec::new();
         let mut entries = FxHashSet::default();
         let textures = self.faces.iter().flat_map(|parts| parts.textures());
         textures.for_each(|id| add_plains(scene, *id, &mut entries, &mut all));
@@ -62,10 +63,11 @@ fn add_patterns(
     seen: &mut FxHashSet<TextureId>,
     sites: &mut Vec<Site>,
 ) {
-    if !seen.insert(id) {
+    let kind = &scene.textures[id.index()].kind;
+    if matches!(kind, TextureKind::Plain { .. }) || !seen.insert(id) {
         return;
     }
-    match &scene.textures[id.index()].kind {
+    match kind {
         TextureKind::Plain { .. } => {}
         TextureKind::Blend { pattern, entries, .. } => {
             sites.extend((pattern.source != scene::Source::Average).then_some(pattern.site));
@@ -82,7 +84,7 @@ fn add_plains(
     scene: &scene::Scene,
     id: TextureId,
     entries: &mut FxHashSet<TextureId>,
-    all: &mut Vec<(PigmentId, FinishId)>,
+    all: &mut SmallVec<[(PigmentId, FinishId); 1]>,
 ) {
     match &scene.textures[id.index()].kind {
         TextureKind::Plain { pigment, finish, .. } => all.push((*pigment, *finish)),
@@ -104,7 +106,7 @@ impl Lowering<'_, '_> {
     pub(super) fn of_parts(&mut self, here: &Inherited, parts: Parts) -> Result<Inherited, Fault> {
         let mut surface = here.surface.of_parts(parts.clone());
         if surface.faces.is_some() && self.colors_of_faces(&surface)?.is_none() {
-            let mut places = smallvec::SmallVec::new();
+            let mut places = SmallVec::new();
             for &id in parts.textures() {
                 let added = add_slots(self.scene, &mut self.transforms, id, &[], &mut |own| {
                     let place = here.world_from_here.after(&own);

@@ -3,9 +3,10 @@
 //! **In:** a surface: a texture with the placement of its slots. **Out:** indices into the World's lists.
 //! **Invariant:** equal textures, and equal lists of places, share one entry, in the order of first use.
 
+use std::hash::BuildHasher;
 use std::sync::Arc;
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
 use super::cause::{Part, pattern_site, pigments_in};
@@ -32,8 +33,8 @@ pub struct Textures {
     known: FxHashMap<Written, u32>,
     /// The texture of each solid whose parts have their own, by the solid and its own.
     pub(super) of_faces: FxHashMap<(*const (), Written), u32>,
-    /// Textures that share the numbers in which most differ, to be compared for equality.
-    alike: FxHashMap<[u64; 6], SmallVec<[u32; 1]>>,
+    /// Textures that share the hash of the numbers in which most differ, to be compared for equality.
+    alike: FxHashMap<u64, SmallVec<[u32; 1]>>,
     maps: FxHashMap<Vec<u64>, u32>,
     /// The sites already listed in each texture's origin.
     pub(super) noted: FxHashSet<(u32, Part, Span)>,
@@ -204,7 +205,7 @@ impl<'s> Lowering<'s, '_> {
     /// Returns the World's index of a texture; `origin` is recorded with a new one.
     pub(super) fn index(&mut self, texture: Texture, origin: TextureOrigin) -> u32 {
         let textures = &mut self.world.textures;
-        let alike = self.textures.alike.entry(telling_numbers(&texture)).or_default();
+        let alike = self.textures.alike.entry(telling_hash(&texture)).or_default();
         let known = alike.iter().copied().find(|&i| textures[i as usize] == texture);
         known.unwrap_or_else(|| {
             let index = textures.len() as u32;
@@ -277,12 +278,11 @@ impl<'s> Lowering<'s, '_> {
 
 /// Returns a texture without the settings that have no effect in it.
 pub(super) fn plain(pigment: Pigment, mut finish: Finish) -> Plain {
-    if !pigment.is_clear() || finish.reflection.is_none() {
+    let is_clear = pigment.is_clear();
+    if !is_clear || finish.reflection.is_none() {
         finish.conserve_energy = false;
     }
-    if !pigment.is_clear()
-        && let Some(extras) = finish.extras
-    {
+    if !is_clear && let Some(extras) = finish.extras {
         finish.extras = Extras { passed: 1.0, ..*extras }.kept();
     }
     Plain { pigment, normal: None, finish }
@@ -318,9 +318,9 @@ fn bits(number: f64) -> u64 {
     (number + 0.0).to_bits()
 }
 
-/// Returns the numbers in which most textures differ.
-fn telling_numbers(texture: &Texture) -> [u64; 6] {
-    let Texture::Plain(Plain { pigment, finish, .. }) = texture else { return [0; 6] };
+/// Returns the hash of the numbers in which most textures differ.
+fn telling_hash(texture: &Texture) -> u64 {
+    let Texture::Plain(Plain { pigment, finish, .. }) = texture else { return 0 };
     let color = match pigment {
         Pigment::Color(color) => *color,
         Pigment::Ramp(blend) => blend.entries.first().map_or(Color::BLACK, |(_, color)| *color),
@@ -329,6 +329,6 @@ fn telling_numbers(texture: &Texture) -> [u64; 6] {
     };
     let [red, green, blue] = color.rgb.components();
     let Finish { emission, diffuse, ref lobes, .. } = *finish;
-    [red, green, blue, emission.red, diffuse, lobes.first().map_or(0.0, |lobe| lobe.weight)]
-        .map(bits)
+    let lobe = lobes.first().map_or(0.0, |lobe| lobe.weight);
+    FxBuildHasher.hash_one([red, green, blue, emission.red, diffuse, lobe].map(bits))
 }

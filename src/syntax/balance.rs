@@ -97,6 +97,9 @@ pub(super) fn pairs(tokens: &[Token]) -> bool {
 /// Returns whether a `(` or a `[` is closed in another statement than its own.
 fn holds_statements(tokens: &[Token], text: &str) -> bool {
     use super::token::{Bracket, Mark};
+    if !tokens.iter().any(|token| token.kind == TokenKind::Mark(Mark::Semicolon)) {
+        return false;
+    }
     // The open brackets, and whether a directive begins inside, to which a `;` may belong.
     let mut open: Vec<(Opener, bool)> = Vec::new();
     tokens.iter().enumerate().any(|(at, token)| {

@@ -234,7 +234,9 @@ impl<'a> Nest<'a> {
         if self.frames.len() > self.nesting_limit {
             return self.too_deep(span, "brackets");
         }
-        self.open(FrameKind::Vector, span, false);
+        if !self.add_literal_vector(span) {
+            self.open(FrameKind::Vector, span, false);
+        }
     }
 
     pub(super) fn too_deep(&mut self, span: Span, what: &str) {

@@ -234,7 +234,11 @@ impl Scan {
                     scan.stray_closers.push(at);
                     at += 2;
                 }
-                _ => at += 1,
+                _ => {
+                    let begins = |byte: &u8| matches!(byte, b'"' | b'/' | b'*');
+                    let rest = &bytes[at + 1..];
+                    at += 1 + rest.iter().position(begins).unwrap_or(rest.len());
+                }
             }
         }
         scan

@@ -22,8 +22,9 @@ pub(super) fn blank<'a>(
     file: FileId,
     diagnostics: &mut Diagnostics,
 ) -> Cow<'a, str> {
-    let changed = text.lines().any(|line| change(line).is_some());
-    if !changed && !text.contains(FENCE) && !text.contains(OURS) {
+    let is_left =
+        |line: &str| change(line).is_some() || line.starts_with(FENCE) || line.starts_with(OURS);
+    if !text.lines().any(is_left) {
         return text;
     }
     let span = |range: &Range<usize>| Span::new(file, range.start, range.end);

@@ -25,6 +25,7 @@ mod leftover;
 mod legacy;
 mod list;
 mod listing;
+mod literal;
 mod loose;
 mod mark;
 mod nest;

@@ -158,13 +158,17 @@ pub(super) fn blank<'a>(
 
 /// Returns the lines that are sentences, without the blanks around them.
 fn sentences(text: &str) -> Vec<Range<usize>> {
+    let may_be_prose = |line: &str| is_sentence(line, true) || comment_sign(line).is_some();
+    if !text.lines().any(|line| may_be_prose(line.trim())) {
+        return Vec::new();
+    }
     let (mut found, mut start, mut depth, mut quoted) = (Vec::new(), 0, 0i64, false);
     for line in text.split_inclusive('\n') {
         let words = line.trim();
         let follows =
             found.last().is_some_and(|last: &Range<usize>| text[last.end..start].trim().is_empty());
-        let is_prose = is_sentence(words, follows) || comment_sign(words).is_some();
-        if depth == 0 && !quoted && is_prose {
+        let is_prose = || is_sentence(words, follows) || comment_sign(words).is_some();
+        if depth == 0 && !quoted && is_prose() {
             let from = start + (line.len() - line.trim_start().len());
             found.push(from..from + words.len());
         } else {

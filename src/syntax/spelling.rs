@@ -50,13 +50,14 @@ pub(super) fn correct_heads(
 ) {
     let (mut before, mut pairs) = (None, HashSet::new());
     for at in 0..tokens.len() {
-        let [next, behind] = [1, 2].map(|more| tokens.get(at + more).map(|next| next.kind));
-        let each = each_of(&tokens[at..], text);
-        let Some(token) = tokens.get_mut(at) else { continue };
+        let Some(token) = tokens.get(at) else { continue };
         let before = before.replace(token.kind);
         if token.kind != TokenKind::Directive(Head::Unknown) {
             continue;
         }
+        let [next, behind] = [1, 2].map(|more| tokens.get(at + more).map(|next| next.kind));
+        let each = each_of(&tokens[at..], text);
+        let Some(token) = tokens.get_mut(at) else { continue };
         let span = Span::new(file, token.start as usize, token.end as usize);
         let word = directive_word(text.get(span.range()).unwrap_or(""));
         if color_at(text.get(span.start as usize..).unwrap_or(""), before).is_some() {

@@ -91,6 +91,9 @@ pub(super) fn leave_out(quiet: &mut Quiet, unread: &[Range<usize>]) {
 
 /// Adds a token for each body that was left out.
 pub(super) fn stand_in(tokens: &mut Vec<Token>, unread: &[Range<usize>]) {
+    if unread.is_empty() {
+        return;
+    }
     tokens.extend(unread.iter().map(|body| Token {
         kind: TokenKind::Unread,
         start: body.start as u32,

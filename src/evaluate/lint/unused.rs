@@ -143,8 +143,13 @@ impl Evaluator<'_> {
         for (name, _) in main.declarations() {
             *uses.entry(main.ast.name(name)).or_default() -= 1;
         }
-        for word in words(&self.sources.get(main.ast.file).text) {
-            *uses.entry(word).or_default() += 1;
+        if uses.is_empty() {
+            return HashSet::new();
+        }
+        let text = &self.sources.get(main.ast.file).text;
+        // Most words of a large text are numbers, which no name begins with.
+        for word in words(text).filter(|word| !word.starts_with(|c: char| c.is_ascii_digit())) {
+            uses.entry(word).and_modify(|uses| *uses += 1);
         }
         uses.into_iter().filter(|(_, uses)| *uses == 0).map(|(name, _)| name.to_owned()).collect()
     }

@@ -81,7 +81,7 @@ impl Reader<'_> {
         self.line_begins_at(self.at)
     }
 
-    fn line_begins_at(&self, at: usize) -> bool {
+    pub(super) fn line_begins_at(&self, at: usize) -> bool {
         let before = self.text.get(..self.tokens[at].start as usize).unwrap_or("");
         before
             .trim_end_matches([' ', '\t'])

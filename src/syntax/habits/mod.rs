@@ -81,7 +81,7 @@ pub(super) fn translate(
     reader.find_hyphens();
     reader.find_reserved();
     while reader.at < tokens.len() {
-        if !reader.habit(&mut meant) {
+        if !reader.literal_vector(&mut meant) && !reader.habit(&mut meant) {
             reader.take(&mut meant);
         }
     }
@@ -198,6 +198,7 @@ impl Reader<'_> {
             return true;
         }
         match kind {
+            TokenKind::Word(word) if self.opens_block(word) => self.operation(word, meant),
             TokenKind::Word(word) if self.reserved(word, meant) => true,
             TokenKind::Word(Word::If) if self.choice_behind(meant) => true,
             TokenKind::Word(Word::Transmit | Word::Filter) if self.clear_in_vector(meant) => true,

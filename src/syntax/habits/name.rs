@@ -39,6 +39,9 @@ impl Reader<'_> {
 
     /// `look at`, `light source { … }`, `max-trace-level`: a word of the language in parts.
     pub(super) fn parted_word(&mut self, meant: &mut Vec<Token>) -> bool {
+        if self.next_part(0).is_none() {
+            return false;
+        }
         let mut found = None;
         let (mut last, mut whole) = (0, self.slice(0).trim_end_matches('_').to_owned());
         while let Some(next) = self.next_part(last) {

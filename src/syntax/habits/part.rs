@@ -127,6 +127,13 @@ fn is_flag(word: Word) -> bool {
 }
 
 impl Reader<'_> {
+    /// Returns whether a word opens a block, as in `sphere {`: most words do, and few habits begin so.
+    pub(super) fn opens_block(&self, word: Word) -> bool {
+        self.is(1, Mark::Open(Bracket::Brace))
+            && word.role() == Role::Statement
+            && matches!(word.family(), Family::Shape | Family::Csg | Family::Texture)
+    }
+
     pub(super) fn enter(&mut self, bracket: Bracket, before: Option<&Token>) {
         let word = match before.map(|token| token.kind) {
             Some(TokenKind::Word(word)) if bracket == Bracket::Brace => Some(word),
@@ -173,7 +180,7 @@ impl Reader<'_> {
         let first = matches!(before, Some(TokenKind::Mark(Mark::Open(_) | Mark::Comma)));
         let bare = (first || named > 0)
             && matches!(self.kind(1), Some(TokenKind::Number | TokenKind::Mark(Mark::Less)));
-        if !(signed || bare) {
+        if !signed && (!bare || parts(opener).is_none()) {
             return false;
         }
         let quoted = self.kind(0) == Some(TokenKind::String);

@@ -4,6 +4,7 @@ use super::Reader;
 use super::part::Inside;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::syntax::literal::literal_vector;
 use crate::syntax::token::{Bracket, Mark, Token, TokenKind};
 use crate::vocabulary::{Family, Role, Word};
 
@@ -17,6 +18,20 @@ const MAKERS: &[&str] = &[
 pub(super) const LONGEST_VECTOR: usize = 12;
 
 impl Reader<'_> {
+    /// `<1, -2, 3>`: there is no habit in it, unless its `>` begins a line.
+    pub(super) fn literal_vector(&mut self, meant: &mut Vec<Token>) -> bool {
+        let tokens = &self.tokens[self.at..];
+        let is_undisturbed =
+            self.hyphens.is_empty() && self.dropped.is_empty() && self.ends_before.is_empty();
+        let Some(length) = literal_vector(tokens).filter(|_| is_undisturbed) else { return false };
+        if self.line_begins_at(self.at + length - 1) {
+            return false;
+        }
+        meant.extend_from_slice(&tokens[..length]);
+        self.at += length;
+        true
+    }
+
     /// `(1, 0, 0)`, `[1, 0, 0]`, `vec3(1, 0, 0)` where a vector is meant.
     pub(super) fn vector(&mut self, meant: &mut Vec<Token>) -> bool {
         // `new Vector3(0, 1, 0)`
