@@ -214,14 +214,6 @@ pub struct Object {
 }
 
 impl Object {
-    /// Returns whether rays can be intersected with it in 32-bit floats.
-    pub fn has_single_kernel(&self) -> bool {
-        match self.shape {
-            Shape::Sphere(_) | Shape::Plane(_) | Shape::Box(_) => self.csg_solid.is_none(),
-            Shape::Ellipsoid(_) | Shape::Placed(_) => false,
-        }
-    }
-
     /// Returns an object of this shape with defaults: the first texture, filled with air.
     pub fn plain(shape: Shape) -> Self {
         Self {

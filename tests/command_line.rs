@@ -937,7 +937,7 @@ fn accuracy_prints_a_table_with_the_scenes_own_settings_starred() {
     assert!(!table.contains("depth"), "{table}");
     assert_eq!(run.stderr(), "", "a bar only on a terminal");
     assert_eq!(place.names(), ["a.scene", "broken.scene"]);
-    let words = "accuracy a.scene --size 24x18 --budget 2s --wide --knobs precision";
+    let words = "accuracy a.scene --size 24x18 --budget 2s --wide --knobs antialias";
     assert!(place.run(words).ends(0, &[]).stdout().contains(" rays/px boxes/px roots/px "));
 }
 
@@ -991,7 +991,7 @@ fn accuracy_turns_the_knobs_that_are_named_and_knows_their_names() {
     assert!(table.contains("\n* 2 … 250 "), "{table}");
     place
         .run("accuracy m.scene --knobs depht")
-        .ends(2, &["antialias, depth, adc-bailout, precision"]);
+        .ends(2, &["antialias, depth, adc-bailout, root-tolerance"]);
     place.run("accuracy m.scene --budget 0").ends(2, &["such as 500ms, 60s or 5m"]);
     place
         .run("accuracy m.scene --budget 1ms")
@@ -1017,9 +1017,9 @@ adc-bailout does nothing here: no surface reflects or is clear.
     let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(json["does_nothing"].as_array().map(Vec::len), Some(2));
     // Beside one that does something it stands below the table.
-    let words = "accuracy a.scene --size 24x18 --budget 4s --knobs depth,precision";
+    let words = "accuracy a.scene --size 24x18 --budget 4s --knobs depth,antialias";
     let table = place.run(words).ends(0, &[]).stdout();
-    assert!(table.contains("\nprecision\n") && !table.contains("\ndepth\n"), "{table}");
+    assert!(table.contains("\nantialias\n") && !table.contains("\ndepth\n"), "{table}");
     assert!(table.ends_with("\ndepth does nothing here: no surface reflects or is clear.\n"));
 }
 
@@ -1100,18 +1100,6 @@ fn a_time_that_suffices_is_used_and_one_that_does_not_leaves_what_there_is() {
     let run = place.run("a.scene --size 2000x1500 --time-budget 50ms -o u.png");
     run.ends(4, &["0.05 s are too few for one ray a pixel"]);
     assert!(place.path("u.partial.png").exists() && !place.path("u.png").exists());
-}
-
-#[test]
-fn single_precision_makes_nearly_the_same_picture() {
-    let place = Place::new();
-    place.run("a.scene --size 64x48 -o double.ppm").ends(0, &[]);
-    place.run("a.scene --size 64x48 -o single.ppm --precision single").ends(0, &[]);
-    let (double, single) = (place.read("double.ppm"), place.read("single.ppm"));
-    let off = double.iter().zip(&single).filter(|(a, b)| a.abs_diff(**b) > 1).count();
-    assert!(double.len() == single.len() && off < 60, "{off}");
-    let plan = place.run("plan a.scene --precision single").ends(0, &[]).stdout();
-    assert!(plan.contains("\nprecision single\n"), "{plan}");
 }
 
 const CROOKED: &str = "sphere{0,1 // a ball\n   pigment{rgb 1}}\n";

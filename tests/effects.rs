@@ -24,7 +24,6 @@ const OPTIONS: PlanOptions = PlanOptions {
     antialias: Antialias::Adaptive { threshold: 0.05, grid: 2 },
     depth: None,
     adc_bailout: None,
-    precision: lucarne::plan::Precision::Double,
     root_tolerance: 0.0,
     julia_iterations: None,
 };

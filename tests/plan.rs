@@ -47,9 +47,6 @@ fn written(plan: &Value) -> String {
         parts if parts > 1.0 && parts.fract() == 0.0 => format!("adc_bailout 1/{parts}\n"),
         _ => format!("adc_bailout {bailout}\n"),
     };
-    if plan["precision"] != "double" {
-        out += &format!("precision {}\n", text(&plan["precision"]));
-    }
     let tolerance = number(&plan["root_tolerance"]);
     if tolerance > 0.0 {
         out += &format!("root_tolerance {tolerance}\n");
@@ -129,9 +126,6 @@ fn written(plan: &Value) -> String {
     for endless in list(&numerics["endless"]) {
         let (shape, place) = (text(&endless["shape"]), at(&endless["place"]));
         out += &format!("  no half width: {}{place}\n", lucarne::plan::print::without_end(shape));
-    }
-    if plan["precision"] == "single" && numerics["exceeds_single"] == true {
-        out += &format!("  {}\n", lucarne::plan::print::BEYOND_SINGLE);
     }
     let thin = list(&numerics["thin"]);
     for found in thin.iter().take(3) {
@@ -248,12 +242,12 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} merge {{ box {{ 0, 2 }} box {{
         "scenes/gallery/first.scene".to_owned(),
         "scenes/gallery/first.scene --size 81x60 --antialias 3 --depth 1".to_owned(),
         "scenes/atmosphere/background.scene --antialias off --region 3,4,20,10".to_owned(),
-        "scenes/seed/mirror.scene --precision single".to_owned(),
+        "scenes/seed/mirror.scene".to_owned(),
         "tests/cases/glass.scene".to_owned(),
         "scenes/gallery/still_life.scene --size 32x24".to_owned(),
         "scenes/shapes/torus.scene --root-tolerance 1e-4".to_owned(),
         "scenes/shapes/julia_fractal.scene --julia-iterations 2 --size 16x12".to_owned(),
-        format!("{hard} --precision single --size 640x480"),
+        format!("{hard} --size 640x480"),
     ] {
         let said = plan(&words);
         let json: Value = serde_json::from_str(&plan(&format!("{words} --json"))).expect("JSON");
@@ -265,14 +259,10 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} merge {{ box {{ 0, 2 }} box {{
                 "  no half width: where a quadric ends is not known  (",
                 "  difference, 1: ",
                 "  a face in common: box  (",
-                "  single precision of every torus: it has no kernel for it  (",
-                "  single precision of every part of a CSG solid: ",
-                "  single precision cannot resolve this range: ",
             ] {
                 assert!(said.contains(part), "{part}\n{said}");
             }
         }
-        assert!(json["precision"] == if words.contains("single") { "single" } else { "double" });
     }
 }
 

@@ -17,7 +17,6 @@ const PLAN: PlanOptions = PlanOptions {
     antialias: Antialias::Off,
     depth: None,
     adc_bailout: None,
-    precision: lucarne::plan::Precision::Double,
     root_tolerance: 0.0,
     julia_iterations: None,
 };

@@ -21,7 +21,8 @@ const SURELY: f64 = 1.15;
 /// A setting, as used for ordering.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
-    /// Counters, and the unit cost of the arithmetic; equal for settings that do the same work.
+    /// Counters, and the factor by which the settings change the cost of every ray; equal for settings
+    /// that do the same work.
     pub work: (Counters, f64),
     /// Counted work in camera rays.
     pub cost: f64,

@@ -5,9 +5,9 @@
 //! on every machine and run.
 
 use crate::geometry::Work;
-use crate::plan::{Antialias, Effect, Plan, PlanOptions, Precision};
+use crate::plan::{Antialias, Effect, Plan, PlanOptions};
 use crate::trace::Counters;
-use crate::world::{Object, World};
+use crate::world::World;
 
 /// A setting of the plan, with its values from cheap to expensive.
 #[derive(Debug, Clone, Copy)]
@@ -17,8 +17,8 @@ pub struct Knob {
     pub needs: Need,
     /// Message for scenes that do not contain it.
     pub idle: &'static str,
-    /// Settings from coarse to fine, ascending or descending. They are also in order of cost, except for
-    /// `precision`, whose coarse setting costs more. A report orders them by measured cost.
+    /// Settings from coarse to fine, ascending or descending. They are also approximately in order of cost; a
+    /// report orders them by measured cost.
     pub settings: &'static [f64],
     pub own: Own,
     pub set: fn(&mut PlanOptions, f64),
@@ -50,8 +50,6 @@ pub enum Need {
     Edges,
     /// One of these effects.
     Effect(&'static [Effect]),
-    /// A shape with a single-precision kernel.
-    SinglePrecision,
     /// A solid whose intersections are found iteratively.
     IteratedRoots,
     /// A fractal with several iterations.
@@ -63,7 +61,6 @@ impl Need {
         match self {
             Self::Edges => !world.objects.is_empty() || plan.simulates(Effect::Patterns),
             Self::Effect(effects) => effects.iter().any(|&effect| plan.simulates(effect)),
-            Self::SinglePrecision => world.objects.iter().any(Object::has_single_kernel),
             Self::IteratedRoots => world.has_iterated_roots(),
             Self::Fractals => world.julia_iterations().is_some(),
         }
@@ -129,19 +126,6 @@ pub const KNOBS: &[Knob] = &[
         flag: |weight| format!("--adc-bailout {}", share(weight)),
     },
     Knob {
-        name: "precision",
-        needs: Need::SinglePrecision,
-        idle: "no object has a kernel for single precision",
-        settings: &[0.0, 1.0],
-        own: Own::Among,
-        set: |options, double| options.precision = PRECISIONS[usize::from(double > 0.0)],
-        get: |options| f64::from(u8::from(options.precision == Precision::Double)),
-        least: |_| 1.0,
-        factor: |double| if double > 0.0 { 1.0 } else { SINGLE },
-        label: |double| precision(double).to_owned(),
-        flag: |double| format!("--precision {}", precision(double)),
-    },
-    Knob {
         name: "root-tolerance",
         needs: Need::IteratedRoots,
         idle: "no solid's crossings are found by steps that come nearer and nearer",
@@ -177,11 +161,6 @@ pub const KNOBS: &[Knob] = &[
     },
 ];
 
-const PRECISIONS: [Precision; 2] = [Precision::Single, Precision::Double];
-/// Cost of counted work in single precision, relative to double: rounding a ray for each shape costs more
-/// than the kernels save.
-const SINGLE: f64 = 1.11;
-
 /// Formats a weight as `1/255`, `0.3` or `1e-6`, such that parsing it returns the same number.
 pub fn share(weight: f64) -> String {
     let parts = (1.0 / weight).round();
@@ -193,10 +172,6 @@ pub fn share(weight: f64) -> String {
         _ if short.len() < plain.len() => short,
         _ => plain,
     }
-}
-
-fn precision(double: f64) -> &'static str {
-    if double > 0.0 { "double" } else { "single" }
 }
 
 /// Antialiasing modes, approximately from coarse to fine; the third is the default of `render`.
@@ -329,10 +304,10 @@ mod tests {
     #[test]
     fn the_cheapest_setting_costs_least_and_the_last_is_the_finest() {
         let cheapest: Vec<String> = KNOBS.iter().map(|k| (k.label)(k.cheapest())).collect();
-        assert_eq!(cheapest, ["off", "1", "1/10", "double", "1e-2", "1"]);
+        assert_eq!(cheapest, ["off", "1", "1/10", "1e-2", "1"]);
         let finest = |knob: &Knob| (knob.label)(knob.settings[knob.settings.len() - 1]);
         let finest: Vec<String> = KNOBS.iter().map(finest).collect();
-        assert_eq!(finest, ["32×32", "250", "1e-6", "double", "all digits", "20"]);
+        assert_eq!(finest, ["32×32", "250", "1e-6", "all digits", "20"]);
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub fn colors_of(film: &Film, list: &[(u32, u32)]) -> Vec<[f64; 3]> {
     list.iter().map(|place| clamped(radiance(place), film.assumed_gamma)).collect()
 }
 
-/// The World prepared for each precision, created on first use.
+/// The World prepared for each arithmetic, created on first use.
 #[derive(Default)]
 pub struct Geometries {
     made: Mutex<Vec<(Arithmetic, Arc<Geometry>)>>,

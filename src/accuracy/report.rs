@@ -104,7 +104,7 @@ pub struct Row {
     pub times: Times,
     /// Counters of the entire picture.
     pub counters: Counters,
-    /// Unit cost of a ray in this row's precision, in camera rays.
+    /// Factor by which this row's settings change the cost of every ray.
     pub factor: f64,
     /// In each of [`Metric::ALL`].
     pub errors: [Estimate; 3],

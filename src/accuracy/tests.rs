@@ -192,17 +192,15 @@ fn a_knob_whose_effect_the_scene_does_not_call_for_does_not_appear() {
         let called = called_for(&world, &origins, own, KNOBS);
         called.iter().map(|knob| knob.name).collect::<Vec<_>>()
     };
-    assert_eq!(names(PLAIN), ["antialias", "precision"]);
-    assert_eq!(names(BALLS), ["antialias", "depth", "adc-bailout", "precision"]);
-    // A torus, also as a part of something else, is met in 64 bits alone.
+    assert_eq!(names(PLAIN), ["antialias"]);
+    assert_eq!(names(BALLS), ["antialias", "depth", "adc-bailout"]);
+    // A torus, also as a part of something else, is met by steps.
     let torus = "torus { 1, 0.2 pigment { rgb 1 } }";
     let lit = "camera { location 9*z look_at 0 } light_source { 9, rgb 1 }";
     let alone = format!("{lit} {torus}");
     assert_eq!(names(&alone), ["antialias", "root-tolerance"]);
     let cut = format!("{lit} intersection {{ {torus} sphere {{ 0, 1 pigment {{ rgb 1 }} }} }}");
     assert_eq!(names(&cut), ["antialias", "root-tolerance"]);
-    let ring = format!("{PLAIN} {torus}");
-    assert_eq!(names(&ring), ["antialias", "precision", "root-tolerance"]);
     let fractal = format!("{lit} julia_fractal {{ 0.1 max_iteration 5 pigment {{ rgb 1 }} }}");
     assert_eq!(names(&fractal), ["antialias", "root-tolerance", "julia-iterations"]);
     // A sky, and nothing that a ray could meet.
@@ -211,7 +209,7 @@ fn a_knob_whose_effect_the_scene_does_not_call_for_does_not_appear() {
     assert_eq!(names(sky), ["antialias"]);
     // A scene that reflects and says how deep not to look is told what that costs it.
     let flat = format!("global_settings {{ max_trace_level 1 }}{BALLS}");
-    assert_eq!(names(&flat), ["antialias", "depth", "adc-bailout", "precision"]);
+    assert_eq!(names(&flat), ["antialias", "depth", "adc-bailout"]);
 }
 
 #[test]
@@ -222,7 +220,7 @@ fn of_a_knob_that_is_not_called_for_it_is_said_why() {
     };
     let why = "does nothing here: no surface reflects or is clear";
     assert_eq!(said(PLAIN, &KNOBS[..3]), [format!("depth {why}"), format!("adc-bailout {why}")]);
-    assert_eq!(said(BALLS, &KNOBS[..4]), [""; 0]);
+    assert_eq!(said(BALLS, &KNOBS[..3]), [""; 0]);
 }
 
 /// The wall clock's seconds of a picture are of its work: so a forecast by work is one by seconds.
@@ -231,7 +229,7 @@ fn of_every_knob_the_cheap_settings_are_tried_before_the_dear_ones() {
     let (world, origins) = compiled(BALLS, 0.0);
     let mut left = Vec::new();
     for budget in [2e4, 4e4, 1e5, 4e5] {
-        let options = Options { budget, knobs: &KNOBS[..4], ..asked(160, 120) };
+        let options = Options { budget, knobs: &KNOBS[..3], ..asked(160, 120) };
         let clock = Ticking::new(1.0);
         let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("measured");
         assert!(clock.wall() <= 1.05 * budget, "{} of {budget}", clock.wall());
@@ -278,9 +276,7 @@ fn what_changes_no_audited_pixel_is_not_timed() {
     // Depth is the same work, ray by ray, and so are its lines.
     let depth: Vec<String> = knob("depth").lines().map(|line| line.label).collect();
     assert_eq!(depth, ["1 … 250"]);
-    for (name, from, to) in
-        [("antialias", "off", "32×32"), ("depth", "1", "250"), ("precision", "single", "double")]
-    {
+    for (name, from, to) in [("antialias", "off", "32×32"), ("depth", "1", "250")] {
         let said = format!("{name} buys nothing here: from {from} to {to} not one of ");
         assert!(knob(name).sentence.starts_with(&said), "{}", knob(name).sentence);
     }
@@ -387,7 +383,7 @@ fn the_same_seed_gives_the_same_errors_whatever_the_threads() {
     let (world, origins) = compiled(BALLS, 0.4);
     let errors = |threads, seed| {
         let trace = TraceOptions::on_threads(threads);
-        let options = Options { knobs: &KNOBS[2..], trace, seed, ..asked(120, 90) };
+        let options = Options { knobs: &KNOBS[1..], trace, seed, ..asked(120, 90) };
         let clock = Ticking::new(1.0 / 1024.0);
         let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("done");
         report.rows.iter().map(|row| row.errors).collect::<Vec<_>>()
@@ -405,7 +401,7 @@ fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
         accuracy(&world, &origins, &asked(24, 18), &clock, &Unwatched).expect("not stopped");
     let table = table::text(&report, "a.scene", 1, Width::Wide);
     let stars: Vec<&str> = table.lines().filter(|line| line.starts_with("* ")).collect();
-    assert_eq!(stars.len(), 4, "{table}");
+    assert_eq!(stars.len(), 3, "{table}");
     assert!(stars[0].contains("adaptive 0.05 4×4") && stars[1].contains("5 "), "{table}");
     // What the reference cannot resolve is no number.
     let coarse = Report { floors: [0.1; 3], ..report.clone() };

@@ -54,7 +54,7 @@ pub struct Candidate {
     pub plan: Plan,
     /// Minimum cost in camera rays per pixel.
     pub least: f64,
-    /// Unit cost of a ray in its precision, in camera rays.
+    /// Factor by which its settings change the cost of every ray.
     pub factor: f64,
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lucarne::diagnostic::{Code, Level};
-use lucarne::plan::{Antialias, Frame, PlanOptions, Precision, Region};
+use lucarne::plan::{Antialias, Frame, PlanOptions, Region};
 use lucarne::road::Options;
 use lucarne::scene::Dialect;
 
@@ -85,14 +85,14 @@ pub struct RenderArguments {
     /// error on pixels not used for that choice; exits with 5 if the bound cannot be verified
     #[arg(long, value_name = "E", value_parser = error, allow_negative_numbers = true)]
     #[arg(group = "promise")]
-    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "julia_iterations", "time_budget"])]
+    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "root_tolerance", "julia_iterations", "time_budget"])]
     pub max_error: Option<f64>,
     /// Render the best picture possible within time T (500ms, 60s, 5m; a plain number is in seconds) and
     /// report its error; exits with 4 if one ray per pixel does not fit, and with 5 if no time is left to
     /// estimate the error
     #[arg(long, value_name = "T", value_parser = seconds, allow_hyphen_values = true)]
     #[arg(group = "promise")]
-    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "precision", "root_tolerance", "julia_iterations"])]
+    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "root_tolerance", "julia_iterations"])]
     pub time_budget: Option<f64>,
     /// Error metric for `--max-error` and `--time-budget`
     #[arg(long, value_enum, default_value_t, value_name = "METRIC", requires = "promise")]
@@ -285,9 +285,6 @@ pub struct PictureArguments {
     /// adc_bailout in the scene
     #[arg(long, value_name = "W", value_parser = weight, allow_negative_numbers = true)]
     adc_bailout: Option<f64>,
-    /// Floating-point precision of ray-shape intersections
-    #[arg(long, value_enum, default_value_t, value_name = "single|double")]
-    precision: PrecisionArgument,
     /// Tolerance of iterative root finding (used for the torus, for example), relative to the size of the
     /// solid; 0 means full precision
     #[arg(long, value_name = "T", value_parser = tolerance, default_value = "0")]
@@ -296,15 +293,6 @@ pub struct PictureArguments {
     /// Maximum number of iterations of a julia_fractal; a lower number in the scene is kept
     #[arg(long, value_name = "N", value_parser = depth, allow_negative_numbers = true)]
     julia_iterations: Option<u32>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum PrecisionArgument {
-    /// 32-bit floating point
-    Single,
-    /// 64-bit floating point
-    #[default]
-    Double,
 }
 
 impl CheckArguments {
@@ -348,19 +336,7 @@ impl PictureArguments {
     /// Returns the plan options that these arguments select.
     pub fn options(&self, frame: Frame) -> PlanOptions {
         let Self { antialias, depth, adc_bailout, root_tolerance, julia_iterations, .. } = *self;
-        let precision = match self.precision {
-            PrecisionArgument::Single => Precision::Single,
-            PrecisionArgument::Double => Precision::Double,
-        };
-        PlanOptions {
-            frame,
-            antialias,
-            depth,
-            adc_bailout,
-            precision,
-            root_tolerance,
-            julia_iterations,
-        }
+        PlanOptions { frame, antialias, depth, adc_bailout, root_tolerance, julia_iterations }
     }
 }
 

@@ -1,7 +1,7 @@
 //! `lucarne plan`: prints what will be simulated, what requires it, what it costs, and what is left out.
 
 use lucarne::pilot::pilot;
-use lucarne::plan::{Antialias, Effect, Kernel, Measured, Plan, Precision, plan, print};
+use lucarne::plan::{Antialias, Effect, Kernel, Measured, Plan, plan, print};
 use lucarne::road::Road;
 use lucarne::source::{Position, Site, Sources, Span};
 use serde::Serialize;
@@ -58,7 +58,6 @@ struct Report<'a> {
     antialias: Smoothing,
     max_trace_level: u32,
     adc_bailout: f64,
-    precision: &'a str,
     root_tolerance: f64,
     julia_iterations: Option<u32>,
     kernel: &'a str,
@@ -140,8 +139,6 @@ struct Numbers<'a> {
     largest_half_width: Option<Number<'a>>,
     farthest_in_half_widths: Option<Number<'a>>,
     endless: Vec<Endless<'a>>,
-    /// Whether the sizes in the scene differ by more than single precision (24 bits) resolves.
-    exceeds_single: bool,
     thin: Vec<Thin<'a>>,
     near_singular: Vec<Number<'a>>,
     coinciding: Vec<Pair<'a>>,
@@ -230,10 +227,6 @@ impl<'a> Report<'a> {
             },
             max_trace_level: plan.max_trace_level,
             adc_bailout: plan.adc_bailout,
-            precision: match plan.precision {
-                Precision::Single => "single",
-                Precision::Double => "double",
-            },
             root_tolerance: plan.root_tolerance,
             julia_iterations: plan.julia_iterations,
             kernel: plan.kernel.name(),
@@ -279,7 +272,6 @@ impl<'a> Report<'a> {
                     .iter()
                     .map(|&(shape, site)| Endless { shape, place: site.map(place) })
                     .collect(),
-                exceeds_single: plan.numerics.exceeds_single(),
                 thin: plan
                     .numerics
                     .thin

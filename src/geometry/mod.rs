@@ -17,7 +17,6 @@ mod polyhedron;
 pub mod reach;
 mod search;
 mod sides;
-mod single;
 mod span;
 mod surface;
 mod through;
@@ -31,7 +30,7 @@ pub use work::Work;
 
 use crate::bvh::Tree;
 use crate::shape::local::{Local, Met};
-use crate::shape::{Bounds, Box_, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere, sphere};
+use crate::shape::{Bounds, Box_, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere};
 use crate::world::{Object, World};
 use balls::{Ball, Balls};
 use beside::Grain;
@@ -60,21 +59,12 @@ pub struct Geometry {
     ellipsoids: Vec<Ellipsoid>,
     placed: Vec<Placed>,
     wholes: Vec<Whole>,
-    manner: Manner,
+    /// Whether it counts what its searches take.
+    counts: bool,
     /// What the camera's rays meet, where that is not all.
     in_image: Option<Box<Geometry>>,
     /// What mirrored rays meet, likewise.
     in_reflections: Option<Box<Geometry>>,
-}
-
-/// How rays and shapes meet, and whether it is counted what that takes. A single byte, so that the
-/// common manner is told in one comparison.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Manner {
-    Double,
-    DoubleCounted,
-    Single,
-    SingleCounted,
 }
 
 /// An object, as far as rays ask.
@@ -161,7 +151,7 @@ impl Geometry {
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
             placed: Vec::with_capacity(world.placed.len()),
             wholes: Vec::with_capacity(world.csg_solids.len()),
-            manner: Manner::Double,
+            counts: false,
             in_image: None,
             in_reflections: None,
         };
@@ -177,15 +167,6 @@ impl Geometry {
         geometry
     }
 
-    /// The same geometry, its shapes met in single precision where they have such a kernel.
-    pub fn in_single_precision(mut self) -> Self {
-        self.manner = match self.counts() {
-            true => Manner::SingleCounted,
-            false => Manner::Single,
-        };
-        self.parts(Self::in_single_precision)
-    }
-
     /// The same geometry, where a crossing need be found no better than `tolerance` of its solid's size.
     pub fn within_root_tolerance(mut self, tolerance: f64) -> Self {
         self.placed.iter_mut().for_each(|placed| placed.root_tolerance = tolerance);
@@ -194,10 +175,7 @@ impl Geometry {
 
     /// The same geometry, which counts what its searches take.
     pub fn counting(mut self) -> Self {
-        self.manner = match self.manner {
-            Manner::Double | Manner::DoubleCounted => Manner::DoubleCounted,
-            Manner::Single | Manner::SingleCounted => Manner::SingleCounted,
-        };
+        self.counts = true;
         self.parts(Self::counting)
     }
 
@@ -210,10 +188,7 @@ impl Geometry {
 
     /// Whether it counts what its searches take.
     pub fn counts(&self) -> bool {
-        match self.manner {
-            Manner::Double | Manner::Single => false,
-            Manner::DoubleCounted | Manner::SingleCounted => true,
-        }
+        self.counts
     }
 
     /// Adds an object, or the whole that it is the first part of.
@@ -312,8 +287,8 @@ impl Geometry {
         }
         let hit = |met| Some(entry.hit(met));
         let chord = match &entry.solid {
-            Solid::Sphere(Sphere { centre, radius }) => {
-                let roots = sphere::roots_ahead(*centre, *radius, ray)?;
+            Solid::Sphere(sphere) => {
+                let roots = sphere.roots_ahead(ray)?;
                 // Behind the start or too far: no error bounds are needed.
                 if roots.leave() <= 0.0 || roots.enter() > limit {
                     return None;

@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 use super::search::{Each, Seeker};
 use super::work::{Tally, Uncounted};
-use super::{ANY, EASY, Entry, Geometry, Manner, TIGHT, Work};
+use super::{ANY, EASY, Geometry, TIGHT, Work};
 use crate::bvh::packet;
 use crate::shape::Ray;
 use crate::shape::local::Met;
@@ -19,8 +19,7 @@ pub struct Hit {
     pub object: u32,
     /// Distance along the ray.
     pub t: f64,
-    /// The true crossing lies within this distance of `t`: not the tightest bound. ∞ where none is
-    /// known that holds in double precision.
+    /// The true crossing lies within this distance of `t`: not the tightest bound.
     pub error: f64,
     /// The ray leaves the solid here; where it enters, normal and direction are opposed.
     pub leaving: bool,
@@ -61,10 +60,10 @@ impl Geometry {
     /// [`Geometry::counting`].
     #[inline(always)]
     pub fn nearest_counted<const KINDS: bool>(&self, ray: &Ray, work: &mut Work) -> Hit {
-        if self.manner != Manner::Double {
-            return self.nearest_in_its_manner(ray, work);
+        if self.counts {
+            return self.nearest_while_counting(ray, work);
         }
-        self.nearest_in_double::<KINDS>(ray, Uncounted)
+        self.nearest_with::<KINDS>(ray, Uncounted)
     }
 
     /// Whether it pays to find what several rays meet together.
@@ -80,20 +79,14 @@ impl Geometry {
         hits: &mut Vec<Hit>,
         work: &mut Work,
     ) {
-        match self.manner {
-            Manner::Double => {
-                let tallies = std::iter::repeat_with(|| Uncounted);
-                self.race_together::<KINDS, _>(rays, hits, tallies);
-            }
-            Manner::DoubleCounted => {
-                let mut works = [Work::default(); packet::MOST];
-                self.race_together::<ANY, _>(rays, hits, works.iter_mut());
-                works.into_iter().for_each(|one| *work += one);
-            }
-            Manner::Single | Manner::SingleCounted => {
-                hits.extend(rays.iter().map(|ray| self.nearest_in_its_manner(ray, work)));
-            }
+        if self.counts {
+            let mut works = [Work::default(); packet::MOST];
+            self.race_together::<ANY, _>(rays, hits, works.iter_mut());
+            works.into_iter().for_each(|one| *work += one);
+            return;
         }
+        let tallies = std::iter::repeat_with(|| Uncounted);
+        self.race_together::<KINDS, _>(rays, hits, tallies);
     }
 
     #[inline(never)]
@@ -113,19 +106,15 @@ impl Geometry {
         }
     }
 
+    /// Apart from the common path, which stays short.
     #[cold]
     #[inline(never)]
-    fn nearest_in_its_manner(&self, ray: &Ray, work: &mut Work) -> Hit {
-        match self.manner {
-            Manner::Double => self.nearest_in_double::<ANY>(ray, Uncounted),
-            Manner::DoubleCounted => self.nearest_in_double::<ANY>(ray, work),
-            Manner::Single => self.nearest_in_single(ray, Uncounted).unwrap_or(Hit::NOTHING),
-            Manner::SingleCounted => self.nearest_in_single(ray, work).unwrap_or(Hit::NOTHING),
-        }
+    fn nearest_while_counting(&self, ray: &Ray, work: &mut Work) -> Hit {
+        self.nearest_with::<ANY>(ray, work)
     }
 
     #[inline(always)]
-    fn nearest_in_double<const KINDS: bool>(&self, ray: &Ray, tally: impl Tally) -> Hit {
+    fn nearest_with<const KINDS: bool>(&self, ray: &Ray, tally: impl Tally) -> Hit {
         let mut race = Race::<_, KINDS>::new(self, ray, tally);
         self.search(ray, f64::INFINITY, &mut race);
         race.finish()
@@ -142,23 +131,13 @@ impl Geometry {
     /// The same by definition, with the tightest error bounds.
     #[cold]
     #[inline(never)]
-    fn first_in_double<T: Tally>(&self, ray: &Ray, mut tally: T) -> Hit {
+    fn first_with<T: Tally>(&self, ray: &Ray, mut tally: T) -> Hit {
         let limit = self.end_of_first(ray, &mut tally);
-        let met = |entry: &Entry| self.first_crossing::<TIGHT, ANY>(entry, ray, limit);
-        self.first_declared(ray, limit, tally, met).unwrap_or(Hit::NOTHING)
+        self.first_declared(ray, limit, tally).unwrap_or(Hit::NOTHING)
     }
 
-    /// Of the crossings at `limit`, which is U, or before, that of the first object. `met` is where
-    /// the ray meets an entry.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn first_declared<T: Tally>(
-        &self,
-        ray: &Ray,
-        limit: f64,
-        tally: T,
-        met: impl Fn(&Entry) -> Option<Hit>,
-    ) -> Option<Hit> {
+    /// Of the crossings at `limit`, which is U, or before, that of the first object.
+    fn first_declared<T: Tally>(&self, ray: &Ray, limit: f64, tally: T) -> Option<Hit> {
         let mut first: Option<((bool, u32), Hit)> = None;
         let look = |place: usize, tally: &mut T| {
             let entry = &self.entries[place];
@@ -166,7 +145,8 @@ impl Geometry {
             if first.is_none_or(|first| rank < first.0) {
                 tally.root_solve(|| self.price(entry));
                 let hit = |hit| (rank, Hit { contested: true, ..hit });
-                first = met(entry).map(hit).or(first);
+                let crossing = self.first_crossing::<TIGHT, ANY>(entry, ray, limit);
+                first = crossing.map(hit).or(first);
             }
             limit
         };
@@ -226,7 +206,7 @@ impl<'a, T: Tally, const KINDS: bool> Race<'a, T, KINDS> {
     fn finish(self) -> Hit {
         let Self { geometry, ray, limit, .. } = self;
         let hit = match self.contested() {
-            true => geometry.first_in_double(ray, self.tally),
+            true => geometry.first_with(ray, self.tally),
             false => self.winner(),
         };
         if hit.contested { geometry.as_seen_beside(ray, hit, limit) } else { hit }

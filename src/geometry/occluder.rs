@@ -2,7 +2,7 @@
 
 use super::search::Seeker;
 use super::work::{Tally, Uncounted};
-use super::{ANY, EASY, Entry, Geometry, Hit, Manner, Sides, Solid, TIGHT, Work};
+use super::{ANY, EASY, Entry, Geometry, Hit, Sides, Solid, TIGHT, Work};
 use crate::shape::Ray;
 use crate::shape::local::Met;
 
@@ -34,31 +34,14 @@ impl Geometry {
         guess: Occluder,
         work: &mut Work,
     ) -> Occluder {
-        if self.manner != Manner::Double {
-            return self.occluder_in_its_manner(ray, distance, guess, work);
-        }
-        self.occluder_in_double::<KINDS>(ray, distance, guess, Uncounted)
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn occluder_in_its_manner(
-        &self,
-        ray: &Ray,
-        distance: f64,
-        guess: Occluder,
-        work: &mut Work,
-    ) -> Occluder {
-        match self.manner {
-            Manner::Double => self.occluder_in_double::<ANY>(ray, distance, guess, Uncounted),
-            Manner::DoubleCounted => self.occluder_in_double::<ANY>(ray, distance, guess, work),
-            Manner::Single => self.occluder_in_single(ray, distance, guess, Uncounted),
-            Manner::SingleCounted => self.occluder_in_single(ray, distance, guess, work),
+        match self.counts {
+            true => self.occluder_with::<ANY>(ray, distance, guess, work),
+            false => self.occluder_with::<KINDS>(ray, distance, guess, Uncounted),
         }
     }
 
     #[inline(never)]
-    fn occluder_in_double<const KINDS: bool>(
+    fn occluder_with<const KINDS: bool>(
         &self,
         ray: &Ray,
         distance: f64,
@@ -112,7 +95,7 @@ impl<T: Tally, const KINDS: bool> Shade<'_, T, KINDS> {
 
 impl Geometry {
     /// Whether one of its opaque leaves' surfaces does.
-    pub(super) fn whole_shadows(&self, whole: u32, ray: &Ray, distance: f64) -> bool {
+    fn whole_shadows(&self, whole: u32, ray: &Ray, distance: f64) -> bool {
         let crossing = self.first_of_whole(whole, ray, distance, |leaf| leaf.blocks);
         crossing.is_some_and(|Hit { t, error, .. }| t + error < distance)
     }

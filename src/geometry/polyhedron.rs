@@ -11,7 +11,7 @@
 //! O. Shcherbina, "Safe bounds in linear and mixed-integer linear programming", Mathematical Programming 99
 //! (2004).
 
-use crate::math::{Matrix, Vector, Vector3};
+use crate::math::{AbsDot, Matrix, Vector};
 use crate::shape::{Bounds, Box_, Plane, Rounding};
 
 /// The roundoff.

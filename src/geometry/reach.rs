@@ -5,7 +5,7 @@
 //! World's own numbers: a few roundings of its `size`.
 
 use crate::math::double::{Double, DoubleVector};
-use crate::math::{Matrix, UnitVector, Vector, Vector3};
+use crate::math::{AbsDot, Matrix, UnitVector, Vector};
 use crate::shape::body::Body;
 use crate::shape::local::Local;
 use crate::shape::{Bounds, Box_, Placed, Plane, Shape};

@@ -64,7 +64,7 @@ pub fn spread(world: &World, ray: &Ray, hit: &Hit, surface: &SurfacePoint) -> Ve
             return met.map_or(Vector::ZERO, spread);
         }
     };
-    // In single precision a ray may meet what it truly misses.
+    // A part of a CSG solid may be crossed where the shape alone is missed.
     chord.map_or(Vector::ZERO, |Chord { enter, leave }| {
         surface.spread(ray, hit.t, if hit.leaving { &leave } else { &enter }, is_flat)
     })

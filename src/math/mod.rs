@@ -20,4 +20,4 @@ pub mod transform;
 pub mod vector;
 
 pub(crate) use vector::reciprocal_power_of_two;
-pub use vector::{Lanes, Matrix, Real, UnitVector, Vector, Vector3};
+pub use vector::{AbsDot, Lanes, Matrix, UnitVector, Vector};

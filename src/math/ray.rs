@@ -1,6 +1,6 @@
 //! Rays, and their closest approach to a point.
 
-use super::{Real, Vector3};
+use super::Vector;
 
 /// A half-line: `origin + t · direction`, t > 0.
 ///
@@ -8,15 +8,15 @@ use super::{Real, Vector3};
 /// `direction` is within 2 roundoffs of it. A ray aimed at a point therefore crosses surfaces through that
 /// point there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ray<R: Real = f64> {
-    pub origin: R::Vector,
+pub struct Ray {
+    pub origin: Vector,
     /// Unit length, within rounding.
-    pub direction: R::Vector,
+    pub direction: Vector,
 }
 
-impl<R: Real> Ray<R> {
+impl Ray {
     #[inline]
-    pub fn at(&self, t: R) -> R::Vector {
+    pub fn at(&self, t: f64) -> Vector {
         self.origin + self.direction * t
     }
 
@@ -32,7 +32,7 @@ impl<R: Real> Ray<R> {
     /// **Source:** E. Haines, J. Günther, T. Akenine-Möller, "Precision improvements for ray/sphere
     /// intersection", Ray Tracing Gems (2019), ch. 7.
     #[inline(always)]
-    pub fn slide(&self, centre: R::Vector) -> Approach<R> {
+    pub fn slide(&self, centre: Vector) -> Approach {
         let start = self.origin - centre;
         let along = start.dot(self.direction);
         Approach { start, along, offset: start - self.direction * along }
@@ -41,12 +41,12 @@ impl<R: Real> Ray<R> {
 
 /// A ray relative to a centre; see [`Ray::slide`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Approach<R: Real = f64> {
+pub struct Approach {
     /// Vector from the centre to the ray's origin.
-    pub start: R::Vector,
+    pub start: Vector,
     /// Signed distance along the ray from the closest approach to the origin: positive when the ray moves
     /// away.
-    pub along: R,
+    pub along: f64,
     /// Vector from the centre to the closest approach; perpendicular to the ray.
-    pub offset: R::Vector,
+    pub offset: Vector,
 }

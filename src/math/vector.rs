@@ -3,8 +3,7 @@
 //! **In/Out:** plain values. **Invariant:** the length of a [`UnitVector`] is 1 within 2 units in the last
 //! place.
 
-use std::fmt::Debug;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+use std::ops::Neg;
 
 /// A point, a direction or a size in `f64`.
 pub type Vector = glam::DVec3;
@@ -15,144 +14,18 @@ pub type Matrix = glam::DMat3;
 /// Four `f32` lanes, for the boxes of a tree.
 pub type Lanes = glam::Vec4;
 
-/// The scalar type of a shape kernel: `f32` or `f64`.
-pub trait Real:
-    Copy
-    + Debug
-    + PartialOrd
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-{
-    /// Vectors of three such numbers.
-    type Vector: Vector3<Self>;
-    const ZERO: Self;
-    const ONE: Self;
-    const INFINITY: Self;
-    const NEG_INFINITY: Self;
-    /// Half the distance from 1 to the next number: the relative error of one rounding.
-    const UNIT_ROUNDOFF: Self;
-    /// 2ᵏ + 1, k half of the significant bits, rounded up: multiplication by it splits a number in two.
-    const SPLITTER: Self;
-    /// Range in which sums of squares neither overflow nor underflow, and neither do their parts, down to the
-    /// square of the roundoff.
-    const SAFE_SQUARES: (Self, Self);
-    fn from_f64(value: f64) -> Self;
-    fn to_f64(self) -> f64;
-    fn sqrt(self) -> Self;
-    fn abs(self) -> Self;
-    fn min(self, other: Self) -> Self;
-    fn max(self, other: Self) -> Self;
-}
-
-/// The vector operations that shape kernels use.
-pub trait Vector3<R: Real>:
-    Copy
-    + Debug
-    + Add<Output = Self>
-    + AddAssign
-    + Sub<Output = Self>
-    + Neg<Output = Self>
-    + Mul<R, Output = Self>
-{
-    fn from_vector(v: Vector) -> Self;
-    fn to_vector(self) -> Vector;
-    fn dot(self, other: Self) -> R;
+/// The sum from which the rounding of a scalar product is bounded.
+pub trait AbsDot {
     /// Returns Σ |aᵢ·bᵢ|; the rounding error of `dot` is at most 3 roundoffs of it.
-    fn abs_dot(self, other: Self) -> R;
-    fn cross(self, other: Self) -> Self;
-    fn length_squared(self) -> R;
-    fn component(self, axis: usize) -> R;
+    fn abs_dot(self, other: Self) -> f64;
 }
 
-macro_rules! real {
-    ($real:ident, $vector:ty, $from:expr, $to:expr, $splitter:expr, $safe:expr) => {
-        impl Real for $real {
-            type Vector = $vector;
-            const ZERO: Self = 0.0;
-            const ONE: Self = 1.0;
-            const INFINITY: Self = $real::INFINITY;
-            const NEG_INFINITY: Self = $real::NEG_INFINITY;
-            const UNIT_ROUNDOFF: Self = $real::EPSILON / 2.0;
-            const SPLITTER: Self = $splitter;
-            const SAFE_SQUARES: (Self, Self) = $safe;
-            #[inline]
-            fn from_f64(value: f64) -> Self {
-                value as $real
-            }
-            #[inline]
-            fn to_f64(self) -> f64 {
-                f64::from(self)
-            }
-            #[inline]
-            fn sqrt(self) -> Self {
-                self.sqrt()
-            }
-            #[inline]
-            fn abs(self) -> Self {
-                self.abs()
-            }
-            #[inline]
-            fn min(self, other: Self) -> Self {
-                self.min(other)
-            }
-            #[inline]
-            fn max(self, other: Self) -> Self {
-                self.max(other)
-            }
-        }
-        impl Vector3<$real> for $vector {
-            #[inline]
-            fn from_vector(v: Vector) -> Self {
-                $from(v)
-            }
-            #[inline]
-            fn to_vector(self) -> Vector {
-                $to(self)
-            }
-            #[inline]
-            fn dot(self, other: Self) -> $real {
-                self.dot(other)
-            }
-            #[inline]
-            fn abs_dot(self, other: Self) -> $real {
-                self.abs().dot(other.abs())
-            }
-            #[inline]
-            fn cross(self, other: Self) -> Self {
-                self.cross(other)
-            }
-            #[inline]
-            fn length_squared(self) -> $real {
-                self.length_squared()
-            }
-            #[inline]
-            fn component(self, axis: usize) -> $real {
-                self[axis]
-            }
-        }
-    };
+impl AbsDot for Vector {
+    #[inline]
+    fn abs_dot(self, other: Self) -> f64 {
+        self.abs().dot(other.abs())
+    }
 }
-
-// 2⁻⁷⁰ and 2¹⁰⁰; 2⁻⁹⁰⁰ and 2¹⁰⁰⁰.
-real!(
-    f32,
-    glam::Vec3,
-    |v: Vector| v.as_vec3(),
-    |v: glam::Vec3| v.as_dvec3(),
-    4_097.0,
-    (f32::from_bits(57 << 23), f32::from_bits(227 << 23))
-);
-real!(
-    f64,
-    glam::DVec3,
-    |v| v,
-    |v| v,
-    134_217_729.0,
-    (f64::from_bits(123 << 52), f64::from_bits(2023 << 52))
-);
 
 /// Formats a vector as in the scene language: `<1, 2, 3>`, each number in the shortest form that parses to
 /// the same value.

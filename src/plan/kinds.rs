@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use crate::shape::local::Local;
 use crate::shape::{Body, Shape};
 use crate::source::Site;
-use crate::world::{Object, Origins, World};
+use crate::world::{Origins, World};
 
 /// Kind of shape, operation on shapes, or part of surfaces that occurs in the World.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,21 +97,4 @@ pub(super) fn kinds(world: &World, origins: &Origins) -> Vec<Kind> {
     let mut kinds: Vec<Kind> = found.into_values().collect();
     kinds.iter_mut().for_each(Kind::sort_places);
     kinds
-}
-
-/// Returns the first object of each kind that is always intersected in double precision.
-pub(super) fn without_single_kernel<'a>(
-    world: &'a World,
-    origins: &'a Origins,
-) -> Vec<(&'static str, Site)> {
-    let mut found: BTreeMap<&'static str, Site> = BTreeMap::new();
-    let objects = world.objects.iter().zip(&origins.objects);
-    for (object, &site) in objects.filter(|(object, _)| !Object::has_single_kernel(object)) {
-        let word = match object.csg_solid {
-            Some(_) => "part of a CSG solid",
-            None => word_and_cost(world, object.shape).0,
-        };
-        found.entry(word).or_insert(site);
-    }
-    found.into_iter().collect()
 }

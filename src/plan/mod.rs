@@ -71,20 +71,9 @@ impl Default for Antialias {
     }
 }
 
-/// Floating-point precision of intersections.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Precision {
-    /// 32-bit, for shapes that have a single-precision kernel.
-    Single,
-    /// 64-bit.
-    #[default]
-    Double,
-}
-
 /// Precision of intersections.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arithmetic {
-    pub precision: Precision,
     /// Tolerance of iterative root finding, relative to the size of the solid; 0 means full precision.
     pub root_tolerance: f64,
     /// Maximum number of iterations of a fractal; a lower number in the scene is kept.
@@ -100,7 +89,6 @@ pub struct PlanOptions {
     pub depth: Option<u32>,
     /// Overrides the scene's `adc_bailout`.
     pub adc_bailout: Option<f64>,
-    pub precision: Precision,
     /// See [`Arithmetic`].
     pub root_tolerance: f64,
     /// See [`Arithmetic`].
@@ -110,13 +98,11 @@ pub struct PlanOptions {
 impl PlanOptions {
     /// Returns the defaults of `render`.
     pub fn new(frame: Frame) -> Self {
-        let (antialias, precision) = (Antialias::default(), Precision::Double);
         Self {
             frame,
-            antialias,
+            antialias: Antialias::default(),
             depth: None,
             adc_bailout: None,
-            precision,
             root_tolerance: 0.0,
             julia_iterations: None,
         }
@@ -200,7 +186,6 @@ pub struct Plan {
     /// Maximum recursion depth; 1 traces camera rays only.
     pub max_trace_level: u32,
     pub adc_bailout: f64,
-    pub precision: Precision,
     /// See [`Arithmetic`].
     pub root_tolerance: f64,
     /// See [`Arithmetic`].
@@ -271,8 +256,8 @@ impl Plan {
     }
 
     pub fn arithmetic(&self) -> Arithmetic {
-        let Self { precision, root_tolerance, julia_iterations, .. } = *self;
-        Arithmetic { precision, root_tolerance, julia_iterations }
+        let Self { root_tolerance, julia_iterations, .. } = *self;
+        Arithmetic { root_tolerance, julia_iterations }
     }
 
     /// Returns the number of camera rays for the region.

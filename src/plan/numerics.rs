@@ -45,18 +45,6 @@ pub struct Thin {
     pub site: Option<Site>,
 }
 
-impl Numerics {
-    /// Whether single precision (24 bits) cannot resolve the smallest solid against the rounding of a
-    /// coordinate on the largest solid, or of the camera's distance.
-    pub fn exceeds_single(&self) -> bool {
-        let value = |found: &Option<Measured>| found.map_or(0.0, |found| found.value);
-        let range = value(&self.largest) / value(&self.smallest);
-        range > SINGLE || value(&self.farthest) > SINGLE
-    }
-}
-
-/// Relative resolution of single precision, 2²⁴.
-const SINGLE: f64 = 16_777_216.0;
 /// Ratio above which more than half of the 53 bits of a double are lost, 2²⁶.
 const THIN: f64 = 67_108_864.0;
 

@@ -2,16 +2,12 @@
 
 use std::fmt::{self, Write};
 
-use super::{Antialias, Called, Effect, Kernel, Kind, Measured, Plan, Precision};
+use super::{Antialias, Called, Effect, Kernel, Kind, Measured, Plan};
 use crate::source::{Site, Sources, Span};
 use crate::world::Coinciding;
 
 /// Maximum number of locations printed for one effect; the rest are counted.
 const PLACES_SHOWN: usize = 3;
-
-/// Note for scenes that exceed single precision when it is requested.
-pub const BEYOND_SINGLE: &str =
-    "single precision cannot resolve this range: its 24 bits tell 17 million sizes apart";
 
 /// Maximum number of characters quoted from the source.
 const QUOTE: usize = 48;
@@ -86,10 +82,6 @@ impl Printer<'_> {
         }
         writeln!(out, "max_trace_level {}", plan.max_trace_level)?;
         writeln!(out, "adc_bailout {}", part(plan.adc_bailout))?;
-        match plan.precision {
-            Precision::Double => {}
-            Precision::Single => writeln!(out, "precision single")?,
-        }
         if plan.root_tolerance > 0.0 {
             writeln!(out, "root_tolerance {}", plan.root_tolerance)?;
         }
@@ -156,9 +148,6 @@ impl Printer<'_> {
         }
         for (word, site) in &numerics.endless {
             writeln!(out, "  no half width: {}{}", without_end(word), self.at(*site))?;
-        }
-        if self.plan.precision == Precision::Single && numerics.exceeds_single() {
-            writeln!(out, "  {BEYOND_SINGLE}")?;
         }
         for thin in numerics.thin.iter().take(PLACES_SHOWN) {
             let (what, times, place) = (thin.what, number(thin.slenderness), self.at(thin.site));

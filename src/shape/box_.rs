@@ -7,9 +7,8 @@ use super::slab::{falls_inside, lies_in};
 use super::{Bounds, Chord, Ray, Rounding, SurfacePoint, U};
 use crate::math::double::{Double, DoubleVector};
 use crate::math::placement::Rise;
-use crate::math::{UnitVector, Vector, Vector3};
-use slabs::{Along, through, through_steeply};
-pub use slabs::{Slabs, slabs};
+use crate::math::{AbsDot, UnitVector, Vector};
+use slabs::{Along, Slabs, slabs, through, through_steeply};
 
 /// A box. **Invariant:** `half_widths` ≥ 0 (a zero makes a flat sheet); the normals are linearly independent.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,13 +78,13 @@ impl Box_ {
     }
 
     /// Returns the slabs that a line is parallel to.
-    fn along(&self, ray: &Ray) -> Along<f64> {
+    fn along(&self, ray: &Ray) -> Along {
         Along::of(self.centre, self.directions(), self.half_widths, ray)
     }
 
     /// Returns [`Self::along`] for a part of a CSG solid; `None` where the line is beside the box.
     #[cold]
-    fn along_of_part(&self, ray: &Ray) -> Option<Along<f64>> {
+    fn along_of_part(&self, ray: &Ray) -> Option<Along> {
         let mut along = self.along(ray);
         for axis in 0..3 {
             // A sheet has a line in it.

@@ -4,7 +4,7 @@
 use super::sphere::{Blur, Roots};
 use super::{Bounds, Chord, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::Placement;
-use crate::math::{Vector, Vector3};
+use crate::math::{AbsDot, Vector};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ellipsoid {

@@ -67,9 +67,9 @@ pub use superellipsoid::Superellipsoid;
 pub use text::Text;
 pub use torus::Torus;
 
+use crate::math::Vector;
 pub use crate::math::bounds::{Bounds, Rounding};
 pub use crate::math::ray::{Approach, Ray};
-use crate::math::{Real, Vector};
 
 /// Identifies one shape of the world by its kind and its index in that kind's list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -96,35 +96,35 @@ pub use crate::texture::space::Paint;
 
 /// A point where a ray passes through a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Crossing<R: Real = f64> {
+pub struct Crossing {
     /// Distance along the ray.
-    pub t: R,
+    pub t: f64,
     /// Error bound: the true crossing lies within this distance of `t`.
-    pub error: R,
+    pub error: f64,
 }
 
 /// The part of a line inside a convex solid, from entry to exit; `enter.t` may be negative or −∞, `leave.t`
 /// may be +∞.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Chord<R: Real = f64> {
-    pub enter: Crossing<R>,
-    pub leave: Crossing<R>,
+pub struct Chord {
+    pub enter: Crossing,
+    pub leave: Crossing,
 }
 
-impl<R: Real> Chord<R> {
+impl Chord {
     /// The chord of a line that lies entirely inside.
     pub const WHOLE: Self = Self { enter: Crossing::BEFORE_ALL, leave: Crossing::BEYOND_ALL };
 }
 
-impl<R: Real> Crossing<R> {
-    pub const BEFORE_ALL: Self = Self { t: R::NEG_INFINITY, error: R::ZERO };
-    pub const BEYOND_ALL: Self = Self { t: R::INFINITY, error: R::ZERO };
+impl Crossing {
+    pub const BEFORE_ALL: Self = Self { t: f64::NEG_INFINITY, error: 0.0 };
+    pub const BEYOND_ALL: Self = Self { t: f64::INFINITY, error: 0.0 };
 
     /// Returns whether the crossing is certainly ahead of the ray's start, at a finite distance. A crossing
     /// that rounding cannot separate from the start belongs to the surface the ray starts on.
     #[inline]
     pub fn is_ahead(&self) -> bool {
-        self.t > self.error && self.t < R::INFINITY
+        self.t > self.error && self.t < f64::INFINITY
     }
 }
 

@@ -7,7 +7,7 @@ use super::body::Body;
 use super::local::{Crossings, Height, Local, Met, Seen};
 use super::{Bounds, Paint, Plane, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::{ExactPlacement, Placement};
-use crate::math::{UnitVector, Vector, Vector3};
+use crate::math::{AbsDot, UnitVector, Vector};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {

@@ -3,7 +3,7 @@
 use super::slab::{falls_inside, lies_in};
 use super::{Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::Rise;
-use crate::math::{Real, UnitVector, Vector, Vector3};
+use crate::math::{AbsDot, UnitVector, Vector};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
@@ -13,9 +13,36 @@ pub struct Plane {
 }
 
 impl Plane {
+    /// Returns the part of the ray's line inside the half-space: from −∞, to +∞, or both if the line is
+    /// parallel and inside (v is 0 within its error, or the crossing overflows). Outside, the line misses; a
+    /// line in the plane is inside exactly one of the two half-spaces.
+    ///
+    /// t = a / v with a = d − N·S, v = N·D. **Error:** a is off by α = u·(4·|N|·|S| + 2·|d|) and v by ν =
+    /// 6u·|N|·|D| (sums of absolute products: a normal along an axis loses nothing), so t is off by (α +
+    /// |t|·ν) / (|v| − ν) + 2u·|t|.
+    ///
+    /// **Source:** γₙ bounds: Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §3.1.
     #[inline]
     pub fn chord(&self, ray: &Ray) -> Option<Chord> {
-        chord(self.normal.get(), self.distance, ray)
+        let normal = self.normal.get();
+        let inside = self.signed_distance(ray.origin);
+        let speed = normal.dot(ray.direction);
+        let speed_error = 6.0 * U * normal.abs_dot(ray.direction);
+        let t = inside / speed;
+        if speed.abs() <= speed_error || t.abs() == f64::INFINITY {
+            // Of two that share the plane, one has what lies in it.
+            let is_inside = inside > 0.0 || inside == 0.0 && falls_inside(normal);
+            return is_inside.then_some(Chord::WHOLE);
+        }
+        let inside_error = U * (4.0 * normal.abs_dot(ray.origin) + 2.0 * self.distance.abs());
+        let error = (inside_error + t.abs() * speed_error) / (speed.abs() - speed_error)
+            + 2.0 * U * t.abs();
+        let crossing = Crossing { t, error };
+        Some(if speed < 0.0 {
+            Chord { enter: crossing, leave: Crossing::BEYOND_ALL }
+        } else {
+            Chord { enter: Crossing::BEFORE_ALL, leave: crossing }
+        })
     }
 
     /// Returns the chord of a part of a CSG solid. If two parts share the plane and the line lies in it,
@@ -31,8 +58,8 @@ impl Plane {
 
     /// Returns the chord of a line nearly parallel to the plane.
     ///
-    /// **Error:** as for [`chord`]. A line that leaves the plane at such a small slope may be classified as
-    /// lying in it: it contributes no light.
+    /// **Error:** as for [`Plane::chord`]. A line that leaves the plane at such a small slope may be classified
+    /// as lying in it: it contributes no light.
     #[cold]
     fn chord_along(&self, ray: &Ray) -> Option<Chord> {
         let normal = self.normal.get();
@@ -57,8 +84,8 @@ impl Plane {
     }
 
     /// Returns the crossing at `t` with a cheap error bound that is larger than that of [`Plane::chord`];
-    /// `None` where it would not be a bound. With |v| > 2⁻¹⁰ and |S|₁ + |d| < 2¹⁴·t, the bound of [`chord`]
-    /// is below 2⁻²⁶·t.
+    /// `None` where it would not be a bound. With |v| > 2⁻¹⁰ and |S|₁ + |d| < 2¹⁴·t, the bound of
+    /// [`Plane::chord`] is below 2⁻²⁶·t.
     #[inline(always)]
     pub fn roughly(&self, ray: &Ray, speed: f64, t: f64) -> Option<Crossing> {
         let size = ray.origin.abs().element_sum() + self.distance.abs();
@@ -70,7 +97,7 @@ impl Plane {
     /// Returns the point where `ray` crosses the plane at `t`; the residual of N·P − d is subtracted along N.
     ///
     /// Its distance to the plane is at most 4u·|N|·|P| + u·|d|: N·P is evaluated twice, here and by the next
-    /// [`chord`], and each of the two sums that round P adds u·|N|·|P|.
+    /// [`Plane::chord`], and each of the two sums that round P adds u·|N|·|P|.
     #[inline(always)]
     pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let normal = self.normal.get();
@@ -114,47 +141,6 @@ impl Plane {
 
 /// Speed toward the plane up to which a ray counts as nearly parallel.
 const NEARLY_ALONG: f64 = 1.0 / 1_048_576.0;
-
-/// Error bound of d − N·S.
-#[inline(always)]
-fn inside_error<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> R {
-    let number = R::from_f64;
-    let size = number(4.0) * normal.abs_dot(ray.origin) + number(2.0) * distance.abs();
-    R::UNIT_ROUNDOFF * size
-}
-
-/// Returns the part of the ray's line inside the half-space: from −∞, to +∞, or both if the line is parallel
-/// and inside (v is 0 within its error, or the crossing overflows). Outside, the line misses; a line in the
-/// plane is inside exactly one of the two half-spaces.
-///
-/// t = a / v with a = d − N·S, v = N·D. **Error:** a is off by α = u·(4·|N|·|S| + 2·|d|) and v by ν =
-/// 6u·|N|·|D| (sums of absolute products: a normal along an axis loses nothing), so t is off by (α + |t|·ν) /
-/// (|v| − ν) + 2u·|t|.
-///
-/// **Source:** γₙ bounds: Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §3.1.
-#[inline]
-pub fn chord<R: Real>(normal: R::Vector, distance: R, ray: &Ray<R>) -> Option<Chord<R>> {
-    let number = R::from_f64;
-    let u = R::UNIT_ROUNDOFF;
-    let inside = distance - normal.dot(ray.origin);
-    let speed = normal.dot(ray.direction);
-    let speed_error = number(6.0) * u * normal.abs_dot(ray.direction);
-    let t = inside / speed;
-    if speed.abs() <= speed_error || t.abs() == R::INFINITY {
-        // Of two that share the plane, one has what lies in it.
-        let is_inside = inside > R::ZERO || inside == R::ZERO && falls_inside(normal.to_vector());
-        return is_inside.then_some(Chord::WHOLE);
-    }
-    let inside_error = inside_error(normal, distance, ray);
-    let error = (inside_error + t.abs() * speed_error) / (speed.abs() - speed_error)
-        + number(2.0) * u * t.abs();
-    let crossing = Crossing { t, error };
-    Some(if speed < R::ZERO {
-        Chord { enter: crossing, leave: Crossing::BEYOND_ALL }
-    } else {
-        Chord { enter: Crossing::BEFORE_ALL, leave: crossing }
-    })
-}
 
 #[cfg(test)]
 mod tests {

@@ -1,7 +1,7 @@
 //! Sphere: |P − C| = r. The outside is away from the centre.
 
 use super::{Approach, Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
-use crate::math::{Real, Vector, Vector3, reciprocal_power_of_two};
+use crate::math::{AbsDot, Vector, reciprocal_power_of_two};
 
 /// A sphere. **Invariant:** `radius` > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,16 +11,39 @@ pub struct Sphere {
 }
 
 impl Sphere {
+    /// Returns the chord; `None` if the ray's line misses or touches it.
+    ///
+    /// With f = S − C, b = f·D, q = f − b·D and m = |q|, half the chord is h = √((r − m)(r + m)). The
+    /// crossing farther from the start is at |b| + h, on the side of −b. The nearer crossing is the constant
+    /// term |f|² − r² divided by it, so its sign, which says whether the start is inside, is correct down to
+    /// 4u·r from the surface, however flat the ray.
+    ///
+    /// **Domain:** radii from 1e-150 to 1e150, starts up to 1e8 radii away. **Error:** see [`Roots::chord`].
+    ///
+    /// **Source:** Haines, Günther, Akenine-Möller, Ray Tracing Gems (2019), ch. 7; the pair of roots: N.
+    /// Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §1.8.
     #[inline(always)]
     pub fn chord(&self, ray: &Ray) -> Option<Chord> {
-        chord(self.centre, self.radius, ray)
+        let roots = Roots::of(&ray.slide(self.centre), self.radius)?;
+        Some(roots.refined(self.centre, self.radius, ray).chord())
+    }
+
+    /// Returns the roots for [`Sphere::chord`], without computing their error bounds; `None` also if the ray
+    /// starts outside and moves away.
+    #[inline(always)]
+    pub fn roots_ahead(&self, ray: &Ray) -> Option<Roots> {
+        let near = ray.slide(self.centre);
+        if near.along > 0.0 && near.start.length_squared() > self.radius * self.radius {
+            return None;
+        }
+        Some(Roots::of(&near, self.radius)?.refined(self.centre, self.radius, ray))
     }
 
     /// Returns the point where `ray` crosses the sphere at `t`: C + r·n.
     ///
     /// Its distance to the sphere is at most 4u·r (length of n, product) plus u·|n|·|P| (sum). The error
     /// counts this twice, the second time for the start of the next ray, and adds 4u·r for the evaluation by
-    /// [`chord`].
+    /// [`Sphere::chord`].
     #[inline(always)]
     pub fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let rough = ray.at(t);
@@ -70,45 +93,22 @@ impl Sphere {
     }
 }
 
-/// Returns the chord of a sphere; `None` if the ray's line misses or touches it.
-///
-/// With f = S − C, b = f·D, q = f − b·D and m = |q|, half the chord is h = √((r − m)(r + m)). The crossing
-/// farther from the start is at |b| + h, on the side of −b. The nearer crossing is the constant term |f|² −
-/// r² divided by it, so its sign, which says whether the start is inside, is correct down to 4u·r from the
-/// surface, however flat the ray.
-///
-/// **Domain:** radii from 1e-150 to 1e150, starts up to 1e8 radii away. **Error:** see [`Roots::chord`].
-///
-/// **Source:** Haines, Günther, Akenine-Möller, Ray Tracing Gems (2019), ch. 7; the pair of roots: N. Higham,
-/// Accuracy and Stability of Numerical Algorithms, 2nd ed., §1.8.
-#[inline(always)]
-pub fn chord<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Chord<R>> {
-    Some(roots(centre, radius, ray)?.chord())
-}
-
-/// Returns the roots for [`chord`], without computing their error bounds.
-#[inline(always)]
-pub fn roots<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Roots<R>> {
-    Some(Roots::of(&ray.slide(centre), radius)?.refined(centre, radius, ray))
-}
-
-/// Returns [`roots`], but also `None` if the ray starts outside and moves away.
-#[inline(always)]
-pub fn roots_ahead<R: Real>(centre: R::Vector, radius: R, ray: &Ray<R>) -> Option<Roots<R>> {
-    let near = ray.slide(centre);
-    if near.along > R::ZERO && near.start.length_squared() > radius * radius {
-        return None;
-    }
-    Some(Roots::of(&near, radius)?.refined(centre, radius, ray))
-}
-
 /// Returns whether the sphere is so much larger than the distance of `place` from the origin that roundings
 /// of r would blur the surface there.
 #[inline(always)]
-fn is_planet<R: Real>(radius: R, place: R::Vector) -> bool {
-    let is_larger = |axis| radius > R::from_f64(1024.0) * place.component(axis).abs();
+fn is_planet(radius: f64, place: Vector) -> bool {
+    let is_larger = |axis| radius > 1024.0 * place[axis].abs();
     let square = radius * radius;
-    (0..3).all(is_larger) && square > R::SAFE_SQUARES.0 && square < R::SAFE_SQUARES.1
+    (0..3).all(is_larger) && are_safe(square)
+}
+
+/// Returns whether sums of squares of this size neither overflow nor underflow, and neither do their parts,
+/// down to the square of the roundoff: 2⁻⁹⁰⁰ to 2¹⁰⁰⁰.
+#[inline(always)]
+fn are_safe(squares: f64) -> bool {
+    const LEAST: f64 = f64::from_bits(123 << 52);
+    const MOST: f64 = f64::from_bits(2023 << 52);
+    squares > LEAST && squares < MOST
 }
 
 /// |S − C|² − r² in twice the precision, rounded once: within u of itself plus 32u²·r² of the exact value,
@@ -116,12 +116,12 @@ fn is_planet<R: Real>(radius: R, place: R::Vector) -> bool {
 ///
 /// **Source:** T. Ogita, S. Rump, S. Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005),
 /// algorithm 5.3; T. Dekker, Numerische Mathematik 18 (1971).
-fn fine_power<R: Real>(start: R::Vector, centre: R::Vector, radius: R) -> R {
+fn fine_power(start: Vector, centre: Vector, radius: f64) -> f64 {
     let (square, mut rest) = square(radius);
-    let (mut sum, mut low) = (-square, R::ZERO);
+    let (mut sum, mut low) = (-square, 0.0);
     rest = -rest;
     for axis in 0..3 {
-        let (high, error) = two_sum(start.component(axis), -centre.component(axis));
+        let (high, error) = two_sum(start[axis], -centre[axis]);
         let (high_square, square_rest) = self::square(high);
         (sum, low) = {
             let (sum, lost) = two_sum(sum, high_square);
@@ -133,49 +133,52 @@ fn fine_power<R: Real>(start: R::Vector, centre: R::Vector, radius: R) -> R {
 }
 
 /// a + b, and the rounding error of the sum.
-fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
 }
 
+/// 2²⁷ + 1: multiplication by it splits a number into two of half as many bits.
+const SPLITTER: f64 = 134_217_729.0;
+
 /// a², and its rounding error.
-fn square<R: Real>(a: R) -> (R, R) {
+fn square(a: f64) -> (f64, f64) {
     let square = a * a;
-    let spread = a * R::SPLITTER;
+    let spread = a * SPLITTER;
     let high = spread - (spread - a);
     let low = a - high;
-    (square, ((high * high - square) + R::from_f64(2.0) * high * low) + low * low)
+    (square, ((high * high - square) + 2.0 * high * low) + low * low)
 }
 
 /// Error that a transformation into the sphere's space adds.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Blur<R: Real = f64> {
+pub(super) struct Blur {
     /// Error across the ray.
-    pub miss: R,
+    pub miss: f64,
     /// Error along the ray.
-    pub along: R,
+    pub along: f64,
     /// Error of |f|² − r².
-    pub power: R,
+    pub power: f64,
     /// Relative error of every distance.
-    pub scale: R,
+    pub scale: f64,
 }
 
 /// The two crossings, and the terms of their error bounds.
 #[derive(Debug, Clone, Copy)]
-pub struct Roots<R: Real = f64> {
-    enter: R,
-    leave: R,
+pub struct Roots {
+    enter: f64,
+    leave: f64,
     /// h, half the chord.
-    half: R,
+    half: f64,
     /// m, the distance of the line from the centre.
-    miss: R,
-    along: R,
+    miss: f64,
+    along: f64,
     /// |f|² − r², and the quantity its roundings are proportional to: 6|f|² + 2r² where nothing is refined.
-    power: R,
-    squares: R,
+    power: f64,
+    squares: f64,
     /// The unit of all these lengths, in the ray's units.
-    unit: R,
+    unit: f64,
 }
 
 impl Roots {
@@ -191,11 +194,9 @@ impl Roots {
         let clear = t > size / 1024.0;
         clear.then_some(Crossing { t, error: size / 1_048_576.0 })
     }
-}
 
-impl<R: Real> Roots<R> {
     #[inline(always)]
-    fn of(near: &Approach<R>, radius: R) -> Option<Self> {
+    fn of(near: &Approach, radius: f64) -> Option<Self> {
         let miss_squared = near.offset.length_squared();
         let radius_squared = radius * radius;
         if miss_squared > radius_squared {
@@ -203,8 +204,8 @@ impl<R: Real> Roots<R> {
         }
         let start_squared = near.start.length_squared();
         let size = start_squared + radius_squared;
-        if size > R::SAFE_SQUARES.0 && size < R::SAFE_SQUARES.1 {
-            Self::solve(near.along, miss_squared.sqrt(), radius, start_squared, R::ONE)
+        if are_safe(size) {
+            Self::solve(near.along, miss_squared.sqrt(), radius, start_squared, 1.0)
         } else {
             Self::rescaled(near, radius)
         }
@@ -213,30 +214,34 @@ impl<R: Real> Roots<R> {
     /// Solves for the crossings. `miss` ≥ 0 is the distance of the line to the centre, `start_squared` the
     /// squared distance of the start.
     #[inline(always)]
-    pub(super) fn solve(along: R, miss: R, radius: R, start_squared: R, unit: R) -> Option<Self> {
+    pub(super) fn solve(
+        along: f64,
+        miss: f64,
+        radius: f64,
+        start_squared: f64,
+        unit: f64,
+    ) -> Option<Self> {
         let half = ((radius - miss) * (radius + miss)).sqrt();
-        // Also so when `half` is no number: `miss` a little over `radius`.
-        if !half.gt(&R::ZERO) {
+        // It is no number where `miss` is a little over `radius`.
+        if half.is_nan() || half <= 0.0 {
             return None;
         }
-        let number = R::from_f64;
         let radius_squared = radius * radius;
         let power = start_squared - radius_squared;
-        let squares = number(6.0) * start_squared + number(2.0) * radius_squared;
+        let squares = 6.0 * start_squared + 2.0 * radius_squared;
         let far = along.abs() + half;
         let near = power / far;
         let near = if near < far { near } else { far };
-        let (enter, leave) = if along > R::ZERO { (-far, -near) } else { (near, far) };
+        let (enter, leave) = if along > 0.0 { (-far, -near) } else { (near, far) };
         Some(Self { enter, leave, half, miss, along, power, squares, unit })
     }
 
     /// Recomputes the nearer crossing where the ray starts just above or below the ground of a planet: there
     /// |f|² − r² is dominated by rounding.
     #[inline(always)]
-    fn refined(self, centre: R::Vector, radius: R, ray: &Ray<R>) -> Self {
-        let number = R::from_f64;
-        let close = number(1024.0) * self.power.abs() < radius * radius;
-        if close && self.unit == R::ONE && is_planet(radius, ray.origin) {
+    fn refined(self, centre: Vector, radius: f64, ray: &Ray) -> Self {
+        let close = 1024.0 * self.power.abs() < radius * radius;
+        if close && self.unit == 1.0 && is_planet(radius, ray.origin) {
             self.with_power(fine_power(ray.origin, centre, radius), radius)
         } else {
             self
@@ -244,35 +249,35 @@ impl<R: Real> Roots<R> {
     }
 
     #[cold]
-    fn with_power(self, power: R, radius: R) -> Self {
-        let squares = R::from_f64(64.0) * R::UNIT_ROUNDOFF * radius * radius;
+    fn with_power(self, power: f64, radius: f64) -> Self {
+        let squares = 64.0 * U * radius * radius;
         let far = self.along.abs() + self.half;
         let near = (power / far).min(far);
-        let (enter, leave) = if self.along > R::ZERO { (-far, -near) } else { (near, far) };
+        let (enter, leave) = if self.along > 0.0 { (-far, -near) } else { (near, far) };
         Self { enter, leave, power, squares, ..self }
     }
 
     /// Solves for sizes whose squares overflow or underflow: all values are scaled by a power of two.
     #[cold]
-    fn rescaled(near: &Approach<R>, radius: R) -> Option<Self> {
-        let size = (0..3).fold(radius, |size, axis| size.max(near.start.component(axis).abs()));
-        let scale = R::from_f64(reciprocal_power_of_two(size.to_f64()));
+    fn rescaled(near: &Approach, radius: f64) -> Option<Self> {
+        let size = (0..3).fold(radius, |size, axis| size.max(near.start[axis].abs()));
+        let scale = reciprocal_power_of_two(size);
         Self::solve(
             near.along * scale,
             (near.offset * scale).length_squared().sqrt(),
             radius * scale,
             (near.start * scale).length_squared(),
-            R::ONE / scale,
+            1.0 / scale,
         )
     }
 
     #[inline(always)]
-    pub fn enter(&self) -> R {
+    pub fn enter(&self) -> f64 {
         self.enter * self.unit
     }
 
     #[inline(always)]
-    pub fn leave(&self) -> R {
+    pub fn leave(&self) -> f64 {
         self.leave * self.unit
     }
 
@@ -287,44 +292,37 @@ impl<R: Real> Roots<R> {
     ///
     /// The terms follow from [`Ray::slide`] and from γₙ = n·u/(1 − n·u) for sums and products.
     #[inline]
-    pub fn chord(&self) -> Chord<R> {
-        let none = Blur { miss: R::ZERO, along: R::ZERO, power: R::ZERO, scale: R::ZERO };
+    pub fn chord(&self) -> Chord {
+        let none = Blur { miss: 0.0, along: 0.0, power: 0.0, scale: 0.0 };
         self.blurred_chord(none)
     }
 
     #[inline(always)]
-    pub(super) fn blurred_chord(&self, blur: Blur<R>) -> Chord<R> {
-        let number = R::from_f64;
-        let u = R::UNIT_ROUNDOFF;
+    pub(super) fn blurred_chord(&self, blur: Blur) -> Chord {
         let size = self.along.abs() + self.miss;
-        let slid = number(16.0) * u * size + blur.along;
-        let square_error = u
-            * (number(14.0) * self.miss * size + number(4.0) * self.half * self.half)
+        let slid = 16.0 * U * size + blur.along;
+        let square_error = U * (14.0 * self.miss * size + 4.0 * self.half * self.half)
             + slid * slid
-            + blur.miss * (number(2.0) * self.miss + blur.miss);
+            + blur.miss * (2.0 * self.miss + blur.miss);
         let half_error = if square_error < self.half * self.half {
             square_error / self.half
         } else {
             square_error.sqrt()
         };
-        let far_error = half_error + slid + number(8.0) * u * self.half;
+        let far_error = half_error + slid + 8.0 * U * self.half;
 
-        let (far, near) = if self.along > R::ZERO {
-            (-self.enter, -self.leave)
-        } else {
-            (self.leave, self.enter)
-        };
+        let (far, near) =
+            if self.along > 0.0 { (-self.enter, -self.leave) } else { (self.leave, self.enter) };
         let near_error = if far > far_error + far_error {
-            let power_error = u * (self.squares + number(9.0) * self.power.abs()) + blur.power;
-            (power_error + near.abs() * far_error) / (far - far_error)
-                + number(2.0) * u * near.abs()
+            let power_error = U * (self.squares + 9.0 * self.power.abs()) + blur.power;
+            (power_error + near.abs() * far_error) / (far - far_error) + 2.0 * U * near.abs()
         } else {
             far_error + (near - (self.along.abs() - self.half)).abs()
         };
 
         let (enter_error, leave_error) =
-            if self.along > R::ZERO { (far_error, near_error) } else { (near_error, far_error) };
-        let crossing = |t: R, error: R| Crossing {
+            if self.along > 0.0 { (far_error, near_error) } else { (near_error, far_error) };
+        let crossing = |t: f64, error: f64| Crossing {
             t: t * self.unit,
             error: (error + t.abs() * blur.scale) * self.unit,
         };

@@ -40,7 +40,7 @@ mod way;
 use crate::color::{Gamma, Rgb};
 use crate::film::Film;
 use crate::geometry::{Geometry, Hit, Occluder};
-use crate::plan::{Antialias, Frame, Plan, Precision, Region};
+use crate::plan::{Antialias, Frame, Plan, Region};
 use crate::world::World;
 
 use ahead::Ahead;
@@ -153,13 +153,9 @@ pub fn trace_in(
 pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry {
     let geometry = Geometry::build(&world.within_julia_iterations(plan.julia_iterations));
     let geometry = if options.count_work { geometry.counting() } else { geometry };
-    let geometry = match plan.root_tolerance {
+    match plan.root_tolerance {
         0.0 => geometry,
         tolerance => geometry.within_root_tolerance(tolerance),
-    };
-    match plan.precision {
-        Precision::Double => geometry,
-        Precision::Single => geometry.in_single_precision(),
     }
 }
 

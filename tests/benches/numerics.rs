@@ -40,7 +40,7 @@ use fields::{
     Bone, Heart, Marched, Metaballs, Oval, Pillow, Rabbit, Spindle, Straight, Tube, Vase,
 };
 use points::{Hill, Landscape, Letter, Star};
-use subjects::{Answer, Ball, Block, Carved, Egg, Floor, Planet, Rounded, Single, Subject};
+use subjects::{Answer, Ball, Block, Carved, Egg, Floor, Planet, Rounded, Subject};
 use wide::Wide;
 
 /// What one kernel did on one row.
@@ -201,9 +201,6 @@ fn main() {
                 rows::JULIA_FRACTAL => shape::<Stands<Marched<Rabbit>>>(name, far),
                 rows::PARAMETRIC => shape::<Stands<Globe>>(name, far),
                 rows::WHOLE => shape::<Carved>(name, far),
-                rows::SPHERE_SINGLE => shape::<Single<Ball>>(name, far),
-                rows::PLANE_SINGLE => shape::<Single<Floor>>(name, far),
-                rows::BOX_SINGLE => shape::<Single<Block>>(name, far),
                 rows::SINE => sine(name, far),
                 other => unreachable!("no such row: {other}"),
             }

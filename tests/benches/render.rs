@@ -64,20 +64,25 @@ fn pair(folder: &Path, row: &Row, with_povray: bool) {
         let lucarne = lucarne(&source, &ours);
         runs.push((lucarne, with_povray.then(|| povray(&source, &theirs))));
     }
-    let least = |seconds: &dyn Fn(&(Cost, Option<Cost>)) -> Option<f64>| {
-        runs.iter().filter_map(seconds).fold(f64::INFINITY, f64::min)
+    let least = |costs: &mut dyn Iterator<Item = Cost>| {
+        let none = Cost { prepare: f64::INFINITY, trace: f64::INFINITY, rays: 0.0 };
+        costs.fold(none, |least, cost| Cost {
+            prepare: least.prepare.min(cost.prepare),
+            trace: least.trace.min(cost.trace),
+            rays: cost.rays,
+        })
     };
-    let trace = least(&|run| Some(run.0.trace));
-    let prepare = least(&|run| Some(run.0.prepare));
-    let rays = runs[0].0.rays / trace / 1e6;
+    let here = least(&mut runs.iter().map(|(here, _)| *here));
+    let there = least(&mut runs.iter().filter_map(|(_, there)| *there));
+    let (trace, prepare) = (here.trace, here.prepare);
+    let rays = here.rays / trace / 1e6;
     let Row { title, goal, .. } = row;
     if !with_povray {
         println!("| {title} | | {trace:.3} | | {goal} | | {rays:.1} | |");
         return;
     }
-    let their_trace = least(&|run| run.1.map(|cost| cost.trace));
-    let their_prepare = least(&|run| run.1.map(|cost| cost.prepare));
-    let (ratio, before) = (their_trace / trace, their_prepare / prepare);
+    let (ratio, before) = (there.trace / trace, there.prepare / prepare);
+    let their_trace = there.trace;
     let (count, all) = difference(&ours, &theirs);
     let apart = 100.0 * count as f64 / all as f64;
     println!(

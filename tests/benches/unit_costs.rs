@@ -21,10 +21,9 @@ const UNITS: [(&str, &str); 6] = [
 ];
 const ASKED: &str = "--size 120x90 --budget 30s --threads 1 --json";
 
-/// A picture: its scene, whether it is in single precision, what was counted, nanoseconds.
+/// A picture: its scene, what was counted, nanoseconds.
 struct Picture {
     scene: usize,
-    single: bool,
     counts: [f64; UNITS.len()],
     nanoseconds: f64,
 }
@@ -61,15 +60,12 @@ fn main() -> ExitCode {
             let seconds = row["cpu_s"].as_array().expect("runs").iter().filter_map(Value::as_f64);
             pictures.push(Picture {
                 scene: number,
-                single: row["name"].as_str().is_some_and(|name| name.ends_with(" single")),
                 counts: UNITS.map(count),
                 nanoseconds: 1e9 * seconds.fold(f64::INFINITY, f64::min),
             });
         }
     }
-    let (single, double): (Vec<Picture>, Vec<Picture>) =
-        pictures.into_iter().partition(|picture| picture.single);
-    let units = fitted(&double);
+    let units = fitted(&pictures);
     println!("a ray of the camera that meets nothing: {:.0} ns; of that", units[0]);
     for ((_, name), unit) in UNITS.iter().zip(units) {
         println!("{name:12} {:8.3}", unit / units[0]);
@@ -78,12 +74,8 @@ fn main() -> ExitCode {
     let geometric = |ratios: &[f64]| {
         (ratios.iter().map(|ratio| ratio.ln()).sum::<f64>() / ratios.len() as f64).exp()
     };
-    println!(
-        "single precision takes {:.3} times that",
-        geometric(&single.iter().map(ratio).collect::<Vec<_>>())
-    );
     for (number, scene) in scenes.iter().enumerate() {
-        let mine: Vec<f64> = double.iter().filter(|p| p.scene == number).map(ratio).collect();
+        let mine: Vec<f64> = pictures.iter().filter(|p| p.scene == number).map(ratio).collect();
         let mean = geometric(&mine);
         let off = geometric(
             &mine.iter().map(|ratio| (ratio / mean).max(mean / ratio)).collect::<Vec<_>>(),

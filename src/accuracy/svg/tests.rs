@@ -184,7 +184,7 @@ pub(in crate::accuracy) fn report(
     report
 }
 
-const FOUR: [&str; 4] = ["antialias", "depth", "adc-bailout", "precision"];
+const FOUR: [&str; 4] = ["antialias", "depth", "adc-bailout", "root-tolerance"];
 
 #[test]
 fn a_crowd_of_points_leaves_every_text_legible() {
@@ -202,7 +202,8 @@ fn a_crowd_of_points_leaves_every_text_legible() {
             rows.push((seconds, error, error * random.number(0.0, 0.5)));
         }
         let floor = [0.0, 0.001, 0.05][random.below(3)];
-        let knobs = &["antialias", "depth", "adc-bailout", "precision", "radiosity", "photons"];
+        let knobs =
+            &["antialias", "depth", "adc-bailout", "root-tolerance", "radiosity", "photons"];
         let report = report(&rows, &knobs[..1 + random.below(6)], floor);
         is_legible(&text(&report, "scenes/gallery/first.scene", &host()));
     }

@@ -4,7 +4,7 @@ use super::*;
 use crate::color::{Color, Rgb};
 use crate::math::Vector;
 use crate::pattern::{Checker, Kind, Setting, Wave};
-use crate::plan::{Frame, Precision};
+use crate::plan::Frame;
 use crate::shape::{Shape, Sphere};
 use crate::source::{ExpansionId, FileId, Span};
 use crate::texture::{Blend, Pattern, Source, Space};
@@ -82,7 +82,6 @@ const OPTIONS: PlanOptions = PlanOptions {
     antialias: Antialias::Off,
     depth: None,
     adc_bailout: None,
-    precision: Precision::Double,
     root_tolerance: 0.0,
     julia_iterations: None,
 };

@@ -3,15 +3,15 @@
 //! **In:** a line, three normals and half widths. **Out:** the entry into the last slab and the exit from the
 //! first, each with an error bound. **Invariant:** a line without a result certainly misses.
 
-use super::{Chord, Ray};
-use crate::math::{Real, Vector3};
+use super::{Chord, Ray, U};
+use crate::math::{AbsDot, Vector};
 use crate::shape::Crossing;
 
 /// The part of a line inside all three slabs, and the faces through which it enters and leaves.
 #[derive(Debug, Clone, Copy)]
-pub struct Slabs<R: Real = f64> {
-    pub enter: Crossing<R>,
-    pub leave: Crossing<R>,
+pub(super) struct Slabs {
+    pub enter: Crossing,
+    pub leave: Crossing,
     /// As in [`SurfacePoint::face`](crate::shape::SurfacePoint::face).
     pub enter_face: u32,
     pub leave_face: u32,
@@ -38,12 +38,12 @@ impl Slabs {
 ///
 /// **Source:** T. Kay, J. Kajiya, "Ray tracing complex scenes", SIGGRAPH 1986, p. 271.
 #[inline(always)]
-pub fn slabs<R: Real>(
-    centre: R::Vector,
-    normals: [R::Vector; 3],
-    half_widths: [R; 3],
-    ray: &Ray<R>,
-) -> Option<Slabs<R>> {
+pub(super) fn slabs(
+    centre: Vector,
+    normals: [Vector; 3],
+    half_widths: [f64; 3],
+    ray: &Ray,
+) -> Option<Slabs> {
     match through_steeply(centre, normals, half_widths, ray) {
         Some(found) => found,
         None => {
@@ -58,38 +58,38 @@ pub fn slabs<R: Real>(
 /// Returns the result of [`slabs`]; `None` if the line crosses a slab so slowly that the error of its speed
 /// matters.
 #[inline(always)]
-pub(super) fn through_steeply<R: Real>(
-    centre: R::Vector,
-    normals: [R::Vector; 3],
-    half_widths: [R; 3],
-    ray: &Ray<R>,
-) -> Option<Option<Slabs<R>>> {
+pub(super) fn through_steeply(
+    centre: Vector,
+    normals: [Vector; 3],
+    half_widths: [f64; 3],
+    ray: &Ray,
+) -> Option<Option<Slabs>> {
     let start = ray.origin - centre;
-    let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
+    let reach = start.x.abs() + start.y.abs() + start.z.abs();
     let mut part = Part::WHOLE;
     for axis in 0..3 {
         let (normal, half_width) = (normals[axis], half_widths[axis]);
         let line = Line::from(start, reach, centre, normal, half_width, ray.direction);
-        if line.speed.abs() <= R::from_f64(STEEP) {
+        if line.speed.abs() <= STEEP {
             return None;
         }
-        part.cut(axis, line, half_width, speed_error());
+        part.cut(axis, line, half_width, SPEED_ERROR);
     }
     Some(part.slabs())
 }
 
 #[cold]
 #[inline(never)]
-fn through_nearly_along<R: Real>(
-    centre: R::Vector,
-    normals: [R::Vector; 3],
-    half_widths: [R; 3],
-    ray: &Ray<R>,
-) -> Option<Slabs<R>> {
+fn through_nearly_along(
+    centre: Vector,
+    normals: [Vector; 3],
+    half_widths: [f64; 3],
+    ray: &Ray,
+) -> Option<Slabs> {
     let found = through(centre, normals, half_widths, ray, None)?;
-    let is_told = |normal: R::Vector| {
+    let is_told = |normal: Vector| {
         let (speed, size) = (normal.dot(ray.direction), normal.abs_dot(ray.direction));
-        speed.abs() > R::from_f64(STEEP) || is_level(speed, speed_error::<R>() * size)
+        speed.abs() > STEEP || is_level(speed, SPEED_ERROR * size)
     };
     match normals.into_iter().all(is_told) {
         true => Some(found),
@@ -99,16 +99,16 @@ fn through_nearly_along<R: Real>(
 
 /// Resolves a line nearly parallel to a slab: if it would be inside that slab from before it enters the
 /// others until after it leaves them, then it is inside, whatever rounding did to the ends of the slab.
-fn decided<R: Real>(
-    found: Slabs<R>,
-    centre: R::Vector,
-    normals: [R::Vector; 3],
-    half_widths: [R; 3],
-    ray: &Ray<R>,
-) -> Slabs<R> {
+fn decided(
+    found: Slabs,
+    centre: Vector,
+    normals: [Vector; 3],
+    half_widths: [f64; 3],
+    ray: &Ray,
+) -> Slabs {
     let along = Along::of(centre, normals, half_widths, ray);
     let others = through(centre, normals, half_widths, ray, Some(along));
-    let is_same = |one: Crossing<R>, other: Crossing<R>| one.t == other.t;
+    let is_same = |one: Crossing, other: Crossing| one.t == other.t;
     Slabs {
         enter: match others {
             Some(others) if is_same(found.enter, others.enter) => others.enter,
@@ -126,23 +126,23 @@ fn decided<R: Real>(
 /// and to those that `along` names.
 #[cold]
 #[inline(never)]
-pub(super) fn through<R: Real>(
-    centre: R::Vector,
-    normals: [R::Vector; 3],
-    half_widths: [R; 3],
-    ray: &Ray<R>,
-    along: Option<Along<R>>,
-) -> Option<Slabs<R>> {
+pub(super) fn through(
+    centre: Vector,
+    normals: [Vector; 3],
+    half_widths: [f64; 3],
+    ray: &Ray,
+    along: Option<Along>,
+) -> Option<Slabs> {
     let mut part = Part::WHOLE;
     let known = along.map_or([None; 3], |along| along.known);
     for axis in 0..3 {
         let (normal, half_width) = (normals[axis], half_widths[axis]);
         let line = Line::of(centre, normal, half_width, ray);
-        let is_slow = line.speed.abs() <= R::from_f64(STEEP);
+        let is_slow = line.speed.abs() <= STEEP;
         let speed_error = match is_slow {
             // A normal along an axis has an exact speed, however small.
-            true => speed_error::<R>() * normal.abs_dot(ray.direction),
-            false => speed_error(),
+            true => SPEED_ERROR * normal.abs_dot(ray.direction),
+            false => SPEED_ERROR,
         };
         if let Some(within) = known[axis] {
             part.cut_at(axis, line.speed, within);
@@ -150,7 +150,7 @@ pub(super) fn through<R: Real>(
         }
         let along = match along {
             Some(along) if is_slow && along.axes[axis] => Some(along.middle),
-            _ if is_slow && is_level(line.speed, speed_error) => Some(R::ZERO),
+            _ if is_slow && is_level(line.speed, speed_error) => Some(0.0),
             _ => None,
         };
         match along {
@@ -167,26 +167,31 @@ pub(super) fn through<R: Real>(
 }
 
 /// The part of a line that is in some slabs.
-struct Part<R: Real> {
-    enter: End<R>,
-    leave: End<R>,
+struct Part {
+    enter: End,
+    leave: End,
 }
 
-impl<R: Real> Part<R> {
+impl Part {
     const WHOLE: Self = Self {
-        enter: End { t: R::NEG_INFINITY, least: R::NEG_INFINITY, most: R::NEG_INFINITY, face: 0 },
-        leave: End { t: R::INFINITY, least: R::INFINITY, most: R::INFINITY, face: 0 },
+        enter: End {
+            t: f64::NEG_INFINITY,
+            least: f64::NEG_INFINITY,
+            most: f64::NEG_INFINITY,
+            face: 0,
+        },
+        leave: End { t: f64::INFINITY, least: f64::INFINITY, most: f64::INFINITY, face: 0 },
     };
 
     /// Clips it to one more slab, which the line crosses.
     #[inline(always)]
-    fn cut(&mut self, axis: usize, line: Line<R>, half_width: R, speed_error: R) {
+    fn cut(&mut self, axis: usize, line: Line, half_width: f64, speed_error: f64) {
         let Self { enter, leave } = self;
         let Line { place, speed, place_error } = line;
-        let reciprocal = R::ONE / speed;
-        let rising = speed > R::ZERO;
+        let reciprocal = 1.0 / speed;
+        let rising = speed > 0.0;
         let side = if rising { half_width } else { -half_width };
-        let error = |t: R| (place_error + speed_error * t.abs()) * reciprocal.abs();
+        let error = |t: f64| (place_error + speed_error * t.abs()) * reciprocal.abs();
         let (first, second) =
             (2 * axis as u32 + u32::from(rising), 2 * axis as u32 + u32::from(!rising));
 
@@ -208,18 +213,18 @@ impl<R: Real> Part<R> {
 
     /// Clips it to a range that is accurate to its rounding; a limit of −∞ or ∞ has no effect.
     #[cold]
-    fn cut_at(&mut self, axis: usize, speed: R, [near, far]: [R; 2]) {
+    fn cut_at(&mut self, axis: usize, speed: f64, [near, far]: [f64; 2]) {
         let Self { enter, leave } = self;
-        let rising = speed > R::ZERO;
-        let error = |t: R| R::from_f64(4.0) * R::UNIT_ROUNDOFF * t.abs();
-        if near > R::NEG_INFINITY {
+        let rising = speed > 0.0;
+        let error = |t: f64| 4.0 * U * t.abs();
+        if near > f64::NEG_INFINITY {
             enter.least = enter.least.max(near - error(near));
             enter.most = enter.most.max(near + error(near));
         }
         if near > enter.t {
             (enter.t, enter.face) = (near, 2 * axis as u32 + u32::from(rising));
         }
-        if far < R::INFINITY {
+        if far < f64::INFINITY {
             leave.least = leave.least.min(far - error(far));
             leave.most = leave.most.min(far + error(far));
         }
@@ -229,10 +234,11 @@ impl<R: Real> Part<R> {
     }
 
     #[inline(always)]
-    fn slabs(self) -> Option<Slabs<R>> {
+    fn slabs(self) -> Option<Slabs> {
         let Self { enter, mut leave } = self;
         // Past all numbers when the ray moves along every slab.
-        let met = enter.least <= leave.most && enter.t > R::NEG_INFINITY && leave.t < R::INFINITY;
+        let met =
+            enter.least <= leave.most && enter.t > f64::NEG_INFINITY && leave.t < f64::INFINITY;
         if !met {
             return None;
         }
@@ -246,45 +252,38 @@ impl<R: Real> Part<R> {
     }
 }
 
-/// Error bound of v.
+/// Returns whether a speed cannot be separated from 0, or is too small to count.
 #[inline(always)]
-fn speed_error<R: Real>() -> R {
-    R::from_f64(10.0) * R::UNIT_ROUNDOFF
-}
-
-/// Returns whether a speed cannot be separated from 0, or has no reciprocal.
-#[inline(always)]
-fn is_level<R: Real>(speed: R, speed_error: R) -> bool {
-    speed.abs() <= R::from_f64(4.0) * speed_error || speed.abs() <= R::from_f64(LEVEL)
+fn is_level(speed: f64, speed_error: f64) -> bool {
+    speed.abs() <= 4.0 * speed_error || speed.abs() <= LEVEL
 }
 
 /// A line relative to a slab: a, v, and the error bound of a.
 #[derive(Clone, Copy)]
-pub(super) struct Line<R: Real> {
-    pub place: R,
-    pub speed: R,
-    pub place_error: R,
+pub(super) struct Line {
+    pub place: f64,
+    pub speed: f64,
+    pub place_error: f64,
 }
 
-impl<R: Real> Line<R> {
-    pub fn of(centre: R::Vector, normal: R::Vector, half_width: R, ray: &Ray<R>) -> Self {
+impl Line {
+    pub fn of(centre: Vector, normal: Vector, half_width: f64, ray: &Ray) -> Self {
         let start = ray.origin - centre;
-        let reach = start.component(0).abs() + start.component(1).abs() + start.component(2).abs();
+        let reach = start.x.abs() + start.y.abs() + start.z.abs();
         Self::from(start, reach, centre, normal, half_width, ray.direction)
     }
 
     #[inline(always)]
     fn from(
-        start: R::Vector,
-        reach: R,
-        centre: R::Vector,
-        normal: R::Vector,
-        half_width: R,
-        direction: R::Vector,
+        start: Vector,
+        reach: f64,
+        centre: Vector,
+        normal: Vector,
+        half_width: f64,
+        direction: Vector,
     ) -> Self {
-        let number = R::from_f64;
-        let far = number(2.0) * normal.abs_dot(centre);
-        let place_error = R::UNIT_ROUNDOFF * (number(6.0) * reach + number(3.0) * half_width + far);
+        let far = 2.0 * normal.abs_dot(centre);
+        let place_error = U * (6.0 * reach + 3.0 * half_width + far);
         Self { place: normal.dot(start), speed: normal.dot(direction), place_error }
     }
 }
@@ -292,29 +291,23 @@ impl<R: Real> Line<R> {
 /// The slabs that a line is parallel to: within the other slabs, its distance to their planes changes by no
 /// more than a few times the error of the planes.
 #[derive(Clone, Copy)]
-pub(super) struct Along<R: Real> {
+pub(super) struct Along {
     pub axes: [bool; 3],
     /// Range of the line in those slabs for which it is known exactly.
-    pub known: [Option<[R; 2]>; 3],
+    pub known: [Option<[f64; 2]>; 3],
     /// Middle of the range within the other slabs, ahead of the ray's start: a ray that starts on a face is
     /// clear of it there.
-    pub middle: R,
+    pub middle: f64,
 }
 
-impl<R: Real> Along<R> {
+impl Along {
     #[cold]
     #[inline(never)]
-    pub fn of(
-        centre: R::Vector,
-        normals: [R::Vector; 3],
-        half_widths: [R; 3],
-        ray: &Ray<R>,
-    ) -> Self {
-        let number = R::from_f64;
+    pub fn of(centre: Vector, normals: [Vector; 3], half_widths: [f64; 3], ray: &Ray) -> Self {
         let lines = [0, 1, 2].map(|axis| Line::of(centre, normals[axis], half_widths[axis], ray));
-        let (mut enter, mut leave) = (R::NEG_INFINITY, R::INFINITY);
+        let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
         for (line, half_width) in lines.iter().zip(half_widths) {
-            if line.speed.abs() > number(STEEP) {
+            if line.speed.abs() > STEEP {
                 let (middle, way) = (-line.place / line.speed, half_width / line.speed.abs());
                 (enter, leave) = (enter.max(middle - way), leave.min(middle + way));
             }
@@ -322,29 +315,32 @@ impl<R: Real> Along<R> {
         let far = enter.abs().max(leave.abs());
         let axes = [0, 1, 2].map(|axis| {
             let Line { speed, place_error, .. } = lines[axis];
-            let speed_error = speed_error::<R>() * normals[axis].abs_dot(ray.direction);
-            is_level(speed, speed_error) || speed.abs() * far <= number(4.0) * place_error
+            let speed_error = SPEED_ERROR * normals[axis].abs_dot(ray.direction);
+            is_level(speed, speed_error) || speed.abs() * far <= 4.0 * place_error
         });
-        let middle = number(0.5) * (enter.max(R::ZERO) + leave.max(R::ZERO));
+        let middle = 0.5 * (enter.max(0.0) + leave.max(0.0));
         // It has no end where the line is nearly along all three.
-        Self { axes, known: [None; 3], middle: if far < R::INFINITY { middle } else { R::ZERO } }
+        Self { axes, known: [None; 3], middle: if far < f64::INFINITY { middle } else { 0.0 } }
     }
 }
 
 /// Speed across a slab below which the error of the speed itself matters.
 const STEEP: f64 = 1.0 / 1_048_576.0;
-/// Speed below which a ray is parallel to the slab: the speed has no reciprocal.
-const LEVEL: f64 = 4.0 * f32::MIN_POSITIVE as f64;
+/// Speed up to which a line is parallel to the slab even if it is known exactly, 2⁻¹²⁴: it crosses no slab
+/// within a distance that counts.
+const LEVEL: f64 = 1.0 / (1_u128 << 124) as f64;
+/// Error bound of v.
+const SPEED_ERROR: f64 = 10.0 * U;
 
-struct End<R: Real> {
-    t: R,
-    least: R,
-    most: R,
+struct End {
+    t: f64,
+    least: f64,
+    most: f64,
     face: u32,
 }
 
-impl<R: Real> End<R> {
-    fn crossing(&self) -> Crossing<R> {
+impl End {
+    fn crossing(&self) -> Crossing {
         Crossing { t: self.t, error: (self.t - self.least).max(self.most - self.t) }
     }
 }

@@ -1,7 +1,6 @@
-//! Spheres against exact arithmetic, from within, from afar, and in single precision.
+//! Spheres against exact arithmetic, from within and from afar.
 
 use super::*;
-use crate::math::Vector3;
 
 #[test]
 fn a_sphere_is_hit_where_exact_arithmetic_hits_it_at_any_size_and_distance() {
@@ -63,34 +62,4 @@ fn the_ground_of_a_planet_is_met_as_exactly_as_what_stands_on_it() {
         }
         assert_leaves_for_good(&mut random, &surface, false, |ray| sphere.chord(ray), sphere);
     }
-}
-
-#[test]
-fn single_precision_kernels_keep_their_own_bounds() {
-    let mut random = Random(13);
-    let mut hits = 0;
-    for _ in 0..tries() {
-        let sphere = Sphere { centre: random.point(10.0), radius: random.size(-1.0, 1.0) };
-        let far = random.size(0.0, 3.0);
-        let ray = ray_at(&mut random, sphere.centre, sphere.radius, far);
-        let single = Ray::<f32> {
-            origin: Vector3::from_vector(ray.origin),
-            direction: Vector3::from_vector(ray.direction),
-        };
-        let wide =
-            Ray { origin: single.origin.to_vector(), direction: single.direction.to_vector() };
-        let centre = <<f32 as Real>::Vector as Vector3<f32>>::from_vector(sphere.centre);
-        let radius = sphere.radius as f32;
-        let (_, roots) = exact::sphere(centre.to_vector(), f64::from(radius), &wide);
-        if let (Some(chord), Some([enter, leave])) =
-            (crate::shape::sphere::chord(centre, radius, &single), roots)
-        {
-            hits += 1;
-            for (crossing, exact) in [(chord.enter, enter), (chord.leave, leave)] {
-                let off = (f64::from(crossing.t) - exact.0).abs();
-                assert!(off <= f64::from(crossing.error), "{off:e} {crossing:?} {single:?}");
-            }
-        }
-    }
-    assert!(hits > tries() / 4, "{hits}");
 }

@@ -43,15 +43,8 @@ fn one_sphere_and_one_plane_are_solved_for_just_the_rays_that_may_meet_them() {
         solves += u64::from(ray.direction.y < 0.0) + u64::from(beside.length() <= radius);
     }
     assert!(solves > 700, "{solves}");
-    for precision in [Precision::Double, Precision::Single] {
-        let options = PlanOptions { precision, ..options(width, height, Antialias::Off) };
-        let counters = counted(&world, 1, options);
-        assert_eq!(
-            counters.work,
-            Work { box_visits: 0, root_solves: solves, solving: solves },
-            "{precision:?}"
-        );
-    }
+    let counters = counted(&world, 1, options(width, height, Antialias::Off));
+    assert_eq!(counters.work, Work { box_visits: 0, root_solves: solves, solving: solves });
     // A lamp above shadows nothing but the plane below the sphere: a shadow ray tries what it meets.
     let mut lit = world;
     lit.textures[1] = Texture::Plain(matte(1.0, 1.0, 1.0));

@@ -3,17 +3,15 @@
 
 use lucarne::geometry::Geometry;
 use lucarne::math::placement::Placement;
-use lucarne::math::{Matrix, Real, UnitVector, Vector, Vector3};
+use lucarne::math::{Matrix, UnitVector, Vector};
 use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
-use lucarne::shape::{Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Sphere, box_, plane, sphere};
+use lucarne::shape::{Box_, Chord, Crossing, Ellipsoid, Plane, Ray, Sphere};
 use lucarne::source::NoFiles;
 
 use crate::dice::Dice;
 use crate::naive::{V32, V64, double, single};
 use crate::wide::{Wide, WideVector};
-
-type Narrow = <f32 as Real>::Vector;
 
 pub fn v32(v: Vector) -> V32 {
     v.as_vec3().to_array()
@@ -70,47 +68,6 @@ pub trait Subject {
     }
 }
 
-/// A shape whose kernel is there in `f32`, too; what is large is taken off before anything is
-/// rounded, as in `geometry/single.rs`.
-pub trait Narrowed: Subject {
-    fn narrow(&self, ray: &Ray) -> Option<Crossing<f32>>;
-}
-
-/// As seen from `centre`.
-fn narrowed(ray: &Ray, centre: Vector) -> Ray<f32> {
-    let origin = Narrow::from_vector(ray.origin - centre);
-    Ray { origin, direction: Narrow::from_vector(ray.direction) }
-}
-
-/// Met in single precision.
-pub struct Single<S>(S);
-
-impl<S: Narrowed> Subject for Single<S> {
-    fn new(dice: &mut Dice, far: f64) -> Self {
-        Self(S::new(dice, far))
-    }
-    fn centre(&self) -> Vector {
-        self.0.centre()
-    }
-    fn target(&self, dice: &mut Dice) -> Vector {
-        self.0.target(dice)
-    }
-    fn ours(&self, ray: &Ray) -> Option<Crossing> {
-        let Crossing { t, error } = self.0.narrow(ray)?;
-        // Doubled: what rounding its arguments adds.
-        Some(Crossing { t: f64::from(t), error: 2.0 * f64::from(error) })
-    }
-    fn single(&self, ray: &Rounded) -> Option<f32> {
-        self.0.single(ray)
-    }
-    fn double(&self, ray: &Ray) -> Option<f64> {
-        self.0.double(ray)
-    }
-    fn exact(&self, ray: &Ray) -> Answer {
-        self.0.exact(ray)
-    }
-}
-
 /// Of the roots of a·t² + 2·b·t + c the first.
 pub fn root(a: &Wide, b: &Wide, c: &Wide) -> Answer {
     let discriminant = b * b - &(a * c);
@@ -152,14 +109,6 @@ impl Subject for Ball {
         let d = wide(ray.direction);
         let r = Wide::of(self.0.radius);
         root(&d.square(), &f.dot(&d), &(f.square() - &(&r * &r)))
-    }
-}
-
-impl Narrowed for Ball {
-    fn narrow(&self, ray: &Ray) -> Option<Crossing<f32>> {
-        let zero = Narrow::from_vector(Vector::ZERO);
-        sphere::chord(zero, self.0.radius as f32, &narrowed(ray, self.0.centre))
-            .map(|chord| chord.enter)
     }
 }
 
@@ -232,17 +181,6 @@ impl Subject for Floor {
     }
 }
 
-impl Narrowed for Floor {
-    fn narrow(&self, ray: &Ray) -> Option<Crossing<f32>> {
-        // As seen from the ray's own start.
-        let normal = self.0.normal.get();
-        let inside = self.0.distance - normal.dot(ray.origin);
-        let start = narrowed(ray, ray.origin);
-        let chord = plane::chord(Narrow::from_vector(normal), inside as f32, &start)?;
-        Some(if chord.enter.t.is_finite() { chord.enter } else { chord.leave })
-    }
-}
-
 pub struct Block(Box_);
 
 impl Subject for Block {
@@ -302,16 +240,6 @@ impl Subject for Block {
         } else {
             Answer::Enters(enter)
         }
-    }
-}
-
-impl Narrowed for Block {
-    fn narrow(&self, ray: &Ray) -> Option<Crossing<f32>> {
-        let normals = self.0.normals.map(|normal| Narrow::from_vector(normal.get()));
-        let half_widths = self.0.half_widths.map(|half| half as f32);
-        let zero = Narrow::from_vector(Vector::ZERO);
-        box_::slabs(zero, normals, half_widths, &narrowed(ray, self.0.centre))
-            .map(|slabs| slabs.enter)
     }
 }
 
