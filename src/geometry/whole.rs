@@ -12,7 +12,7 @@ use super::{Entry, Geometry, Hit, Solid, TREE_FROM, bounds_of_part};
 use crate::bvh::Tree;
 use crate::shape::csg::{self, Event, Events};
 use crate::shape::local::{Crossings, Local, Met};
-use crate::shape::{Bounds, Chord, Crossing, Ray};
+use crate::shape::{Bounds, Chord, Crossing, Placed, Ray};
 use crate::world::{self, World};
 
 /// The cosine of the angle between two faces from which on they are the sides of something thin.
@@ -306,20 +306,13 @@ impl Geometry {
 
     /// Where the ray's line crosses the surface of a solid; at −∞ where it comes from inside.
     pub(super) fn crossings(&self, solid: &Solid, ray: &Ray) -> Crossings {
-        if let Solid::Placed(i) = solid {
-            let placed = &self.placed[*i as usize];
-            let mut all = placed.crossings_of_part(ray);
-            let inside = match all.first() {
-                Some(first) => first.leaving && !placed.body.is_sheet(),
-                None => placed.body.reach() == f64::INFINITY && placed.holds(ray),
-            };
-            if inside {
-                all.insert(0, FROM_INSIDE);
+        match solid {
+            Solid::Placed(i) => crossings_of_placed(&self.placed[*i as usize], ray),
+            _ => {
+                let ends = self.chord(solid, ray).map(ends_of_chord);
+                ends.into_iter().flatten().filter(|met| met.t != f64::INFINITY).collect()
             }
-            return all;
         }
-        let ends = self.chord(solid, ray).map(ends_of_chord);
-        ends.into_iter().flatten().filter(|met| met.t != f64::INFINITY).collect()
     }
 
     /// Where the ray's line enters and leaves what is no body.
@@ -373,6 +366,18 @@ impl Geometry {
         }?;
         (event.met.t <= limit).then(|| whole.hit(&event))
     }
+}
+
+fn crossings_of_placed(placed: &Placed, ray: &Ray) -> Crossings {
+    let mut all = placed.crossings_of_part(ray);
+    let inside = match all.first() {
+        Some(first) => first.leaving && !placed.body.is_sheet(),
+        None => placed.body.reach() == f64::INFINITY && placed.holds(ray),
+    };
+    if inside {
+        all.insert(0, FROM_INSIDE);
+    }
+    all
 }
 
 /// All of a line.

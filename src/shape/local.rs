@@ -250,6 +250,8 @@ pub(super) fn unite(spans: &mut [Span], found: &mut Crossings) {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen<'a> {
     pub line: LocalRay<'a>,
+    /// Distance of the line from the local origin.
+    pub miss: f64,
     /// Position of the ray's start on the line.
     start: f64,
     /// Ratio of local lengths to those along the ray.
@@ -281,10 +283,11 @@ impl<'a> Seen<'a> {
         let reach = (sizes * from_centre.abs()).length();
         let turn = U * 6.0 * (sizes * ray.direction.abs()).length() / speed;
         let blur = U * 6.0 * reach + turn * start.abs() + moved;
-        let start_error = blur + turn * nearest.length();
+        let miss = nearest.length();
+        let start_error = blur + turn * miss;
         let in_world = Some(InWorld { ray, placed });
         let line = LocalRay { nearest, direction, blur, turn, tolerance, in_world };
-        Self { line, start, speed, start_error }
+        Self { line, miss, start, speed, start_error }
     }
 
     /// Returns the position on the line of the ray's point at `t`; moved by its error bound backward if `way`

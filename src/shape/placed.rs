@@ -115,14 +115,14 @@ impl Placed {
 
     #[inline(always)]
     fn found(&self, ray: &Ray, moved: f64, find: impl Fn(&Seen, &mut Crossings)) -> Crossings {
+        // Returned in one place only: so it is made where the caller wants it, and never copied.
         let mut found = Crossings::new();
         let seen = Seen::new(self, ray, moved);
-        if self.is_out_of_reach(&seen) {
-            return found;
-        }
-        find(&seen, &mut found);
-        for met in &mut found {
-            *met = seen.met(*met);
+        if !self.is_out_of_reach(&seen) {
+            find(&seen, &mut found);
+            for met in &mut found {
+                *met = seen.met(*met);
+            }
         }
         found
     }
@@ -130,8 +130,7 @@ impl Placed {
     /// Returns whether the line certainly misses the body; `false` where the numbers are beyond what squares can tell.
     #[inline(always)]
     fn is_out_of_reach(&self, seen: &Seen) -> bool {
-        let miss = seen.line.nearest.length();
-        miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur
+        seen.miss > self.body.reach() * (1.0 + 8.0 * U) + seen.line.blur
     }
 
     /// Returns the part of the surface that the ray crosses at `t`.

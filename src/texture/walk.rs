@@ -5,6 +5,8 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
+use smallvec::{SmallVec, smallvec};
+
 use super::blend::Blend;
 use super::{Normal, Pigment, Texture};
 
@@ -14,9 +16,9 @@ pub trait Node {
     fn children(&self) -> Vec<&Self>;
 
     /// Returns the node and all nodes below it, each once, in written order.
-    fn nodes(&self) -> Vec<&Self> {
+    fn nodes(&self) -> SmallVec<[&Self; 1]> {
         let first = self.children();
-        let mut found = vec![self];
+        let mut found = smallvec![self];
         if first.is_empty() {
             return found;
         }
