@@ -61,7 +61,7 @@ struct Packet {
 struct PacketAxis {
     /// 0 or 1: which of the two planes comes first, for all rays.
     near: usize,
-    /// Of each ray, as of [`starts`].
+    /// Those of the rays, as by [`starts`].
     near_start: [Lanes; GROUPS],
     far_start: [Lanes; GROUPS],
     reciprocal: [Lanes; GROUPS],
@@ -75,7 +75,7 @@ struct PacketAxis {
 impl Packet {
     /// `None` where the rays do not all go the same way along each axis, or one starts too far off.
     fn new(rays: &[Ray], limits: &[f64], space: &Space) -> Option<Self> {
-        // Of each axis the starts and the reciprocals; those of no ray are the first one's.
+        // The starts and the reciprocals by axis; in lanes without a ray, those of the first.
         let first = starts(rays.first()?, 0.0, space)?;
         let mut all = first.map(|axis| axis.map(|value| [value; MOST]));
         let mut out = [f32::NEG_INFINITY; MOST];

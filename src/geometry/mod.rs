@@ -23,6 +23,7 @@ mod through;
 mod whole;
 mod work;
 
+pub use crate::bvh::packet::MOST as TOGETHER;
 pub use nearest::Hit;
 pub use occluder::Occluder;
 pub use surface::{shading_normal, spread, surface};

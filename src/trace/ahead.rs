@@ -2,8 +2,7 @@
 
 use super::Walk;
 use super::path::Tracer;
-use crate::bvh::packet;
-use crate::geometry::Hit;
+use crate::geometry::{Hit, TOGETHER};
 use crate::shape::Ray;
 
 /// Rays in the order in which they are asked for, and what they meet.
@@ -32,11 +31,11 @@ impl Ahead {
 }
 
 impl Tracer<'_> {
-    /// Finds what the first rays of an iterator meet, up to [`packet::MOST`].
+    /// Finds what the first rays of an iterator meet, up to [`TOGETHER`].
     pub fn look_ahead<const KINDS: bool>(&self, walk: &mut Walk, rays: impl Iterator<Item = Ray>) {
         let Walk { ahead, counters, .. } = walk;
         ahead.clear();
-        ahead.rays.extend(rays.take(packet::MOST));
+        ahead.rays.extend(rays.take(TOGETHER));
         let Ahead { rays, hits, .. } = ahead;
         self.in_image.nearest_together::<KINDS>(rays, hits, &mut counters.work);
     }

@@ -16,7 +16,7 @@ use crate::plan::Region;
 /// Pixels along a tile's side: small enough to share a picture evenly, large enough that handing
 /// out costs nothing.
 const SIDE: u32 = 32;
-/// Pixels along the side of a block, whose rays go together: `BLOCK`² are at most `bvh::packet::MOST`.
+/// Pixels along the side of a block, whose rays go together: `BLOCK`² are at most `geometry::TOGETHER`.
 const BLOCK: usize = 4;
 /// Things of a list that a thread takes at once.
 const PART: usize = 16;

@@ -16,7 +16,7 @@ use crate::shape::local::LocalRay;
 /// How far the orbits are alike, and whether they escape.
 pub type Stretch = (f64, bool);
 
-/// Norm from which on no later number is looked at, relative to that which escapes.
+/// Norm from which on no later number is looked at, relative to what escapes.
 const BEYOND: f64 = 1.5;
 
 /// A number of an orbit, or an independent part of it.
