@@ -124,7 +124,7 @@ impl Box_ {
     ///
     /// Its distance to the face is at most u·(6·|P − C|₁ + 2·l) + u·|N|·|P|. The error counts this twice, the
     /// second time for the start of the next ray, and adds u·(6·|P − C|₁ + 3·l + 2·|N|·|C|) for the
-    /// evaluation by [`slabs`].
+    /// evaluation by `slabs`.
     #[inline(never)]
     pub fn surface(&self, ray: &Ray, t: f64, leaving: bool) -> SurfacePoint {
         let (centre, directions, half_widths) = (self.centre, self.directions(), self.half_widths);

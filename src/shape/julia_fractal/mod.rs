@@ -3,7 +3,7 @@
 //!
 //! With a finite number of iterations, the surface is as smooth as the map: it is where the largest norm of
 //! h₀, h₁ … equals the radius of the ball. A line is followed by stretches on which no orbit changes between
-//! escaping and staying, as Taylor polynomials tell ([`taylor`]); where these are short, ball arithmetic bounds
+//! escaping and staying, as Taylor polynomials tell (`taylor.rs`); where these are short, ball arithmetic bounds
 //! that norm and its slope over entire pieces of the line. So no thin filament is missed. **Invariant:** a
 //! crossing lies between two positions where the bounds, over all lines that may be intended, have opposite
 //! signs.
