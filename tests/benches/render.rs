@@ -81,12 +81,17 @@ fn pair(folder: &Path, row: &Row, with_povray: bool) {
         println!("| {title} | | {trace:.3} | | {goal} | | {rays:.1} | |");
         return;
     }
-    let (ratio, before) = (there.trace / trace, there.prepare / prepare);
+    let ratio = there.trace / trace;
+    // POV-Ray tells hundredths of a second.
+    let before = match there.prepare > 0.1 {
+        true => format!("{:.2}", there.prepare / prepare),
+        false => String::new(),
+    };
     let their_trace = there.trace;
     let (count, all) = difference(&ours, &theirs);
     let apart = 100.0 * count as f64 / all as f64;
     println!(
-        "| {title} | {their_trace:.3} | {trace:.3} | {ratio:.2} | {goal} | {before:.2} | \
+        "| {title} | {their_trace:.3} | {trace:.3} | {ratio:.2} | {goal} | {before} | \
          {rays:.1} | {apart:.3} % |"
     );
 }
