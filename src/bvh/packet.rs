@@ -158,7 +158,7 @@ fn groups(values: [f32; MOST]) -> [Lanes; GROUPS] {
     [group(0), group(1), group(2), group(3)]
 }
 
-/// A child that waits: where the first of the rays may enter it, and which it is, of which node.
+/// A child that waits, its node and lane, and where the first of the rays may enter it.
 #[derive(Clone, Copy, Default)]
 struct Waiting {
     entry: f32,

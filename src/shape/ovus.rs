@@ -117,7 +117,7 @@ impl Ovus {
     /// Returns the height along a line; it is the distance to the surface, which is convex.
     ///
     /// **Error** of the height: the error of the point, and the roundings of three squares, a root, and the
-    /// parameters of the spheres and the arc, the largest of which is 4.
+    /// parameters of the spheres and the arc, which are at most 4.
     fn tangent(&self, ray: &LocalRay) -> impl Fn(f64) -> Tangent {
         let slope_error = TURN + ray.turn;
         move |s: f64| {

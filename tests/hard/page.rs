@@ -109,7 +109,7 @@ fn each_case_of_the_page_names_tests_that_exist_and_every_case_is_there() {
         tests.iter().filter(|name| name.starts_with("row_") || name.starts_with("rows_"));
     let unnamed: Vec<_> = of_cases.filter(|name| !named.contains(*name)).collect();
     assert!(unnamed.is_empty(), "not on the page: {unnamed:?}");
-    // All 78 but 71, which is no case any more, are told of, those without a test as such.
+    // The page lists all 78 cases but 71, which is gone, and says which have no test.
     let rest = page.split("Not built yet").nth(1).and_then(|rest| rest.split('.').next());
     let brackets = rest.expect("what is not built").split('(').skip(1);
     let untested: Vec<u32> =

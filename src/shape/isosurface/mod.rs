@@ -6,7 +6,8 @@
 //! positions where the function's bounds, over all lines that may be intended, have opposite signs; where a
 //! jump lies within that uncertainty, the value on the line itself counts. `accuracy` determines how finely
 //! the search subdivides where the bounds are infinite, for example where the function may be undefined, or
-//! where it asks a pigment, whose slopes are not known; and how wide a jump or a kink may be that is told apart from a slope.
+//! where it asks a pigment, whose slopes are not known; and how wide a jump or a kink may be and still be
+//! distinguished from a slope.
 
 mod cells;
 mod container;

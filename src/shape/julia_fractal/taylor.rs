@@ -31,8 +31,8 @@ struct Part<const N: usize> {
 }
 
 impl JuliaFractal {
-    /// Returns the stretch from a position on, at most as long as given; `None` for functions of which that
-    /// is not known.
+    /// Returns the stretch from a position on, at most as long as given; `None` for functions without a
+    /// known bound on it.
     pub(super) fn stretch(&self, ray: &LocalRay, s: f64, most: f64) -> Option<Stretch> {
         let blur = ray.blur_at(s.abs() + most);
         let start = self.lift(ray.at(s), blur + 16.0 * U * (self.radius() + s.abs()));
