@@ -868,7 +868,8 @@ fn a_plan_as_json_has_every_place_and_what_the_pilot_counted() {
     let plan = place.run("plan a.scene --json --size 80x60 --antialias 3").ends(0, &[]).stdout();
     let plan: serde_json::Value = serde_json::from_str(&plan).expect("one object");
     assert_eq!((&plan["width"], &plan["antialias"]["n"]), (&80.into(), &3.into()));
-    assert_eq!(plan["kernel"], "shadows");
+    let stages = ["camera", "intersect", "surface", "light", "shadow"];
+    assert_eq!(plan["stages"], serde_json::json!(stages));
     let effects = plan["effects"].as_array().expect("a list");
     let row = |name: &str| effects.iter().find(|row| row["effect"] == name).expect("a row");
     let lamp = &row("shadows")["called_for_by"][0];

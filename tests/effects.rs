@@ -9,7 +9,7 @@ use lucarne::diagnostic::render::{Style, human};
 use lucarne::film::{Depth, develop};
 use lucarne::picture::{Format, encode};
 use lucarne::pilot::pilot;
-use lucarne::plan::{Antialias, Effect, Frame, Kernel, Kind, Plan, PlanOptions, plan};
+use lucarne::plan::{Antialias, Effect, Frame, Kind, Plan, PlanOptions, Stage, plan};
 use lucarne::road::{Options, Road, dialect};
 use lucarne::source::{FileError, Files, Found, Sources, Span};
 use lucarne::standard::include;
@@ -176,12 +176,12 @@ fn what_is_off_is_counted_zero() {
 }
 
 #[test]
-fn the_kernel_for_everything_gives_the_same_bytes() {
+fn all_stages_give_the_same_bytes_as_those_of_the_plan() {
     let mut smaller = 0;
     for name in scenes() {
         let Seen { world, plan, .. } = see(&name, &Changed::default());
-        let full = Plan { kernel: Kernel::EVERYTHING, ..plan.clone() };
-        if full.kernel == plan.kernel {
+        let full = Plan { stages: Stage::ALL.to_vec(), ..plan.clone() };
+        if full.stages == plan.stages {
             continue;
         }
         smaller += 1;
@@ -191,20 +191,29 @@ fn the_kernel_for_everything_gives_the_same_bytes() {
         };
         assert_eq!(bytes(&plan), bytes(&full), "{name}");
     }
-    assert!(smaller > 20, "{smaller} scenes have a smaller kernel");
+    assert!(smaller > 20, "{smaller} scenes have fewer stages");
 }
 
 #[test]
-fn a_kernel_has_code_for_bodies_where_a_shape_is_no_sphere_plane_or_box() {
-    let with_bodies = scenes().into_iter().filter(|name| {
-        let Seen { plan, .. } = see(name, &Changed::default());
-        let is_plain =
-            plan.kinds.iter().all(|kind| ["sphere", "plane", "box"].contains(&kind.word.as_str()));
-        assert_eq!(plan.kernel.bodies, !is_plain, "{name}: {:?}", plan.kinds);
-        plan.kernel.bodies
-    });
-    let (with_bodies, all) = (with_bodies.count(), scenes().len());
-    assert!(with_bodies > 20 && all - with_bodies > 20, "{with_bodies} of {all} scenes");
+fn the_stages_of_the_plan_are_those_that_run() {
+    let mut absent = 0;
+    for name in scenes() {
+        let Seen { world, plan, .. } = see(&name, &Changed::default());
+        let Counters { camera, shadow, reflection, transmission, total_reflection, .. } =
+            traced(&world, &plan).counters;
+        assert!(camera > 0, "{name}");
+        let onward = reflection + transmission + total_reflection;
+        for (stage, rays) in [(Stage::Shadow, shadow), (Stage::Scatter, onward)] {
+            assert!(plan.runs(stage) || rays == 0, "{name}: {rays} rays of {stage:?}");
+            absent += usize::from(!plan.runs(stage));
+        }
+        // And none is missing: without its stage, a ray of that kind is.
+        if shadow > 0 {
+            let stages = Stage::ALL.into_iter().filter(|stage| *stage != Stage::Shadow).collect();
+            assert_eq!(traced(&world, &Plan { stages, ..plan.clone() }).counters.shadow, 0);
+        }
+    }
+    assert!(absent > 20, "{absent}");
 }
 
 #[test]

@@ -54,15 +54,8 @@ fn written(plan: &Value) -> String {
     if let Some(most) = plan["julia_iterations"].as_u64() {
         out += &format!("julia_iterations {most}\n");
     }
-    assert_eq!(list(&plan["kernels_compiled"]).len(), 8);
-    let kernel = text(&plan["kernel"]);
-    let rays = match kernel.trim_end_matches("bodies").trim_end_matches('+') {
-        "bare" | "" => "the camera's alone",
-        "shadows" => "the camera's, and to lights",
-        "secondary" => "the camera's, and from surface to surface",
-        _ => "the camera's, to lights, and from surface to surface",
-    };
-    out += &format!("rays traced: {rays}\n");
+    let stages: Vec<&str> = list(&plan["stages"]).iter().map(text).collect();
+    out += &format!("stages: {}\n", stages.join(", "));
     let (on, off): (Vec<&Value>, Vec<&Value>) =
         list(&plan["effects"]).iter().partition(|row| row["on"] == true);
     let dropped = list(&plan["dropped"]);

@@ -22,7 +22,7 @@ pub const MOST: usize = 16;
 const WIDTH: usize = 4;
 const GROUPS: usize = MOST / WIDTH;
 /// Fewer rays are faster one by one.
-const LEAST: usize = 4;
+pub const LEAST: usize = 4;
 
 /// Looks for something for each ray of a packet among the pieces that it may meet.
 pub trait PacketSeeker {
@@ -74,7 +74,7 @@ struct PacketAxis {
 
 impl Packet {
     /// `None` where the rays do not all go the same way along each axis, or one starts too far off.
-    fn new(rays: &[Ray], limits: &[f64], space: &Space) -> Option<Self> {
+    fn new(rays: &[&Ray], limits: &[f64], space: &Space) -> Option<Self> {
         // The starts and the reciprocals by axis; in lanes without a ray, those of the first.
         let first = starts(rays.first()?, 0.0, space)?;
         let mut all = first.map(|axis| axis.map(|value| [value; MOST]));
@@ -165,13 +165,20 @@ struct Waiting {
     child: Child,
     node: u32,
     lane: u32,
+    /// The first group with a ray that enters it.
+    group: usize,
 }
 
 impl Tree {
     /// Shows `seeker`, for each of up to [`MOST`] rays, every run of pieces whose box it meets at its limit or
     /// before. Fast where the rays go much the same way.
     #[inline(never)]
-    pub fn visit_together(&self, rays: &[Ray], limits: &mut [f64], seeker: &mut impl PacketSeeker) {
+    pub fn visit_together(
+        &self,
+        rays: &[&Ray],
+        limits: &mut [f64],
+        seeker: &mut impl PacketSeeker,
+    ) {
         let packet =
             (rays.len() >= LEAST).then(|| Packet::new(rays, limits, &self.space)).flatten();
         let Some(mut packet) = packet else {
@@ -184,10 +191,10 @@ impl Tree {
         let mut stack: SmallVec<[Waiting; STACK]> = SmallVec::new();
         let mut next = Waiting { child: Child::node(0), ..Waiting::default() };
         loop {
-            let Waiting { child, node, lane, .. } = next;
+            let Waiting { child, node, lane, group: first, .. } = next;
             if child.is_leaf() {
                 let node = &self.nodes[node as usize];
-                for group in 0..groups {
+                for group in first..groups {
                     let mut mask = packet.enter(group, node, lane as usize);
                     while mask != 0 {
                         let lane = (mask.trailing_zeros() & 3) as usize;
@@ -207,31 +214,29 @@ impl Tree {
                 let node = &self.nodes[index as usize];
                 let (entry, mut mask) = packet.entries(node);
                 if mask != 0 {
-                    // The nearest is next, the others wait, the nearest of them on top.
+                    // Those that a ray enters wait, the nearest on top.
                     let entry = entry.to_array();
-                    let waiting = |lane: usize| Waiting {
-                        entry: entry[lane],
-                        child: node.children[lane],
-                        node: index,
-                        lane: lane as u32,
-                    };
-                    next = waiting((mask.trailing_zeros() & 3) as usize);
-                    mask &= mask - 1;
                     let bottom = stack.len();
                     while mask != 0 {
-                        let mut other = waiting((mask.trailing_zeros() & 3) as usize);
+                        let lane = (mask.trailing_zeros() & 3) as usize;
                         mask &= mask - 1;
-                        if other.entry < next.entry {
-                            (next, other) = (other, next);
+                        let mut group = first;
+                        while group < groups && packet.enter(group, node, lane) == 0 {
+                            group += 1;
                         }
+                        if group == groups {
+                            continue;
+                        }
+                        let child = node.children[lane];
+                        let (entry, lane) = (entry[lane], lane as u32);
+                        let waiting = Waiting { entry, child, node: index, lane, group };
                         let mut place = stack.len();
-                        stack.push(other);
-                        while place > bottom && stack[place - 1].entry < other.entry {
+                        stack.push(waiting);
+                        while place > bottom && stack[place - 1].entry < entry {
                             stack.swap(place - 1, place);
                             place -= 1;
                         }
                     }
-                    continue;
                 }
             }
             next = loop {

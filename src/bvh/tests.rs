@@ -133,7 +133,8 @@ fn every_box_that_a_ray_of_a_packet_meets_is_shown_for_it() {
                 rays.iter().map(|_| [f64::INFINITY, size][random.below(2)]).collect();
             let shown = vec![vec![false; count]; rays.len()];
             let mut noted = Noted { order: &order, shown };
-            tree.visit_together(&rays, &mut given.clone(), &mut noted);
+            let together: Vec<&Ray> = rays.iter().collect();
+            tree.visit_together(&together, &mut given.clone(), &mut noted);
             for ((ray, limit), shown) in rays.iter().zip(given).zip(noted.shown) {
                 for (bounds, shown) in all.iter().zip(shown) {
                     let met = is_met(bounds, ray, 0.0, limit);

@@ -1,7 +1,7 @@
 //! `lucarne plan`: prints what will be simulated, what requires it, what it costs, and what is left out.
 
 use lucarne::pilot::pilot;
-use lucarne::plan::{Antialias, Effect, Kernel, Measured, Plan, plan, print};
+use lucarne::plan::{Antialias, Effect, Measured, Plan, plan, print};
 use lucarne::road::Road;
 use lucarne::source::{Position, Site, Sources, Span};
 use serde::Serialize;
@@ -60,8 +60,7 @@ struct Report<'a> {
     adc_bailout: f64,
     root_tolerance: f64,
     julia_iterations: Option<u32>,
-    kernel: &'a str,
-    kernels_compiled: Vec<&'a str>,
+    stages: Vec<&'a str>,
     effects: Vec<Row<'a>>,
     dropped: Vec<Part<'a>>,
     shapes: Vec<Shapes<'a>>,
@@ -229,8 +228,7 @@ impl<'a> Report<'a> {
             adc_bailout: plan.adc_bailout,
             root_tolerance: plan.root_tolerance,
             julia_iterations: plan.julia_iterations,
-            kernel: plan.kernel.name(),
-            kernels_compiled: Kernel::ALL.map(Kernel::name).to_vec(),
+            stages: plan.stages.iter().map(|stage| stage.name()).collect(),
             effects,
             dropped: plan
                 .dropped

@@ -182,11 +182,9 @@ impl Probe {
     fn trace(&self, origin: Vector, direction: UnitVector) -> Option<(Vector, Vector)> {
         let ray = Ray { origin, direction: direction.get() };
         let hit = self.geometry.nearest(&ray)?;
-        let surface = geometry::surface::<{ geometry::ANY }>(&self.world, &ray, &hit);
+        let surface = geometry::surface(&self.world, &ray, &hit);
         // As given, whichever side is seen.
-        if let Some(smooth) =
-            geometry::shading_normal::<{ geometry::ANY }>(&self.world, &hit, &surface)
-        {
+        if let Some(smooth) = geometry::shading_normal(&self.world, &hit, &surface) {
             return Some((surface.point, smooth + Vector::ZERO));
         }
         // Out of an inverse object it points into the shape; that of a mesh is as its corners turn, be it a

@@ -8,7 +8,7 @@
 use super::nearest::Hit;
 use super::search::Each;
 use super::work::Uncounted;
-use super::{ANY, Entry, Geometry, Solid, TIGHT};
+use super::{Entry, Geometry, Solid, TIGHT};
 use crate::math::Vector;
 use crate::math::placement::norm;
 use crate::shape::Ray;
@@ -74,7 +74,7 @@ impl Geometry {
         let (mut grain, mut is_clear) = (Grain::NOTHING, false);
         let look = |place: usize, _: &mut Uncounted| {
             let entry = &self.entries[place];
-            if self.first_crossing::<TIGHT, ANY>(entry, ray, limit).is_some() {
+            if self.first_crossing::<TIGHT>(entry, ray, limit).is_some() {
                 grain = grain.and(self.grains[place]);
                 is_clear |= entry.filters || entry.clear;
             }

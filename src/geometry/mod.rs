@@ -94,17 +94,6 @@ enum Solid {
     Whole(u32),
 }
 
-impl Solid {
-    /// A sphere, a plane or a box.
-    #[inline(always)]
-    fn is_plain(&self) -> bool {
-        match self {
-            Self::Sphere(_) | Self::Plane(_) | Self::Box(_) => true,
-            Self::Ellipsoid(_) | Self::Placed(_) | Self::Whole(_) => false,
-        }
-    }
-}
-
 impl Geometry {
     pub fn build(world: &World) -> Self {
         let part = |holds: fn(&Object) -> bool| {
@@ -277,15 +266,12 @@ impl Geometry {
     /// Where the ray first meets a side of the object that is seen, at `limit` or before, and whether
     /// it leaves the solid there. The error bound is the tightest or, at less cost, an easy one.
     #[inline(always)]
-    fn first_crossing<const BOUND: bool, const KINDS: bool>(
+    fn first_crossing<const BOUND: bool>(
         &self,
         entry: &Entry,
         ray: &Ray,
         limit: f64,
     ) -> Option<Hit> {
-        if KINDS == PLAIN && !entry.solid.is_plain() {
-            not_plain();
-        }
         let hit = |met| Some(entry.hit(met));
         let chord = match &entry.solid {
             Solid::Sphere(sphere) => {
@@ -345,18 +331,6 @@ impl Geometry {
         (met.t <= limit).then(|| placed.shared(ray, &met))
     }
 }
-
-/// A search without code for bodies has met one: its caller broke the promise of [`PLAIN`].
-#[cold]
-#[inline(never)]
-fn not_plain() -> ! {
-    panic!("a body among spheres, planes and boxes")
-}
-
-/// For which kinds of solid there is code: for spheres, planes and boxes alone, where a World has no others, or
-/// for any.
-pub const PLAIN: bool = false;
-pub const ANY: bool = true;
 
 /// Which error bound of a crossing is wanted.
 const EASY: bool = false;

@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 use super::search::{Each, Seeker};
 use super::work::{Tally, Uncounted};
-use super::{ANY, EASY, Geometry, TIGHT, Work};
+use super::{EASY, Geometry, TIGHT, Work};
 use crate::bvh::packet;
 use crate::shape::Ray;
 use crate::shape::local::Met;
@@ -53,54 +53,48 @@ impl Geometry {
     /// search, one of two coinciding faces wins everywhere, and glass on a floor shows the floor.
     /// Where opaque surfaces only touch, that which is nearer all around is seen.
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        self.nearest_counted::<ANY>(ray, &mut Work::default()).found()
+        self.nearest_counted(ray, &mut Work::default()).found()
     }
 
     /// As [`Geometry::nearest`], or [`Hit::NOTHING`]; what it takes is added to `work` by a geometry that is
     /// [`Geometry::counting`].
     #[inline(always)]
-    pub fn nearest_counted<const KINDS: bool>(&self, ray: &Ray, work: &mut Work) -> Hit {
+    pub fn nearest_counted(&self, ray: &Ray, work: &mut Work) -> Hit {
         if self.counts {
             return self.nearest_while_counting(ray, work);
         }
-        self.nearest_with::<KINDS>(ray, Uncounted)
-    }
-
-    /// Whether it pays to find what several rays meet together.
-    pub fn has_tree(&self) -> bool {
-        self.tree.is_some()
+        self.nearest_with(ray, Uncounted)
     }
 
     /// As [`Geometry::nearest_counted`] for up to [`packet::MOST`] rays, which are found together where they go
     /// much the same way: adds a hit for each to `hits`.
-    pub fn nearest_together<const KINDS: bool>(
-        &self,
-        rays: &[Ray],
-        hits: &mut Vec<Hit>,
-        work: &mut Work,
-    ) {
+    pub fn nearest_together(&self, rays: &[&Ray], hits: &mut Vec<Hit>, work: &mut Work) {
         if self.counts {
             let mut works = [Work::default(); packet::MOST];
-            self.race_together::<ANY, _>(rays, hits, works.iter_mut());
+            self.race_together(rays, hits, works.iter_mut());
             works.into_iter().for_each(|one| *work += one);
             return;
         }
+        if self.tree.is_none() || rays.len() < packet::LEAST {
+            hits.extend(rays.iter().map(|ray| self.nearest_with(ray, Uncounted)));
+            return;
+        }
         let tallies = std::iter::repeat_with(|| Uncounted);
-        self.race_together::<KINDS, _>(rays, hits, tallies);
+        self.race_together(rays, hits, tallies);
     }
 
     #[inline(never)]
-    fn race_together<const KINDS: bool, T: Tally>(
+    fn race_together<T: Tally>(
         &self,
-        rays: &[Ray],
+        rays: &[&Ray],
         hits: &mut Vec<Hit>,
         tallies: impl Iterator<Item = T>,
     ) {
-        let mut races: SmallVec<[Race<T, KINDS>; packet::MOST]> = SmallVec::new();
+        let mut races: SmallVec<[Race<T>; packet::MOST]> = SmallVec::new();
         for (ray, tally) in rays.iter().zip(tallies) {
             races.push(Race::new(self, ray, tally));
         }
-        self.search_together(rays, &mut races);
+        self.search_together(rays, [f64::INFINITY; packet::MOST], &mut races);
         for race in races {
             hits.push(race.finish());
         }
@@ -110,19 +104,19 @@ impl Geometry {
     #[cold]
     #[inline(never)]
     fn nearest_while_counting(&self, ray: &Ray, work: &mut Work) -> Hit {
-        self.nearest_with::<ANY>(ray, work)
+        self.nearest_with(ray, work)
     }
 
     #[inline(always)]
-    fn nearest_with<const KINDS: bool>(&self, ray: &Ray, tally: impl Tally) -> Hit {
-        let mut race = Race::<_, KINDS>::new(self, ray, tally);
+    fn nearest_with(&self, ray: &Ray, tally: impl Tally) -> Hit {
+        let mut race = Race::new(self, ray, tally);
         self.search(ray, f64::INFINITY, &mut race);
         race.finish()
     }
 
     /// The nearest hit; contested where it cannot be told which that is.
     pub(super) fn raced(&self, ray: &Ray) -> Option<Hit> {
-        let mut race = Race::<_, ANY>::new(self, ray, Uncounted);
+        let mut race = Race::new(self, ray, Uncounted);
         self.search(ray, f64::INFINITY, &mut race);
         let contested = race.contested();
         race.winner().found().map(|hit| Hit { contested: contested || hit.contested, ..hit })
@@ -145,7 +139,7 @@ impl Geometry {
             if first.is_none_or(|first| rank < first.0) {
                 tally.root_solve(|| self.price(entry));
                 let hit = |hit| (rank, Hit { contested: true, ..hit });
-                let crossing = self.first_crossing::<TIGHT, ANY>(entry, ray, limit);
+                let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
                 first = crossing.map(hit).or(first);
             }
             limit
@@ -160,7 +154,7 @@ impl Geometry {
         let look = |place: usize, tally: &mut T| {
             let entry = &self.entries[place];
             tally.root_solve(|| self.price(entry));
-            let crossing = self.first_crossing::<TIGHT, ANY>(entry, ray, limit);
+            let crossing = self.first_crossing::<TIGHT>(entry, ray, limit);
             if let Some(Hit { t, error, .. }) = crossing {
                 limit = limit.min(t + 2.0 * error);
             }
@@ -172,7 +166,7 @@ impl Geometry {
 }
 
 /// Looks for the nearest crossing, and for another that may be as near.
-struct Race<'a, T, const KINDS: bool> {
+struct Race<'a, T> {
     geometry: &'a Geometry,
     ray: &'a Ray,
     /// The nearest crossing so far. Field by field: a whole [`Hit`] would be read before its parts are written.
@@ -189,7 +183,7 @@ struct Race<'a, T, const KINDS: bool> {
     tally: T,
 }
 
-impl<'a, T: Tally, const KINDS: bool> Race<'a, T, KINDS> {
+impl<'a, T: Tally> Race<'a, T> {
     #[inline(always)]
     fn new(geometry: &'a Geometry, ray: &'a Ray, tally: T) -> Self {
         let Hit { object, t, leaving, part, contested: is_contested, .. } = Hit::NOTHING;
@@ -219,7 +213,7 @@ impl<'a, T: Tally, const KINDS: bool> Race<'a, T, KINDS> {
     }
 }
 
-impl<T: Tally, const KINDS: bool> Seeker for Race<'_, T, KINDS> {
+impl<T: Tally> Seeker for Race<'_, T> {
     type Tally = T;
 
     #[inline(always)]
@@ -231,7 +225,7 @@ impl<T: Tally, const KINDS: bool> Seeker for Race<'_, T, KINDS> {
     fn look(&mut self, place: usize) -> f64 {
         let entry = &self.geometry.entries[place];
         self.tally.root_solve(|| self.geometry.price(entry));
-        let crossing = self.geometry.first_crossing::<EASY, KINDS>(entry, self.ray, self.limit);
+        let crossing = self.geometry.first_crossing::<EASY>(entry, self.ray, self.limit);
         if let Some(hit) = crossing {
             if hit.t < self.t {
                 self.rival_t = self.t;

@@ -1,8 +1,11 @@
 //! Whether something stands between a place and a light.
 
+use smallvec::SmallVec;
+
 use super::search::Seeker;
 use super::work::{Tally, Uncounted};
-use super::{ANY, EASY, Entry, Geometry, Hit, Sides, Solid, TIGHT, Work};
+use super::{EASY, Entry, Geometry, Hit, Sides, Solid, TIGHT, Work};
+use crate::bvh::packet;
 use crate::shape::Ray;
 use crate::shape::local::Met;
 
@@ -20,36 +23,91 @@ impl Geometry {
     /// Surfaces seen from one side shadow from that side.
     pub fn occluded(&self, ray: &Ray, distance: f64) -> bool {
         let mut work = Work::default();
-        self.occluder::<ANY>(ray, distance, Occluder::NONE, &mut work) != Occluder::NONE
+        self.occluder(ray, distance, Occluder::NONE, &mut work) != Occluder::NONE
     }
 
     /// As [`Geometry::occluded`], and by what. `guess` is tried first: what shadowed the last ray
     /// is likely to shadow the next, and any answer but `NONE` is as good as another. What it takes
     /// is added to `work` by a geometry that is [`Geometry::counting`].
     #[inline(always)]
-    pub fn occluder<const KINDS: bool>(
-        &self,
-        ray: &Ray,
-        distance: f64,
-        guess: Occluder,
-        work: &mut Work,
-    ) -> Occluder {
+    pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder, work: &mut Work) -> Occluder {
         match self.counts {
-            true => self.occluder_with::<ANY>(ray, distance, guess, work),
-            false => self.occluder_with::<KINDS>(ray, distance, guess, Uncounted),
+            true => self.occluder_with(ray, distance, guess, work),
+            false => self.occluder_with(ray, distance, guess, Uncounted),
         }
     }
 
+    /// Whether [`Geometry::occluded`], for each of up to [`packet::MOST`] rays with its distance, which are searched
+    /// together where they go much the same way: a bit for each. `guess` becomes what shadowed the last of them.
+    pub fn occluded_together(
+        &self,
+        rays: &[&Ray],
+        distances: &[f64],
+        guess: &mut Occluder,
+        work: &mut Work,
+    ) -> u32 {
+        if self.tree.is_none() || rays.len() < packet::LEAST {
+            let mut found = 0;
+            for (place, (ray, &distance)) in rays.iter().zip(distances).enumerate() {
+                let occluder = self.occluder(ray, distance, *guess, work);
+                if occluder != Occluder::NONE {
+                    (*guess, found) = (occluder, found | 1 << place);
+                }
+            }
+            return found;
+        }
+        if self.counts {
+            let mut works = [Work::default(); packet::MOST];
+            let found = self.shadows_together(rays, distances, guess, works.iter_mut());
+            works.into_iter().for_each(|one| *work += one);
+            return found;
+        }
+        self.shadows_together(rays, distances, guess, std::iter::repeat_with(|| Uncounted))
+    }
+
     #[inline(never)]
-    fn occluder_with<const KINDS: bool>(
+    fn shadows_together<T: Tally>(
+        &self,
+        rays: &[&Ray],
+        distances: &[f64],
+        guess: &mut Occluder,
+        tallies: impl Iterator<Item = T>,
+    ) -> u32 {
+        let mut limits = [f64::NEG_INFINITY; packet::MOST];
+        let mut shades: SmallVec<[Shade<T>; packet::MOST]> = SmallVec::new();
+        let guessed = self.entries.get(guess.0);
+        let mut is_done = true;
+        for (place, ((ray, &distance), tally)) in
+            rays.iter().zip(distances).zip(tallies).enumerate()
+        {
+            let mut shade = Shade { geometry: self, ray, distance, found: Occluder::NONE, tally };
+            match guessed.is_some_and(|entry| shade.shadows(entry)) {
+                true => shade.found = *guess,
+                false => (limits[place], is_done) = (distance, false),
+            }
+            shades.push(shade);
+        }
+        if !is_done {
+            self.search_together(rays, limits, &mut shades);
+        }
+        let mut found = 0;
+        for (place, shade) in shades.iter().enumerate() {
+            if shade.found != Occluder::NONE {
+                (*guess, found) = (shade.found, found | 1 << place);
+            }
+        }
+        found
+    }
+
+    #[inline(never)]
+    fn occluder_with(
         &self,
         ray: &Ray,
         distance: f64,
         guess: Occluder,
         tally: impl Tally,
     ) -> Occluder {
-        let mut shade =
-            Shade::<_, KINDS> { geometry: self, ray, distance, found: Occluder::NONE, tally };
+        let mut shade = Shade { geometry: self, ray, distance, found: Occluder::NONE, tally };
         if self.entries.get(guess.0).is_some_and(|entry| shade.shadows(entry)) {
             return guess;
         }
@@ -59,7 +117,7 @@ impl Geometry {
 }
 
 /// Looks for anything that shadows the ray.
-struct Shade<'a, T, const KINDS: bool> {
+struct Shade<'a, T> {
     geometry: &'a Geometry,
     ray: &'a Ray,
     distance: f64,
@@ -67,7 +125,7 @@ struct Shade<'a, T, const KINDS: bool> {
     tally: T,
 }
 
-impl<T: Tally, const KINDS: bool> Shade<'_, T, KINDS> {
+impl<T: Tally> Shade<'_, T> {
     #[inline(always)]
     fn shadows(&mut self, entry: &Entry) -> bool {
         if !entry.blocks {
@@ -75,18 +133,14 @@ impl<T: Tally, const KINDS: bool> Shade<'_, T, KINDS> {
         }
         let Self { geometry, ray, distance, .. } = *self;
         self.tally.root_solve(|| geometry.price(entry));
-        if KINDS == ANY
-            && let Solid::Whole(whole) = entry.solid
-        {
+        if let Solid::Whole(whole) = entry.solid {
             return geometry.whole_shadows(whole, ray, distance);
         }
-        if KINDS == ANY
-            && let (Solid::Placed(i), Sides::Both) = (entry.solid, entry.sides)
-        {
+        if let (Solid::Placed(i), Sides::Both) = (entry.solid, entry.sides) {
             let shadows = |met: &Met| Sides::Both.see(met) && met.t + met.error < distance;
             return geometry.placed[i as usize].crosses(ray, distance, shadows);
         }
-        let crossing = geometry.first_crossing::<EASY, KINDS>(entry, ray, distance);
+        let crossing = geometry.first_crossing::<EASY>(entry, ray, distance);
         crossing.is_some_and(|Hit { t, error, .. }| {
             t + error < distance || geometry.barely_shadows(entry, ray, distance)
         })
@@ -103,12 +157,12 @@ impl Geometry {
     #[cold]
     #[inline(never)]
     fn barely_shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
-        let crossing = self.first_crossing::<TIGHT, ANY>(entry, ray, distance);
+        let crossing = self.first_crossing::<TIGHT>(entry, ray, distance);
         crossing.is_some_and(|Hit { t, error, .. }| t + error < distance)
     }
 }
 
-impl<T: Tally, const KINDS: bool> Seeker for Shade<'_, T, KINDS> {
+impl<T: Tally> Seeker for Shade<'_, T> {
     type Tally = T;
 
     #[inline(always)]

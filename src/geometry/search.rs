@@ -82,18 +82,25 @@ impl Geometry {
 }
 
 impl Geometry {
-    /// [`Self::search`] for each of up to [`packet::MOST`] rays that go much the same way, each with its seeker.
-    pub(super) fn search_together(&self, rays: &[Ray], seekers: &mut [impl Seeker]) {
+    /// [`Self::search`] for each of up to [`packet::MOST`] rays that go much the same way, each with its seeker and
+    /// its limit; a ray of limit −∞ is left out.
+    pub(super) fn search_together(
+        &self,
+        rays: &[&Ray],
+        mut limits: [f64; packet::MOST],
+        seekers: &mut [impl Seeker],
+    ) {
         let Some(tree) = &self.tree else {
-            for (ray, seeker) in rays.iter().zip(seekers) {
-                self.search(ray, f64::INFINITY, seeker);
+            for ((ray, limit), seeker) in rays.iter().zip(limits).zip(seekers) {
+                if limit > f64::NEG_INFINITY {
+                    self.search(ray, limit, seeker);
+                }
             }
             return;
         };
-        let mut limits = [f64::INFINITY; packet::MOST];
         for ((ray, seeker), limit) in rays.iter().zip(&mut *seekers).zip(&mut limits) {
             for place in 0..self.unbounded {
-                if self.entries[place].is_ahead(ray) {
+                if *limit > f64::NEG_INFINITY && self.entries[place].is_ahead(ray) {
                     *limit = look(seeker, place);
                 }
             }
@@ -115,6 +122,9 @@ impl<S: Seeker> PacketSeeker for PacketEntries<'_, S> {
     fn leaf(&mut self, ray: usize, pieces: Range<usize>, mut limit: f64) -> f64 {
         for piece in pieces {
             limit = self.seekers[ray].look(self.first + piece);
+            if limit == f64::NEG_INFINITY {
+                break;
+            }
         }
         limit
     }

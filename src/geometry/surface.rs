@@ -2,7 +2,7 @@
 //!
 //! **In:** a ray and its hit. **Out:** the point, its normals, and how far off they may be.
 
-use super::{Hit, PLAIN, edge, not_plain};
+use super::{Hit, edge};
 use crate::math::Vector;
 use crate::shape::local::Met;
 use crate::shape::{Chord, Ray, Shape, SurfacePoint};
@@ -10,12 +10,9 @@ use crate::world::World;
 
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.
 #[inline(always)]
-pub fn surface<const KINDS: bool>(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
+pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
     let Hit { object, t, leaving, part, .. } = *hit;
     let shape = world.objects[object as usize].shape;
-    if KINDS == PLAIN && !shape.is_plain() {
-        not_plain();
-    }
     match shape {
         Shape::Sphere(i) => world.spheres[i as usize].surface(ray, t),
         Shape::Plane(i) => world.planes[i as usize].surface(ray, t),
@@ -33,14 +30,7 @@ pub fn surface<const KINDS: bool>(world: &World, ray: &Ray, hit: &Hit) -> Surfac
 
 /// The unit normal by which the surface at a hit is lit, on either side; `None` where that is its own.
 #[inline(always)]
-pub fn shading_normal<const KINDS: bool>(
-    world: &World,
-    hit: &Hit,
-    surface: &SurfacePoint,
-) -> Option<Vector> {
-    if KINDS == PLAIN {
-        return None;
-    }
+pub fn shading_normal(world: &World, hit: &Hit, surface: &SurfacePoint) -> Option<Vector> {
     let shape = world.objects[hit.object as usize].shape;
     match shape {
         Shape::Placed(i) => world.placed[i as usize].shading_normal(surface),

@@ -185,7 +185,7 @@ fn a_point_is_nowhere_farther_off_than_is_easily_said() {
         for _ in 0..tries_in(60) {
             let ray = random_ray(&mut random, &world, reach);
             let Some(hit) = geometry.nearest(&ray) else { continue };
-            let surface = surface::<ANY>(&world, &ray, &hit);
+            let surface = surface(&world, &ray, &hit);
             let easy = surface.spread_at_most(&ray, hit.t, hit.error);
             // Along a surface nothing is known.
             if easy.is_finite() {
@@ -224,7 +224,7 @@ fn something_is_in_the_way_exactly_when_a_first_hit_of_the_casters_is_certainly_
             let distance = random.size(-2.0, 2.0);
             let first = casters.nearest(&ray).and_then(|hit| {
                 let entry = casters.entries.iter().find(|entry| entry.object == hit.object)?;
-                casters.first_crossing::<TIGHT, ANY>(entry, &ray, hit.t)
+                casters.first_crossing::<TIGHT>(entry, &ray, hit.t)
             });
             let nearer = first.is_some_and(|first| first.t + first.error < distance);
             assert_eq!(all.occluded(&ray, distance), nearer, "{ray:?} {distance}");
@@ -245,8 +245,8 @@ fn an_easy_bound_is_of_the_same_crossing_and_never_under_the_tightest() {
         for _ in 0..tries_in(40) {
             let ray = random_ray(&mut random, &world, reach);
             for entry in &geometry.entries {
-                let tight = geometry.first_crossing::<TIGHT, ANY>(entry, &ray, f64::INFINITY);
-                let easy = geometry.first_crossing::<EASY, ANY>(entry, &ray, f64::INFINITY);
+                let tight = geometry.first_crossing::<TIGHT>(entry, &ray, f64::INFINITY);
+                let easy = geometry.first_crossing::<EASY>(entry, &ray, f64::INFINITY);
                 let both = |found: Option<Hit>| found.map(|hit| (hit.t, hit.leaving));
                 assert_eq!(both(easy), both(tight), "{ray:?} {entry:?}");
                 if let (Some(easy), Some(tight)) = (easy, tight) {

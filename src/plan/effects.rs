@@ -9,7 +9,7 @@ use super::kinds::kinds;
 use super::numerics::numerics;
 use super::print::count;
 use super::surfaces::surfaces;
-use super::{Antialias, Called, Effect, Kernel, LeftOut, Plan, PlanOptions};
+use super::{Antialias, Called, Effect, LeftOut, Plan, PlanOptions, Stage};
 use crate::source::Site;
 use crate::world::{
     Interior, InteriorOrigin, Light, Object, Origins, Pigment, Plain, Texture, TextureOrigin, World,
@@ -28,7 +28,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         adc_bailout: options.adc_bailout.unwrap_or(world.settings.adc_bailout),
         root_tolerance: options.root_tolerance,
         julia_iterations: options.julia_iterations,
-        kernel: Kernel { shadows: false, secondary: false, bodies: false },
+        stages: Vec::new(),
         effects: Vec::new(),
         left_out: Vec::new(),
         dropped: dropped(world, origins),
@@ -47,14 +47,14 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
             Err((why, site)) => plan.left_out.push(LeftOut { effect, why, site }),
         }
     }
-    plan.kernel = Kernel {
-        shadows: plan.simulates(Effect::Shadows),
-        secondary: plan.simulates(Effect::Reflection) || plan.simulates(Effect::Transparency),
-        bodies: !world
-            .objects
-            .iter()
-            .all(|object| object.csg_solid.is_none() && object.shape.is_plain()),
-    };
+    let scatters = plan.simulates(Effect::Reflection) || plan.simulates(Effect::Transparency);
+    plan.stages = Stage::ALL.to_vec();
+    plan.stages.retain(|stage| match stage {
+        Stage::Camera | Stage::Intersect | Stage::Surface => true,
+        Stage::Light => !world.lights.is_empty(),
+        Stage::Shadow => plan.effects.iter().any(|called| called.effect == Effect::Shadows),
+        Stage::Scatter | Stage::Fold => scatters,
+    });
     plan
 }
 

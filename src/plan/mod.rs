@@ -1,24 +1,23 @@
 //! Plans how to trace a World: which effects to simulate and why, the value of each setting, and the
-//! kernel.
+//! stages that rays pass through.
 //!
 //! **Invariant:** each effect is listed once, as simulated or as left out. Pruning is exact or not done.
 //! Values of zero weight are not in the World (`lower` drops and reports them), so the Plan depends only on
-//! what the World contains. Shadows and secondary rays are hot: the tracer has a kernel for each
-//! combination. Patterns, lights and lobes are data: the tracer evaluates those that exist.
+//! what the World contains. Patterns, lights and lobes are data: the tracer evaluates those that exist.
 
 mod dropped;
 mod effects;
 mod extent;
-mod kernel;
 mod kinds;
 mod numerics;
 pub mod print;
+mod stage;
 mod surfaces;
 
 pub use effects::plan;
-pub use kernel::Kernel;
 pub use kinds::Kind;
 pub use numerics::{Measured, Numerics, Thin};
+pub use stage::Stage;
 
 use crate::source::Site;
 use crate::world::Dropped;
@@ -190,7 +189,8 @@ pub struct Plan {
     pub root_tolerance: f64,
     /// See [`Arithmetic`].
     pub julia_iterations: Option<u32>,
-    pub kernel: Kernel,
+    /// The stages that run, in their order.
+    pub stages: Vec<Stage>,
     /// Effects that are simulated.
     pub effects: Vec<Called>,
     /// Effects that are not simulated, and why.
@@ -247,6 +247,11 @@ pub struct Pilot {
 }
 
 impl Plan {
+    /// Returns whether a stage runs.
+    pub fn runs(&self, stage: Stage) -> bool {
+        self.stages.contains(&stage)
+    }
+
     pub fn simulates(&self, effect: Effect) -> bool {
         self.called(effect).is_some()
     }

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use super::{Antialias, Called, Effect, Kernel, Kind, Measured, Plan};
+use super::{Antialias, Called, Effect, Kind, Measured, Plan};
 use crate::source::{Site, Sources, Span};
 use crate::world::Coinciding;
 
@@ -12,7 +12,7 @@ const PLACES_SHOWN: usize = 3;
 /// Maximum number of characters quoted from the source.
 const QUOTE: usize = 48;
 
-/// Formats the settings and the kernel; each effect, with its cause and cost or the reason why it is off;
+/// Formats the settings and the stages; each effect, with its cause and cost or the reason why it is off;
 /// what was dropped; and the numerical difficulties.
 pub fn dump(plan: &Plan, sources: &Sources) -> String {
     let mut out = String::new();
@@ -88,14 +88,8 @@ impl Printer<'_> {
         if let Some(most) = plan.julia_iterations {
             writeln!(out, "julia_iterations {most}")?;
         }
-        let Kernel { shadows, secondary, bodies: _ } = plan.kernel;
-        let kernel = match (shadows, secondary) {
-            (false, false) => "the camera's alone",
-            (true, false) => "the camera's, and to lights",
-            (false, true) => "the camera's, and from surface to surface",
-            (true, true) => "the camera's, to lights, and from surface to surface",
-        };
-        writeln!(out, "rays traced: {kernel}")?;
+        let stages: Vec<&str> = plan.stages.iter().map(|stage| stage.name()).collect();
+        writeln!(out, "stages: {}", stages.join(", "))?;
         let (on, off) = (plan.effects.len(), plan.left_out.len());
         let dropped = plan.dropped.len();
         writeln!(out, "{} on, {off} off, {} dropped", count(on, "effect"), count(dropped, "part"))

@@ -4,29 +4,12 @@
 //! show and a region is an exact crop. Samples are averaged as they are, unclamped (as POV-Ray
 //! does): the film holds light, not what a display can show.
 
-use super::{Walk, Watch};
 use crate::color::{Gamma, Rgb, srgb_encode};
 use crate::film::Film;
 use crate::plan::Region;
 
-/// The mean of the `grid` × `grid` samples that `sample` gives, in a fixed order; of no meaning where
-/// the watch wants no more.
-#[inline(always)]
-pub(super) fn mean(
-    walk: &mut Walk,
-    watch: &dyn Watch,
-    grid: u32,
-    mut sample: impl FnMut(&mut Walk, u32, u32) -> Rgb,
-) -> Rgb {
-    let mut sum = Rgb::BLACK;
-    for j in 0..grid {
-        if j > 0 && walk.patience.is_over_after(grid, watch) {
-            break;
-        }
-        for i in 0..grid {
-            sum += sample(walk, i, j);
-        }
-    }
+/// The mean of `grid` × `grid` samples by their sum.
+pub(super) fn mean(sum: Rgb, grid: u32) -> Rgb {
     if grid == 1 {
         return sum;
     }
@@ -80,7 +63,6 @@ fn encode(radiance: Rgb, assumed_gamma: Gamma) -> [f64; 3] {
 mod tests {
     use super::*;
     use crate::plan::Frame;
-    use crate::trace::Unwatched;
 
     /// A gray film three pixels wide and high.
     fn film(assumed_gamma: Gamma, grays: [f64; 9]) -> Film {
@@ -111,11 +93,5 @@ mod tests {
         assert!(edge(1.0, 0.0, 0.02) && !edge(1.0, 0.9, 0.92));
         assert!(!edge(1.0, 5.0, 1.0) && !edge(1.0, -3.0, 0.0), "beyond white and black");
         assert!(!edge(2.2, 0.0, 0.02) && edge(2.2, 0.0, 0.2), "by the scene's gamma");
-    }
-
-    #[test]
-    fn the_mean_is_of_unclamped_light() {
-        let sample = |_: &mut Walk, i, j| Rgb::gray(f64::from(i * j) * 8.0);
-        assert_eq!(mean(&mut Walk::default(), &Unwatched, 2, sample), Rgb::gray(2.0));
     }
 }

@@ -47,6 +47,7 @@ impl Lens {
     }
 
     /// The ray through the point (`u`, `v`) of the screen.
+    #[inline(always)]
     fn through(&self, u: f64, v: f64) -> Ray {
         let along = |[right, up]: [Vector; 2]| right * u + up * v;
         Ray {

@@ -8,15 +8,15 @@
 //!
 //! **Source:** POV-Ray 3.7's behaviour, measured with random stacks of layers to 2/65,535.
 
+use super::batch::{Back, Onward};
 use super::media::Border;
-use super::onward::{Onward, add, go_on};
-use super::path::Tracer;
 use super::shade::{self, Flat, Place};
 use super::texture::SurfaceInteraction;
+use super::tracer::Tracer;
 use super::way::{Inside, Way};
 use super::{Walk, bumpy, dispersion, extras, reflection, refraction};
 use crate::color::{Clearness, Color, Rgb};
-use crate::geometry::{self, ANY, Hit};
+use crate::geometry::{self, Hit};
 use crate::math::Vector;
 use crate::shape::Ray;
 use crate::texture;
@@ -213,24 +213,19 @@ impl<'a: 'p, 'p> Surface<'a, 'p> {
 }
 
 impl<'a> Tracer<'a> {
-    /// Returns the light that a texture with parts sends back by itself, and the ray that goes on next; further
-    /// rays wait on the stack. `ends`: no ray goes on.
+    /// Returns the light that a texture with parts sends back by itself, and adds the rays that go on to the walk's;
+    /// what they see goes back `to` the surface of that number.
     #[inline(never)]
-    pub(super) fn composite<const SHADOWS: bool, const COUNTS: bool>(
-        &self,
-        walk: &mut Walk,
-        way: Way,
-        hit: &Hit,
-        ends: bool,
-    ) -> (Rgb, Option<Way>) {
+    pub(super) fn composite(&self, walk: &mut Walk, way: &Way, hit: &Hit, to: u32) -> Rgb {
+        let ends = !self.secondary || way.level >= self.max_trace_level;
         let world = self.world;
         let object = &world.objects[hit.object as usize];
         let number = world.coat(object, hit.leaving).texture as usize;
         let texture = &world.textures[number];
-        let point = geometry::surface::<ANY>(world, &way.ray, hit);
+        let point = geometry::surface(world, &way.ray, hit);
         let facing = if hit.leaving { -point.normal } else { point.normal };
         let behind = point.spawn(-facing);
-        let (normal, flat) = match geometry::shading_normal::<ANY>(world, hit, &point) {
+        let (normal, flat) = match geometry::shading_normal(world, hit, &point) {
             None => (facing, None),
             Some(smooth) => {
                 let smooth = if smooth.dot(way.ray.direction) > 0.0 { -smooth } else { smooth };
@@ -242,19 +237,19 @@ impl<'a> Tracer<'a> {
         if !ends && clear && hit.contested {
             let straight = Ray { origin: behind, direction: way.ray.direction };
             let Walk { coinciding, counters, .. } = walk;
-            self.met_by(&way).coinciding(&way.ray, hit, &straight, coinciding, &mut counters.work);
+            self.met_by(way).coinciding(&way.ray, hit, &straight, coinciding, &mut counters.work);
         }
-        if COUNTS && !ends {
+        if self.counts && !ends {
             walk.counters.evaluations.refraction += u64::from(self.bends);
         }
         let border = match self.bends && !ends {
-            true => walk.media.border(world, hit, &walk.coinciding, way.spectrum),
-            false => Border::NONE,
+            true => walk.media.border(world, way, hit, &walk.coinciding),
+            false => Border::none(way.within),
         };
-        let Border { from, to, .. } = border;
+        let Border { from, to: after, within: [within, within_behind], .. } = border;
         let left = border.left_after(world, hit.t);
         let samples = border.samples(world).filter(|_| way.spectrum.is_none());
-        if COUNTS {
+        if self.counts {
             walk.counters.evaluations.absorption += u64::from(left != Rgb::WHITE);
             walk.counters.evaluations.dispersion += u64::from(samples.is_some());
         }
@@ -264,13 +259,13 @@ impl<'a> Tracer<'a> {
             refraction::bent(way.ray.direction, toward, from, to)
         };
         // Mirrors are the same for all colours.
-        let [before, after] = match way.spectrum {
-            None => [from, to],
+        let [before, beyond] = match way.spectrum {
+            None => [from, after],
             Some(_) => border.indices(world, None),
         };
         let fresnel = |normal: Vector| {
-            let bent = bent_between(normal, [before, after]);
-            bent.map_or(1.0, |bent| refraction::fresnel(before, after, bent.cosines))
+            let bent = bent_between(normal, [before, beyond]);
+            bent.map_or(1.0, |bent| refraction::fresnel(before, beyond, bent.cosines))
         };
         let around = SurfaceInteraction::new(self, &way.ray, hit, &point);
         let surface = Surface {
@@ -289,12 +284,13 @@ impl<'a> Tracer<'a> {
         walk.arrived.clear();
         walk.arrived.resize(world.lights.len(), [None; 2]);
         let mut local = Rgb::BLACK;
-        let (mut mirrored, mut open) = (Vec::new(), SmallVec::<[Open; 1]>::new());
+        let (since, since_behind) = (walk.onward.len(), walk.behind.len());
+        let mut open = SmallVec::<[Open; 1]>::new();
         for stack in &stacks {
             let mut own_mirrors = SmallVec::<[Onward; 1]>::new();
             // Of `refraction` only the top layer's counts, and none in a blend (measured).
             let top = stack.parts.first().filter(|_| matches!(texture, Texture::Layers(_)));
-            let passed = top.map_or(1.0, |part| super::path::passed(&part.plain.finish));
+            let passed = top.map_or(1.0, |part| super::transmission::passed(&part.plain.finish));
             for part in &stack.parts {
                 let share = stack.share * part.share;
                 let clearness = match part.tints {
@@ -314,20 +310,15 @@ impl<'a> Tracer<'a> {
                     },
                     smooth: part.plain.normal.as_ref().map(|_| normal),
                     to_viewer: -way.ray.direction,
+                    within: way.within,
                 };
                 walk.part += 1;
-                let mut own = shade::local::<SHADOWS, ANY, COUNTS>(self, walk, &place);
+                let mut own = shade::local(self, walk, &place);
                 if shade::is_lit_behind(place.finish, object.double_illuminate) {
-                    if COUNTS {
+                    if self.counts {
                         walk.counters.evaluations.from_behind += 1;
                     }
-                    own += shade::from_behind::<SHADOWS, COUNTS>(
-                        self,
-                        walk,
-                        &place,
-                        behind,
-                        object.double_illuminate,
-                    );
+                    own += shade::from_behind(self, walk, &place, behind, object.double_illuminate);
                 }
                 if part.plain.finish.seed {
                     own = own.at_most_one();
@@ -342,10 +333,10 @@ impl<'a> Tracer<'a> {
                 let most = reflection::most(mirror, fresnel(part.normal));
                 let weight = way.weight * part.above.brightness() * part.share * most;
                 if weight >= self.adc_bailout && !factor.is_black() {
-                    let inside = (from != to && hit.leaving).then(|| Inside::of(hit));
-                    let way = Way { inside, ..way.mirrored(&place, weight) };
-                    let exponent = mirror.exponent;
-                    own_mirrors.push(Onward { way, factor, exponent, behind: false });
+                    let inside = (from != after && hit.leaving).then(|| Inside::of(hit));
+                    let way = Way { inside, within, ..way.mirrored(&place, weight) };
+                    let back = Back { to, factor, exponent: mirror.exponent };
+                    own_mirrors.push(Onward { way, back });
                 }
             }
             let factor = stack.through * others;
@@ -356,36 +347,36 @@ impl<'a> Tracer<'a> {
                 || factor.brightness().abs() < self.adc_bailout;
             let top = stack.parts.first().map_or(normal, |part| part.normal);
             // All light is thrown back, in the place of what the surface reflects (measured on POV-Ray 3.7).
-            let is_total = !is_cut && samples.is_none() && bent_between(top, [from, to]).is_none();
+            let is_total =
+                !is_cut && samples.is_none() && bent_between(top, [from, after]).is_none();
             if !is_total {
-                own_mirrors.into_iter().for_each(|mirror| add(&mut mirrored, 0, mirror));
+                own_mirrors.into_iter().for_each(|mirror| mirror.join(&mut walk.onward, since));
             }
             if !is_cut {
                 let factor = factor * left * (stack.share * passed);
                 open.push(Open { share: stack.share, factor, weight, top });
             }
         }
-        let mut through: Vec<Onward> = Vec::new();
         for sample in 0..samples.unwrap_or(1) {
-            let (spectrum, color, [from, to]) = match samples {
-                None => (way.spectrum, Rgb::WHITE, [from, to]),
+            let (spectrum, color, [from, after]) = match samples {
+                None => (way.spectrum, Rgb::WHITE, [from, after]),
                 Some(samples) => {
                     let spectrum = Some(dispersion::position(sample, samples));
                     let color = dispersion::color(sample, samples);
                     (spectrum, color, border.indices(world, spectrum))
                 }
             };
-            let since = through.len();
+            let since_sample = walk.behind.len();
             for &Open { share, factor, weight, top } in &open {
-                match bent_between(top, [from, to]) {
+                match bent_between(top, [from, after]) {
                     Some(bent) => {
                         let ray = Ray { origin: behind, direction: bent.direction };
-                        let level = if from == to { way.level } else { way.level + 1 };
-                        let inside = (from != to && !hit.leaving).then(|| Inside::of(hit));
-                        let way = Way { ray, weight, level, inside, spectrum, ..way };
-                        let factor = factor * color;
-                        let new = Onward { way, factor, exponent: 1.0, behind: true };
-                        add(&mut through, since, new);
+                        let level = if from == after { way.level } else { way.level + 1 };
+                        let inside = (from != after && !hit.leaving).then(|| Inside::of(hit));
+                        let within = within_behind;
+                        let way = Way { ray, weight, level, inside, spectrum, within, ..*way };
+                        let back = Back { to, factor: factor * color, exponent: 1.0 };
+                        Onward { way, back }.join(&mut walk.behind, since_sample);
                     }
                     // All light is thrown back.
                     None => {
@@ -394,26 +385,21 @@ impl<'a> Tracer<'a> {
                         let ray = Ray { origin: point.spawn(facing), direction };
                         let (level, inside) = (way.level + 1, hit.leaving.then(|| Inside::of(hit)));
                         let spectrum = way.spectrum;
-                        let way = Way { ray, weight, level, mirrored: true, inside, spectrum };
+                        let mirrored = true;
+                        let way = Way { ray, weight, level, mirrored, inside, spectrum, within };
                         let factor = match samples {
                             Some(_) => factor * color,
                             None => left * share,
                         };
-                        let new = Onward { way, factor, exponent: 1.0, behind: false };
-                        add(&mut mirrored, 0, new);
+                        let back = Back { to, factor, exponent: 1.0 };
+                        Onward { way, back }.join(&mut walk.onward, since);
                     }
                 }
             }
         }
         walk.part = 0;
-        if ends {
-            return (local, None);
-        }
-        if walk.patience.is_over_after(1, self.watch) {
-            walk.forks.clear();
-            return (local, None);
-        }
-        mirrored.append(&mut through);
-        (local, go_on(walk, local, false, mirrored))
+        walk.counters.reflection += (walk.onward.len() - since) as u64;
+        walk.counters.transmission += (walk.behind.len() - since_behind) as u64;
+        local
     }
 }

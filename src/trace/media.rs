@@ -8,6 +8,7 @@
 //! the camera inside.
 
 use super::dispersion;
+use super::way::Way;
 use crate::color::Rgb;
 use crate::geometry::Hit;
 use crate::math::Vector;
@@ -16,23 +17,27 @@ use crate::world::{Dispersion, Interior, World};
 /// The index of refraction of the air.
 const AIR: f64 = 1.0;
 
-/// The solids along one ray, and those that waiting rays are in.
+/// The solids that a ray is in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Within {
+    /// Those that this camera's ray of the batch starts in: nothing has asked yet.
+    Start(u32),
+    /// A list in [`Media`].
+    Known { first: u32, count: u32 },
+}
+
+/// The solids that the rays of a batch are in.
 #[derive(Debug, Default)]
 pub(super) struct Media {
-    /// Objects, the one entered last at the end. Read after [`Media::known`] only.
-    inside: Vec<u32>,
-    is_known: bool,
-    /// Where the camera's ray starts.
-    start: Vector,
+    /// Lists of objects, one after the other; in each, the one entered last at the end.
+    lists: Vec<u32>,
+    /// Where the camera's rays start.
+    starts: Vec<Vector>,
     /// What the place a ray last started from is in: a camera's rays often start in one place.
     last_start: Option<Vector>,
     at_last_start: Vec<u32>,
-    /// As `inside` will be behind the surface at hand.
-    behind: Vec<u32>,
-    /// The lists of rays that wait, one after the other.
-    waiting: Vec<u32>,
-    /// What a ray to a light is in.
-    along: Vec<u32>,
+    /// The list at hand.
+    list: Vec<u32>,
 }
 
 /// The media before a surface and behind it.
@@ -47,11 +52,16 @@ pub(super) struct Border {
     left: Option<u32>,
     /// The ray enters a solid, or leaves the last one that has an interior.
     is_outer: bool,
+    /// What a ray is in before the surface, and behind it.
+    pub within: [Within; 2],
 }
 
 impl Border {
-    pub const NONE: Self =
-        Self { from: AIR, to: AIR, sides: [None; 2], left: None, is_outer: false };
+    /// Where no interior changes any ray.
+    pub const fn none(within: Within) -> Self {
+        let within = [within; 2];
+        Self { from: AIR, to: AIR, sides: [None; 2], left: None, is_outer: false, within }
+    }
 
     /// Returns the indices of refraction for a position in the spectrum, or for all colours.
     pub fn indices(&self, world: &World, spectrum: Option<f64>) -> [f64; 2] {
@@ -78,67 +88,85 @@ impl Border {
 }
 
 impl Media {
-    /// A camera's ray starts; what it starts in is only asked for when a border is.
-    pub fn start(&mut self, start: Vector) {
-        (self.start, self.is_known) = (start, false);
-        self.waiting.clear();
+    /// A batch of camera's rays starts; what one starts in is only asked for when a border is.
+    pub fn start(&mut self, ways: &[Way]) {
+        self.lists.clear();
+        self.starts.clear();
+        self.starts.extend(ways.iter().map(|way| way.ray.origin));
     }
 
-    /// Finds out what the ray's start is in, in the order of declaration.
-    fn know(&mut self, world: &World) {
-        if self.is_known {
-            return;
-        }
-        self.is_known = true;
-        let start = self.start;
-        if self.last_start != Some(start) {
-            self.last_start = Some(start);
-            let contains = |&i: &u32| world.csg_contains(&world.objects[i as usize], start);
-            self.at_last_start.clear();
-            self.at_last_start.extend(world.solids().filter(contains));
-        }
-        self.inside.clone_from(&self.at_last_start);
+    /// The room that lists take.
+    pub fn known(&self) -> usize {
+        self.lists.len()
     }
 
-    /// The border at `hit`, where the ray crosses `others`, too, that coincide with it. `spectrum` is the ray's
-    /// position in it.
-    pub fn border(
-        &mut self,
-        world: &World,
-        hit: &Hit,
-        others: &[Hit],
-        spectrum: Option<f64>,
-    ) -> Border {
-        self.know(world);
+    /// Forgets the lists that came after [`Media::known`] was that.
+    pub fn forget(&mut self, known: usize) {
+        self.lists.truncate(known);
+    }
+
+    /// Puts what a ray is in at hand; of a camera's ray in the order of declaration.
+    fn know(&mut self, world: &World, within: Within) {
+        self.list.clear();
+        match within {
+            Within::Known { first, count } => {
+                let list = first as usize..(first + count) as usize;
+                self.list.extend_from_slice(&self.lists[list]);
+            }
+            Within::Start(root) => {
+                let start = self.starts[root as usize];
+                if self.last_start != Some(start) {
+                    self.last_start = Some(start);
+                    let contains = |&i: &u32| world.csg_contains(&world.objects[i as usize], start);
+                    self.at_last_start.clear();
+                    self.at_last_start.extend(world.solids().filter(contains));
+                }
+                self.list.extend_from_slice(&self.at_last_start);
+            }
+        }
+    }
+
+    /// Keeps the list at hand.
+    fn keep(&mut self) -> Within {
+        let (first, count) = (self.lists.len() as u32, self.list.len() as u32);
+        self.lists.extend_from_slice(&self.list);
+        Within::Known { first, count }
+    }
+
+    /// The border at `hit`, where the ray `way` crosses `others`, too, that coincide with it.
+    pub fn border(&mut self, world: &World, way: &Way, hit: &Hit, others: &[Hit]) -> Border {
+        self.know(world, way.within);
+        let here = match way.within {
+            Within::Start(_) => self.keep(),
+            Within::Known { .. } => way.within,
+        };
         let interior = |&object: &u32| world.objects[object as usize].interior;
-        self.behind.clear();
-        self.behind.extend_from_slice(&self.inside);
-        let before = self.inside.last().and_then(interior);
+        let before = self.list.last().and_then(interior);
         let (mut left, mut enters) = (None, false);
         for crossed in others.iter().chain([hit]) {
-            let crossing = cross(world, &mut self.behind, crossed);
+            let crossing = cross(world, &mut self.list, crossed);
             enters = matches!(crossing, Crossed::Entered);
             if matches!(crossing, Crossed::Left) {
                 left = left.or(interior(&crossed.object));
             }
         }
-        let behind = self.behind.last().and_then(interior);
-        let [from, to] = [before, behind].map(|side| index(world, side, spectrum));
-        let is_outer = enters || self.behind.iter().all(|object| interior(object).is_none());
-        Border { from, to, sides: [before, behind], left, is_outer }
+        let behind = self.list.last().and_then(interior);
+        let [from, to] = [before, behind].map(|side| index(world, side, way.spectrum));
+        let is_outer = enters || self.list.iter().all(|object| interior(object).is_none());
+        let within = [here, self.keep()];
+        Border { from, to, sides: [before, behind], left, is_outer, within }
     }
 
-    /// Returns the part of light that is left of what comes along a ray from where the current one ends, which
-    /// crosses `hits` on its way.
+    /// Returns the part of light that is left of what comes along a ray that starts `within` solids and crosses
+    /// `hits` on its way.
     ///
     /// **Source:** POV-Ray 3.7's behaviour, measured.
-    pub fn left_of_light(&mut self, world: &World, hits: &mut [Hit]) -> Rgb {
-        self.know(world);
-        self.along.clone_from(&self.inside);
+    pub fn left_of_light(&mut self, world: &World, within: Within, hits: &mut [Hit]) -> Rgb {
+        self.know(world, within);
         hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.object.cmp(&b.object)));
         let (mut light, mut start) = (Rgb::WHITE, 0.0);
         for hit in hits {
-            if let Crossed::Left = cross(world, &mut self.along, hit)
+            if let Crossed::Left = cross(world, &mut self.list, hit)
                 && let Some(interior) = world.objects[hit.object as usize].interior
                 && let Some(absorption) = world.interiors[interior as usize].absorption
             {
@@ -147,31 +175,6 @@ impl Media {
             start = hit.t;
         }
         light
-    }
-
-    /// The ray goes through the border last asked for.
-    pub fn go_through(&mut self) {
-        std::mem::swap(&mut self.inside, &mut self.behind);
-    }
-
-    /// A ray behind that border waits; returns where its list is kept.
-    pub fn wait_behind(&mut self) -> usize {
-        let kept = self.waiting.len();
-        self.waiting.extend_from_slice(&self.behind);
-        kept
-    }
-
-    /// A ray before that border waits; returns where its list is kept.
-    pub fn wait_here(&mut self) -> usize {
-        let kept = self.waiting.len();
-        self.waiting.extend_from_slice(&self.inside);
-        kept
-    }
-
-    /// The ray whose list was kept there, the last of those that wait, goes on.
-    pub fn go_on(&mut self, kept: usize) {
-        self.inside.clear();
-        self.inside.extend(self.waiting.drain(kept..));
     }
 }
 

@@ -1,14 +1,16 @@
 //! Gathers the light of a World by its Plan.
 //!
 //! **In:** [`World`], [`Plan`]. **Out:** [`Traced`]. **Invariant:** the film's bits do not depend
-//! on the number of threads, on their timing or on the tiles; nothing is allocated per ray; a kernel has no
-//! instruction for a hot effect that the Plan leaves out, and for what is data (a material's lobes, a light's
-//! beam) asks where it stands.
+//! on the number of threads, on their timing, on the tiles or on what is traced together.
+//!
+//! Rays are traced in batches that pass through stages: the camera makes rays, [`batch`] follows them from generation
+//! to generation, `batch::intersect` finds what they meet, [`surface`] tells what is there, [`shade`] adds the lights,
+//! [`transmission`] and [`layers`] send rays on, and what comes back is folded.
 
 mod absorption;
-mod ahead;
 mod antialias;
 mod attenuation;
+mod batch;
 mod bumpy;
 mod camera;
 mod counters;
@@ -17,12 +19,9 @@ mod extras;
 mod grain;
 mod highlight;
 mod irid;
-mod kernel;
 mod layers;
 mod media;
 mod metal;
-mod onward;
-mod path;
 mod pixels;
 mod reflection;
 mod refraction;
@@ -31,8 +30,10 @@ mod shadow;
 mod sharpness;
 mod sky;
 mod split;
+mod surface;
 mod texture;
 mod tiles;
+mod tracer;
 mod transmission;
 mod watch;
 mod way;
@@ -43,14 +44,13 @@ use crate::geometry::{Geometry, Hit, Occluder};
 use crate::plan::{Antialias, Frame, Plan, Region};
 use crate::world::World;
 
-use ahead::Ahead;
 use antialias::Shown;
+use batch::{Batch, Onward};
 use camera::Lens;
-use kernel::kernel;
 use media::Media;
-use path::{Fork, Link, Tracer};
 use shadow::Filters;
 use tiles::Crew;
+use tracer::Tracer;
 use watch::Patience;
 
 pub use counters::{Counters, Evaluations};
@@ -90,13 +90,13 @@ impl Traced {
     }
 }
 
-/// What a thread keeps from ray to ray.
+/// What a thread keeps from batch to batch.
 #[derive(Debug, Default)]
 pub(crate) struct Walk {
-    ahead: Ahead,
-    chain: Vec<Link>,
-    /// Rays that wait until a mirrored one has come back, the last to be traced next.
-    forks: Vec<Fork>,
+    batch: Batch,
+    /// Rays that go on before the surfaces at hand, where these mirror them, and behind them.
+    onward: Vec<Onward>,
+    behind: Vec<Onward>,
     media: Media,
     /// Surfaces that coincide with the one at hand.
     coinciding: Vec<Hit>,
@@ -145,7 +145,6 @@ pub fn trace_in(
     let tracer = Tracer::new(world, geometry, plan, watch);
     watch.built();
     let crew = Crew::new(options, watch);
-    let frame = kernel!(plan.kernel, geometry.counts(), frame);
     frame(&tracer, plan, &crew)
 }
 
@@ -159,49 +158,33 @@ pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry 
     }
 }
 
-/// Traces the region with one kernel. A function of its own, so that its instructions can be counted.
+/// Traces the region. A function of its own, so that its instructions can be counted.
 #[inline(never)]
-fn frame<const SHADOWS: bool, const SECONDARY: bool, const KINDS: bool, const COUNTS: bool>(
-    tracer: &Tracer,
-    plan: &Plan,
-    crew: &Crew,
-) -> Traced {
-    let Frame { width, height, .. } = plan.frame;
+fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew) -> Traced {
+    let Frame { width, height, region } = plan.frame;
     let lens = Lens::new(&tracer.world.camera, width, height);
-    // Inlined into each pass: as a closure of its own it would be called for each pixel.
-    let sampled = sampled::<SHADOWS, SECONDARY, KINDS, COUNTS>;
-    let together = tracer.in_image.has_tree();
-    // Of pixels with one sample each; more of them look ahead themselves.
-    let prepared = |walk: &mut Walk, Region { x, y, width, height }: Region| {
-        if together {
-            let places = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y)));
-            tracer.look_ahead::<KINDS>(walk, places.map(|place| lens.ray(place, (0, 0), 1)));
-        }
-    };
-    let alone = |_: &mut Walk, _: Region| {};
-    let region = plan.frame.region;
     let empty =
         |region| Film::new(Frame { region, ..plan.frame }, tracer.world.settings.assumed_gamma);
+    let uniform = |film, which, grid| {
+        crew.pass(film, which, |walk, places, pixels| {
+            sampled(tracer, &lens, walk, places, |_| grid, pixels);
+        })
+    };
     match plan.antialias {
-        Antialias::Off | Antialias::Grid(0..=1) => {
-            crew.pass(empty(region), (0, 1), prepared, |walk, x, y| {
-                Some(sampled(tracer, &lens, walk, (x, y), 1))
-            })
-        }
-        Antialias::Grid(grid) => crew.pass(empty(region), (0, 1), alone, |walk, x, y| {
-            Some(sampled(tracer, &lens, walk, (x, y), grid))
-        }),
+        Antialias::Off => uniform(empty(region), (0, 1), 1),
+        Antialias::Grid(grid) => uniform(empty(region), (0, 1), grid.max(1)),
         Antialias::Adaptive { threshold, grid } => {
             let border = grown(region, width, height);
-            let first = crew.pass(empty(border), (0, 2), prepared, |walk, x, y| {
-                Some(sampled(tracer, &lens, walk, (x, y), 1))
-            });
+            let first = uniform(empty(border), (0, 2), 1);
             let shown = first.complete.then(|| Shown::new(&first.film));
             let film = first.film.crop(region);
             let Some(shown) = shown else { return Traced { film, ..first } };
-            let mut second = crew.pass(film, (1, 2), alone, |walk, x, y| {
-                let edge = shown.is_edge(x, y, threshold);
-                edge.then(|| sampled(tracer, &lens, walk, (x, y), grid.max(1)))
+            let mut second = crew.pass(film, (1, 2), |walk, places, pixels| {
+                let finer = |(x, y)| match shown.is_edge(x, y, threshold) {
+                    true => grid.max(1),
+                    false => 0,
+                };
+                sampled(tracer, &lens, walk, places, finer, pixels);
             });
             second.counters += first.counters;
             second
@@ -210,33 +193,35 @@ fn frame<const SHADOWS: bool, const SECONDARY: bool, const KINDS: bool, const CO
 }
 
 /// The mean of a pixel's samples, and how many.
-#[inline(always)]
-fn sampled<const SHADOWS: bool, const SECONDARY: bool, const KINDS: bool, const COUNTS: bool>(
+type Sampled = (Rgb, u32);
+
+/// Samples pixels side by side: each by `grid` × `grid` samples, whose mean is taken in a fixed order. `None` where
+/// `grid` is 0, and where the watch wanted no more.
+fn sampled(
     tracer: &Tracer,
     lens: &Lens,
     walk: &mut Walk,
-    pixel: (u32, u32),
-    grid: u32,
-) -> (Rgb, u32) {
-    let together = tracer.in_image.has_tree();
-    if together && grid > 1 {
-        walk.ahead.clear();
-    }
-    let radiance = antialias::mean(walk, tracer.watch, grid, |walk, i, j| {
-        walk.counters.camera += 1;
-        if !together {
-            let ray = lens.ray(pixel, (i, j), grid);
-            return tracer.seen::<SHADOWS, SECONDARY, KINDS, COUNTS>(walk, ray);
-        }
-        let (ray, hit) = walk.ahead.next().unwrap_or_else(|| {
-            let rest = j * grid + i..grid * grid;
-            let rays = rest.map(|k| lens.ray(pixel, (k % grid, k / grid), grid));
-            tracer.look_ahead::<KINDS>(walk, rays);
-            walk.ahead.next().unwrap_or((lens.ray(pixel, (i, j), grid), Hit::NOTHING))
-        });
-        tracer.radiance::<SHADOWS, SECONDARY, KINDS, COUNTS>(walk, ray, hit)
+    places: &[(u32, u32)],
+    grid: impl Fn((u32, u32)) -> u32,
+    pixels: &mut Vec<Option<Sampled>>,
+) {
+    let grids: Vec<u32> = places.iter().map(|&place| grid(place)).collect();
+    let rays = places.iter().zip(&grids).flat_map(|(&place, &grid)| {
+        (0..grid).flat_map(move |j| (0..grid).map(move |i| lens.ray(place, (i, j), grid)))
     });
-    (radiance, grid * grid)
+    let mut sum = (Rgb::BLACK, 0);
+    tracer.each_seen(walk, rays, |seen| {
+        while grids[pixels.len()] == 0 {
+            pixels.push(None);
+        }
+        let grid = grids[pixels.len()];
+        sum = (sum.0 + seen, sum.1 + 1);
+        if sum.1 == grid * grid {
+            pixels.push(Some((antialias::mean(sum.0, grid), sum.1)));
+            sum = (Rgb::BLACK, 0);
+        }
+    });
+    pixels.resize(places.len(), None);
 }
 
 /// The region and the pixels around it.

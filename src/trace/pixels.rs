@@ -5,9 +5,8 @@
 
 use super::antialias::{self, Shown};
 use super::camera::Lens;
-use super::kernel::kernel;
-use super::path::Tracer;
 use super::tiles::Crew;
+use super::tracer::Tracer;
 use super::{Counters, TraceOptions, Walk, Watch, grown};
 use crate::color::Rgb;
 use crate::film::Film;
@@ -52,7 +51,7 @@ pub fn pixels(
 ) -> Pixels {
     let world = &*world.within_julia_iterations(plan.julia_iterations);
     let tracer = Tracer::new(world, geometry, plan, watch);
-    let pixel = Pixel::new(&tracer, plan, geometry);
+    let pixel = Pixel::new(&tracer, plan);
     let crew = Crew::new(options, watch);
     let (radiance, counters) = crew.each(list, |walk, &place| match sampling {
         Sampling::Planned => pixel.planned(walk, place),
@@ -98,22 +97,20 @@ pub fn seen(
 ) -> (Vec<Option<Seen>>, Counters) {
     let world = &*world.within_julia_iterations(plan.julia_iterations);
     let tracer = Tracer::new(world, geometry, plan, watch);
-    let pixel = Pixel::new(&tracer, plan, geometry);
+    let pixel = Pixel::new(&tracer, plan);
     Crew::new(options, watch).each(list, |walk, aim| pixel.aimed(walk, aim))
 }
 
 struct Pixel<'a> {
     plan: &'a Plan,
-    kernel: fn(&Tracer<'a>, &mut Walk, Ray) -> Rgb,
     tracer: &'a Tracer<'a>,
     lens: Lens,
 }
 
 impl<'a> Pixel<'a> {
-    fn new(tracer: &'a Tracer<'a>, plan: &'a Plan, geometry: &Geometry) -> Self {
+    fn new(tracer: &'a Tracer<'a>, plan: &'a Plan) -> Self {
         let Frame { width, height, .. } = plan.frame;
-        let kernel = kernel!(plan.kernel, geometry.counts(), Tracer::seen);
-        Self { plan, kernel, tracer, lens: Lens::new(&tracer.world.camera, width, height) }
+        Self { plan, tracer, lens: Lens::new(&tracer.world.camera, width, height) }
     }
 
     fn planned(&self, walk: &mut Walk, place: (u32, u32)) -> Rgb {
@@ -160,13 +157,25 @@ impl<'a> Pixel<'a> {
         walk: &mut Walk,
         place: (u32, u32),
         grid: u32,
+        also: impl FnMut(Rgb),
+    ) -> Rgb {
+        let rays = (0..grid * grid).map(|k| self.lens.ray(place, (k % grid, k / grid), grid));
+        self.mean(walk, grid, rays, also)
+    }
+
+    fn mean(
+        &self,
+        walk: &mut Walk,
+        grid: u32,
+        rays: impl Iterator<Item = Ray>,
         mut also: impl FnMut(Rgb),
     ) -> Rgb {
-        antialias::mean(walk, self.tracer.watch, grid, |walk, i, j| {
-            let seen = self.seen(walk, self.lens.ray(place, (i, j), grid));
+        let mut sum = Rgb::BLACK;
+        self.tracer.each_seen(walk, rays, |seen| {
             also(seen);
-            seen
-        })
+            sum += seen;
+        });
+        antialias::mean(sum, grid)
     }
 
     fn aimed(&self, walk: &mut Walk, &Aim { place, side, seed }: &Aim) -> Seen {
@@ -197,14 +206,11 @@ impl<'a> Pixel<'a> {
         let within = |part: u32, random: &mut Random| {
             (f64::from(part) + random.number(0.0, 1.0)) / f64::from(side)
         };
-        antialias::mean(walk, self.tracer.watch, side, |walk, i, j| {
-            let place = (within(i, &mut random), within(j, &mut random));
-            self.seen(walk, self.lens.ray_within((x, y), place))
-        })
-    }
-
-    fn seen(&self, walk: &mut Walk, ray: Ray) -> Rgb {
-        walk.counters.camera += 1;
-        (self.kernel)(self.tracer, walk, ray)
+        let places = (0..side * side).map(|k| {
+            let right = within(k % side, &mut random);
+            (right, within(k / side, &mut random))
+        });
+        let rays = places.map(|place| self.lens.ray_within((x, y), place));
+        self.mean(walk, side, rays, |_| ())
     }
 }

@@ -3,13 +3,17 @@
 use std::cmp::Ordering;
 
 use super::Walk;
-use super::path::Tracer;
+use super::batch::SLICE;
+use super::media::Within;
+use super::shade::Arriving;
 use super::texture;
+use super::tracer::Tracer;
 use crate::color::Rgb;
 use crate::geometry::{Hit, Occluder};
 use crate::math::{UnitVector, Vector};
 use crate::shape::Ray;
 use crate::world::LightKind;
+use smallvec::SmallVec;
 
 /// From a point toward a light.
 #[derive(Clone, Copy)]
@@ -62,7 +66,7 @@ pub(super) fn aim(light: &LightKind, point: Vector) -> Option<Aim> {
 
 /// Whether something opaque stands between `origin` (just off a surface) and the light, the `light`th.
 #[inline(always)]
-pub(super) fn shadowed<const KINDS: bool>(
+pub(super) fn shadowed(
     tracer: &Tracer,
     walk: &mut Walk,
     light: usize,
@@ -72,12 +76,32 @@ pub(super) fn shadowed<const KINDS: bool>(
     walk.counters.shadow += 1;
     let ray = Ray { origin, direction: aim.to_light };
     let guess = walk.occluders.get(light).copied().unwrap_or(Occluder::NONE);
-    let occluder =
-        tracer.geometry.occluder::<KINDS>(&ray, aim.reach, guess, &mut walk.counters.work);
+    let occluder = tracer.geometry.occluder(&ray, aim.reach, guess, &mut walk.counters.work);
     if occluder != guess {
         walk.remember(light, occluder);
     }
     occluder != Occluder::NONE
+}
+
+/// As [`shadowed`], for up to [`SLICE`] rays: a bit for each.
+#[inline(always)]
+pub(super) fn shadowed_together(
+    tracer: &Tracer,
+    walk: &mut Walk,
+    light: usize,
+    arriving: &[Arriving],
+) -> u32 {
+    walk.counters.shadow += arriving.len() as u64;
+    let rays: SmallVec<[&Ray; SLICE]> = arriving.iter().map(|one| &one.ray).collect();
+    let reaches: SmallVec<[f64; SLICE]> = arriving.iter().map(|one| one.reach).collect();
+    let guess = walk.occluders.get(light).copied().unwrap_or(Occluder::NONE);
+    let mut occluder = guess;
+    let work = &mut walk.counters.work;
+    let shadowed = tracer.geometry.occluded_together(&rays, &reaches, &mut occluder, work);
+    if occluder != guess {
+        walk.remember(light, occluder);
+    }
+    shadowed
 }
 
 /// The part of the light that comes through the clear surfaces between `origin` and the light: the
@@ -88,7 +112,13 @@ pub(super) fn shadowed<const KINDS: bool>(
 /// **Source:** POV-Ray 3.7's behaviour, measured: neither reflection nor `conserve_energy` nor `ior`
 /// takes part in it.
 #[inline(never)]
-pub(super) fn filtered(tracer: &Tracer, walk: &mut Walk, origin: Vector, aim: &Aim) -> Rgb {
+pub(super) fn filtered(
+    tracer: &Tracer,
+    walk: &mut Walk,
+    within: Within,
+    origin: Vector,
+    aim: &Aim,
+) -> Rgb {
     let ray = Ray { origin, direction: aim.to_light };
     let Filters { hits, factors } = &mut walk.filters;
     hits.clear();
@@ -103,7 +133,7 @@ pub(super) fn filtered(tracer: &Tracer, walk: &mut Walk, origin: Vector, aim: &A
     if !tracer.absorbs || light.is_black() {
         return light;
     }
-    light * walk.media.left_of_light(tracer.world, hits)
+    light * walk.media.left_of_light(tracer.world, within, hits)
 }
 
 /// Room for the surfaces between a point and a light.

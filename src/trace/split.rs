@@ -1,8 +1,9 @@
 //! A ray of all colours that becomes several rays, each of one colour, at a surface next to a dispersive interior.
 
+use super::batch::{Back, Onward};
 use super::media::Border;
-use super::onward::{self, Onward};
-use super::path::{Link, Met, Tracer};
+use super::surface::Stand;
+use super::tracer::Tracer;
 use super::way::{Inside, Way};
 use super::{Walk, dispersion, refraction};
 use crate::color::Rgb;
@@ -16,6 +17,8 @@ pub(super) struct Toward {
     pub border: Border,
     /// The part of the light behind it that is left after the way to it.
     pub left: Rgb,
+    /// Where rays start that go on behind it.
+    pub behind: Vector,
 }
 
 impl Tracer<'_> {
@@ -24,50 +27,51 @@ impl Tracer<'_> {
     ///
     /// **Source:** POV-Ray 3.7's behaviour, measured.
     #[cold]
-    pub(super) fn split<const COUNTS: bool>(
+    pub(super) fn split(
         &self,
         walk: &mut Walk,
-        way: Way,
-        met: &Met,
+        stand: &Stand,
         toward: &Toward,
         samples: u32,
         (weight, factor): (f64, Rgb),
-    ) -> Option<Way> {
-        let Met { ref hit, ref place, local, .. } = *met;
-        let Toward { normal, fresnel, border, left } = *toward;
-        if COUNTS {
+        to: u32,
+    ) {
+        let &Stand { way, hit, ref place, .. } = stand;
+        let Toward { normal, fresnel, border, left, behind } = *toward;
+        let Border { from, to: after, within: [within, within_behind], .. } = border;
+        if self.counts {
             walk.counters.evaluations.dispersion += 1;
         }
-        let (mut before, mut behind) = (Vec::new(), Vec::new());
-        if let Some((weight, link)) = self.mirrored(way.weight, place, fresnel, local) {
-            let inside = (border.from != border.to && hit.leaving).then(|| Inside::of(hit));
-            let way = Way { inside, ..way.mirrored(place, weight) };
-            let Link { factor, exponent, .. } = link;
-            before.push(Onward { way, factor, exponent, behind: false });
+        let (since, since_behind) = (walk.onward.len(), walk.behind.len());
+        if let Some((weight, back)) = self.mirrored(way.weight, place, fresnel, to) {
+            let inside = (from != after && hit.leaving).then(|| Inside::of(hit));
+            let way = Way { inside, within, ..way.mirrored(place, weight) };
+            walk.onward.push(Onward { way, back });
         }
         for sample in 0..samples {
             let spectrum = Some(dispersion::position(sample, samples));
             let factor = factor * dispersion::color(sample, samples) * left;
-            let [from, to] = border.indices(self.world, spectrum);
-            match refraction::bent(way.ray.direction, normal, from, to) {
+            let back = Back { to, factor, exponent: 1.0 };
+            let [from, after] = border.indices(self.world, spectrum);
+            match refraction::bent(way.ray.direction, normal, from, after) {
                 Some(bent) => {
-                    let ray = Ray { origin: met.behind, direction: bent.direction };
-                    let level = if from == to { way.level } else { way.level + 1 };
-                    let inside = (from != to && !hit.leaving).then(|| Inside::of(hit));
-                    let way = Way { ray, weight, level, inside, spectrum, ..way };
-                    behind.push(Onward { way, factor, exponent: 1.0, behind: true });
+                    let ray = Ray { origin: behind, direction: bent.direction };
+                    let level = if from == after { way.level } else { way.level + 1 };
+                    let inside = (from != after && !hit.leaving).then(|| Inside::of(hit));
+                    let within = within_behind;
+                    let way = Way { ray, weight, level, inside, spectrum, within, ..*way };
+                    walk.behind.push(Onward { way, back });
                 }
                 // It is of all colours again: the total reflections are one ray.
                 None => {
                     walk.counters.total_reflection += 1;
                     let inside = hit.leaving.then(|| Inside::of(hit));
-                    let way = Way { inside, ..way.mirrored(place, weight) };
-                    let new = Onward { way, factor, exponent: 1.0, behind: false };
-                    onward::add(&mut before, 0, new);
+                    let way = Way { inside, within, ..way.mirrored(place, weight) };
+                    Onward { way, back }.join(&mut walk.onward, since);
                 }
             }
         }
-        before.append(&mut behind);
-        onward::go_on(walk, local, place.finish.seed, before)
+        walk.counters.reflection += (walk.onward.len() - since) as u64;
+        walk.counters.transmission += (walk.behind.len() - since_behind) as u64;
     }
 }

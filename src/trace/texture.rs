@@ -4,9 +4,9 @@
 
 use std::cell::OnceCell;
 
-use super::path::Tracer;
+use super::tracer::Tracer;
 use crate::color::{Color, Rgb};
-use crate::geometry::{self, ANY, Hit};
+use crate::geometry::{self, Hit};
 use crate::math::Vector;
 use crate::math::power::power;
 use crate::shape::{Paint, Ray, Shape, SurfacePoint};
@@ -65,7 +65,7 @@ pub(super) fn transmittance(tracer: &Tracer, ray: &Ray, hit: &Hit) -> Rgb {
     {
         return color.transmittance();
     }
-    let surface = geometry::surface::<ANY>(tracer.world, ray, hit);
+    let surface = geometry::surface(tracer.world, ray, hit);
     let passing = Passing { focus: None, ..Passing::of(tracer.world) };
     through(texture, None, &SurfaceInteraction::new(tracer, ray, hit, &surface), &passing)
 }
@@ -79,8 +79,8 @@ pub(super) fn to_light(tracer: &Tracer, ray: &Ray, hit: &Hit) -> Rgb {
     };
     let coat = world.coat(&world.objects[hit.object as usize], hit.leaving);
     let texture = &world.textures[coat.texture as usize];
-    let surface = geometry::surface::<ANY>(world, ray, hit);
-    let normal = geometry::shading_normal::<ANY>(world, hit, &surface).unwrap_or(surface.normal);
+    let surface = geometry::surface(world, ray, hit);
+    let normal = geometry::shading_normal(world, hit, &surface).unwrap_or(surface.normal);
     let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal };
     let focus = Focus { exponent, normal, direction: ray.direction };
     let around = SurfaceInteraction::new(tracer, ray, hit, &surface);
@@ -272,7 +272,7 @@ impl Surroundings for SurfaceInteraction<'_, '_> {
 
     fn normal(&self) -> Vector {
         let (world, direction) = (self.world, self.ray.direction);
-        let own = match geometry::shading_normal::<ANY>(world, self.hit, self.surface) {
+        let own = match geometry::shading_normal(world, self.hit, self.surface) {
             Some(smooth) => smooth,
             None => self.surface.normal,
         };

@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-use super::{Counters, TraceOptions, Traced, Walk, Watch};
+use super::{Counters, Sampled, TraceOptions, Traced, Walk, Watch};
 use crate::color::Rgb;
 use crate::film::Film;
 use crate::plan::Region;
@@ -18,6 +18,8 @@ use crate::plan::Region;
 const SIDE: u32 = 32;
 /// Pixels along the side of a block, whose rays go together: `BLOCK`² are at most `geometry::TOGETHER`.
 const BLOCK: usize = 4;
+/// Rows of blocks that are computed at once: as many pixels as a batch has rays, in a tile of [`SIDE`].
+const BLOCKS: usize = 2;
 /// Things of a list that a thread takes at once.
 const PART: usize = 16;
 
@@ -81,15 +83,13 @@ impl<'a> Crew<'a> {
         (all, counters)
     }
 
-    /// Computes the pixels of `film`, `which.0` being the number of this pass among `which.1`;
-    /// `None` leaves a pixel as it is. Neighbours are computed one after the other, once a block of them was
-    /// `prepared`.
+    /// Computes the pixels of `film`, `which.0` being the number of this pass among `which.1`: `sampled` adds what is
+    /// seen of each place of a list; `None` leaves a pixel as it is. Neighbours are next to each other in the list.
     pub fn pass(
         &self,
         mut film: Film,
         which: (usize, usize),
-        prepared: impl Fn(&mut Walk, Region) + Sync,
-        pixel: impl Fn(&mut Walk, u32, u32) -> Option<(Rgb, u32)> + Sync,
+        sampled: impl Fn(&mut Walk, &[(u32, u32)], &mut Vec<Option<Sampled>>) + Sync,
     ) -> Traced {
         let tiles = tiles(&mut film, self.side);
         let total = tiles.len();
@@ -101,35 +101,37 @@ impl<'a> Crew<'a> {
                 return;
             }
             walk.occluders.clear();
-            for (y, rows) in (tile.y..).step_by(BLOCK).zip(tile.rows.chunks_mut(BLOCK)) {
-                // A row of blocks may take long; what is done of the tile is kept.
-                if y > tile.y && self.watch.should_stop() {
+            let (mut places, mut pixels) = (Vec::new(), Vec::new());
+            let strips = (tile.y..).step_by(BLOCK * BLOCKS);
+            for (y, rows) in strips.zip(tile.rows.chunks_mut(BLOCK * BLOCKS)) {
+                // A strip may take long; what is done of the tile is kept.
+                if walk.patience.is_over || (y > tile.y && self.watch.should_stop()) {
                     stopped.store(true, Ordering::Relaxed);
                     break;
                 }
                 let width = rows.first().map_or(0, |(radiance, _)| radiance.len());
-                for left in (0..width).step_by(BLOCK) {
-                    let columns = left..width.min(left + BLOCK);
-                    let x = tile.x + left as u32;
-                    let (width, height) = (columns.len() as u32, rows.len() as u32);
-                    prepared(walk, Region { x, y, width, height });
-                    for (y, (radiance, samples)) in (y..).zip(&mut *rows) {
-                        let places = radiance[columns.clone()].iter_mut().zip(x..);
-                        for ((radiance, x), samples) in places.zip(&mut samples[columns.clone()]) {
-                            let seen = pixel(walk, x, y);
-                            if let Some(seen) = seen.filter(|_| !walk.patience.is_over) {
-                                (*radiance, *samples) = seen;
-                            }
-                        }
-                    }
-                    if walk.patience.is_over {
-                        stopped.store(true, Ordering::Relaxed);
-                        break;
+                places.clear();
+                pixels.clear();
+                for top in (0..rows.len()).step_by(BLOCK) {
+                    for left in (0..width).step_by(BLOCK) {
+                        let lines = top..rows.len().min(top + BLOCK);
+                        let columns = || left..width.min(left + BLOCK);
+                        places.extend(lines.flat_map(|line| {
+                            columns().map(move |column| (tile.x + column as u32, y + line as u32))
+                        }));
                     }
                 }
-                if walk.patience.is_over {
-                    break;
+                sampled(walk, &places, &mut pixels);
+                for (place, pixel) in places.iter().zip(&pixels) {
+                    let (radiance, samples) = &mut rows[(place.1 - y) as usize];
+                    let column = (place.0 - tile.x) as usize;
+                    if let Some(pixel) = pixel {
+                        (radiance[column], samples[column]) = *pixel;
+                    }
                 }
+            }
+            if walk.patience.is_over {
+                stopped.store(true, Ordering::Relaxed);
             }
             *counters.lock().unwrap_or_else(PoisonError::into_inner) +=
                 std::mem::take(&mut walk.counters);

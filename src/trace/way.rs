@@ -1,5 +1,6 @@
 //! A ray under way, and what is known of it before it meets anything.
 
+use super::media::Within;
 use super::shade::Place;
 use super::{bumpy, reflection};
 use crate::geometry::Hit;
@@ -18,6 +19,8 @@ pub(super) struct Way {
     pub inside: Option<Inside>,
     /// Its position in the spectrum, 0 to 1; `None` while it is of all colours.
     pub spectrum: Option<f64>,
+    /// The solids it is in.
+    pub within: Within,
 }
 
 /// A ray starts on the surface of an object and inside of that: it was bent there, or mirrored.
@@ -37,8 +40,10 @@ impl Inside {
 
 impl Way {
     #[inline(always)]
-    pub fn from_camera(ray: Ray) -> Self {
-        Self { ray, weight: 1.0, level: 1, mirrored: false, inside: None, spectrum: None }
+    /// The ray of the camera that has this number in its batch.
+    pub fn from_camera(ray: Ray, root: u32) -> Self {
+        let within = Within::Start(root);
+        Self { ray, weight: 1.0, level: 1, mirrored: false, inside: None, spectrum: None, within }
     }
 
     /// The ray that is mirrored where this one ends.
@@ -55,6 +60,7 @@ impl Way {
             mirrored: true,
             inside: None,
             spectrum: self.spectrum,
+            within: self.within,
         }
     }
 }

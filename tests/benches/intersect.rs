@@ -6,7 +6,7 @@
 
 use divan::counter::ItemsCount;
 use lucarne::color::{Color, Rgb};
-use lucarne::geometry::{ANY, Geometry, surface};
+use lucarne::geometry::{Geometry, surface};
 use lucarne::math::placement::Placement;
 use lucarne::math::{Matrix, UnitVector, Vector};
 use lucarne::shape::{Box_, Chord, Ellipsoid, Plane, Ray, Shape, Sphere};
@@ -100,7 +100,7 @@ fn questions(world: &World, eye: Vector, depth: usize) -> Questions {
             for _ in 0..depth {
                 asked.nearest.push(ray);
                 let Some(hit) = geometry.nearest(&ray) else { break };
-                let point = surface::<ANY>(world, &ray, &hit);
+                let point = surface(world, &ray, &hit);
                 for light in LIGHTS {
                     let to_light = light - point.point;
                     let direction = towards(to_light);

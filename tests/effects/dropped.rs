@@ -37,7 +37,7 @@ fn left_in(scene: &str, object: &str) -> Vec<u8> {
     for object in &mut world.objects[before..] {
         (object.in_image, object.in_reflections, object.casts_shadow) = (false, false, false);
     }
-    png(&world, &Plan { kernel: Kernel::EVERYTHING, ..plan })
+    png(&world, &Plan { stages: Stage::ALL.to_vec(), ..plan })
 }
 
 #[test]

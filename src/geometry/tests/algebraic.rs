@@ -58,7 +58,7 @@ fn a_field_of_quartic_tori_asks_few_of_them() {
         let origin = Vector::new(0.0, 0.0, -30.0);
         let Some(direction) = UnitVector::from_direction(target - origin) else { continue };
         let ray = Ray { origin, direction: direction.get() };
-        let hit = geometry.nearest_counted::<ANY>(&ray, &mut work).found();
+        let hit = geometry.nearest_counted(&ray, &mut work).found();
         assert_eq!(hit, list.nearest(&ray), "{ray:?}");
         hits += usize::from(hit.is_some());
     }

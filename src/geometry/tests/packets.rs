@@ -21,7 +21,8 @@ fn rays_that_go_together_meet_what_each_meets_alone() {
                 })
                 .collect();
             let mut together = Vec::new();
-            geometry.nearest_together::<ANY>(&rays, &mut together, &mut Work::default());
+            let rays: Vec<&Ray> = rays.iter().collect();
+            geometry.nearest_together(&rays, &mut together, &mut Work::default());
             for (ray, hit) in rays.iter().zip(together) {
                 assert_eq!(hit.found(), geometry.nearest(ray), "{ray:?} of {rays:?}");
                 met += usize::from(hit.found().is_some());

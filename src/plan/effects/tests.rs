@@ -112,17 +112,20 @@ fn every_effect_is_either_called_for_or_left_out_with_a_reason() {
         (Effect::Reflection, &[site(13)]),
     ];
     assert_eq!(called, expected);
-    assert_eq!(plan.kernel, Kernel { bodies: false, ..Kernel::EVERYTHING });
+    assert_eq!(plan.stages, Stage::ALL);
 }
 
 #[test]
-fn the_kernel_has_what_the_effects_need() {
+fn the_stages_are_those_that_the_effects_need() {
     let (mut world, origins) = lit_mirror();
     world.lights[0].casts_shadows = false;
-    let kernel = plan(&world, &origins, &OPTIONS).kernel;
-    assert_eq!(kernel, Kernel { shadows: false, secondary: true, bodies: false });
+    let stages = |world: &World| plan(world, &origins, &OPTIONS).stages;
+    use Stage::{Camera, Fold, Intersect, Light, Scatter, Surface};
+    assert_eq!(stages(&world), [Camera, Intersect, Surface, Light, Scatter, Fold]);
     finish(&mut world).reflection = None;
-    assert_eq!(plan(&world, &origins, &OPTIONS).kernel.name(), "bare");
+    assert_eq!(stages(&world), [Camera, Intersect, Surface, Light]);
+    world.lights.clear();
+    assert_eq!(stages(&world), [Camera, Intersect, Surface]);
 }
 
 #[test]

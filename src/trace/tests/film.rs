@@ -52,8 +52,9 @@ fn a_mirrored_world_makes_a_mirrored_film() {
 }
 
 #[test]
-fn the_pruned_kernel_and_the_full_one_give_the_same_bits() {
-    let full_plan = |plan: &Plan| Plan { kernel: crate::plan::Kernel::EVERYTHING, ..plan.clone() };
+fn the_pruned_stages_and_all_of_them_give_the_same_bits() {
+    let all = || crate::plan::Stage::ALL.to_vec();
+    let full_plan = |plan: &Plan| Plan { stages: all(), ..plan.clone() };
     use Effect::{Diffuse, Highlights, Reflection, Shadows};
     let without_reflection =
         |w: &mut World| finishes(w).for_each(|finish| finish.reflection = None);

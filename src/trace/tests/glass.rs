@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::math::elementary::{cos, sin};
-use crate::plan::{Called, Effect, Kernel};
+use crate::plan::{Called, Effect, Stage};
 use crate::world::Interior;
 
 /// A surface that shows nothing of itself and lets `transmit` through.
@@ -403,11 +403,11 @@ fn filters_before_a_light_multiply_in_one_order_however_they_are_declared() {
 }
 
 #[test]
-fn what_is_opaque_is_traced_alike_by_the_kernel_for_all() {
+fn what_is_opaque_is_traced_alike_by_all_stages() {
     let world = varied();
     let options = options(24, 18, Antialias::Off);
     let pruned = plan(&world, &Origins::default(), &options);
-    let mut all = Plan { kernel: Kernel::EVERYTHING, ..pruned.clone() };
+    let mut all = Plan { stages: Stage::ALL.to_vec(), ..pruned.clone() };
     for effect in [Effect::Transparency, Effect::Refraction, Effect::ColoredShadows] {
         assert!(!pruned.simulates(effect));
         all.effects.push(Called { effect, by: Vec::new(), cost: String::new(), rays: None });

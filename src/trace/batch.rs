@@ -1,0 +1,282 @@
+//! Rays that are traced together, generation by generation: the camera's, those that go on from where these end, and
+//! so forth.
+//!
+//! **In:** the camera's rays. **Out:** the radiance that comes back along each. **Invariant:** what comes back along a
+//! ray depends on no other ray. Radiance is folded from the last generation to the first and never accumulated into a
+//! throughput, so a clamp at each surface is possible. Nothing grows on the call stack, and memory is bounded by the
+//! depth, not by the number of paths: of a generation only so many rays go on at once, and the rest waits.
+
+use std::ops::ControlFlow;
+
+use super::Walk;
+use super::reflection;
+use super::tracer::Tracer;
+use super::way::Way;
+use crate::color::Rgb;
+use crate::geometry::{Hit, TOGETHER};
+use crate::shape::Ray;
+use smallvec::SmallVec;
+
+/// The camera's rays that are traced together, and about the most of a generation.
+const MOST: usize = 64;
+/// Surfaces that are shaded together.
+pub(super) const SLICE: usize = 16;
+
+/// A ray that goes on from a surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Onward {
+    pub way: Way,
+    pub back: Back,
+}
+
+impl Onward {
+    /// Adds the ray to those that go on. It is one with a ray of the same direction among those from `since` on,
+    /// which are few: each is compared.
+    pub fn join(self, onward: &mut Vec<Self>, since: usize) {
+        let same = |old: &&mut Self| {
+            old.back.exponent == 1.0
+                && self.back.exponent == 1.0
+                && old.way.spectrum == self.way.spectrum
+                && old.way.ray.direction == self.way.ray.direction
+        };
+        match onward[since..].iter_mut().find(same) {
+            Some(old) => {
+                old.back.factor += self.back.factor;
+                old.way.weight = old.way.weight.max(self.way.weight);
+            }
+            None => onward.push(self),
+        }
+    }
+}
+
+/// How the radiance that comes back along a ray is added to what comes back from the surface that it left.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Back {
+    /// The number of the surface among those of its generation.
+    pub to: u32,
+    pub factor: Rgb,
+    pub exponent: f64,
+}
+
+/// What comes back along a ray: at first what the surface shows by itself.
+#[derive(Debug, Clone, Copy)]
+struct Return {
+    seen: Rgb,
+    /// The seed's clamp applies.
+    clamped: bool,
+    back: Back,
+}
+
+/// Rays that left the surfaces of the generation before.
+#[derive(Debug, Clone, Copy)]
+struct Generation {
+    /// The first of its [`Return`]s.
+    first: usize,
+    count: usize,
+    /// Rays whose surfaces are shaded.
+    shaded: usize,
+    /// Where its rays are kept until they are shaded.
+    rays: usize,
+    /// The solids that are known of rays before it.
+    solids: usize,
+}
+
+/// The rays of a batch. Kept from batch to batch for its memory.
+#[derive(Debug, Default)]
+pub(super) struct Batch {
+    returns: Vec<Return>,
+    ways: Vec<Way>,
+    hits: Vec<Hit>,
+    generations: Vec<Generation>,
+}
+
+/// Surfaces of a generation, side by side, and what they send back.
+pub(super) struct Surfaces<'a> {
+    pub ways: &'a [Way],
+    pub hits: &'a [Hit],
+    /// The number of the first among those of its generation.
+    pub first: u32,
+    seen: &'a mut [Return],
+}
+
+impl Surfaces<'_> {
+    /// What the surface of a ray shows by itself; `clamped` as the seed's.
+    #[inline(always)]
+    pub fn show(&mut self, number: usize, local: Rgb, clamped: bool) {
+        let Return { seen, clamped: is_clamped, .. } = &mut self.seen[number];
+        (*seen, *is_clamped) = (local, clamped);
+    }
+}
+
+impl Batch {
+    /// Makes the first generation of the rays that are there.
+    fn begin(&mut self) {
+        self.returns.clear();
+        self.hits.clear();
+        self.generations.clear();
+        let back = Back { to: 0, factor: Rgb::WHITE, exponent: 1.0 };
+        self.add(self.ways.len(), std::iter::repeat(back), 0);
+    }
+
+    /// Adds a generation whose rays are the last of the list.
+    fn add(&mut self, count: usize, backs: impl Iterator<Item = Back>, solids: usize) {
+        let (first, rays) = (self.returns.len(), self.ways.len() - count);
+        let returns =
+            backs.take(count).map(|back| Return { seen: Rgb::BLACK, clamped: false, back });
+        self.returns.extend(returns);
+        self.generations.push(Generation { first, count, shaded: 0, rays, solids });
+    }
+
+    /// The surfaces that are shaded next.
+    fn next(&mut self) -> Option<Surfaces<'_>> {
+        let Generation { first, count, shaded, rays, .. } = *self.generations.last()?;
+        let next = shaded..count.min(shaded + SLICE);
+        if next.is_empty() {
+            return None;
+        }
+        self.generations.last_mut()?.shaded = next.end;
+        let kept = rays + next.start..rays + next.end;
+        Some(Surfaces {
+            ways: &self.ways[kept.clone()],
+            hits: &self.hits[kept],
+            first: next.start as u32,
+            seen: &mut self.returns[first + next.start..first + next.end],
+        })
+    }
+
+    /// Forgets the rays of the last generation if they are all shaded.
+    fn forget_shaded(&mut self) {
+        if let Some(&Generation { count, shaded, rays, .. }) = self.generations.last()
+            && shaded == count
+        {
+            self.ways.truncate(rays);
+            self.hits.truncate(rays);
+        }
+    }
+
+    /// Folds the last generation into the one before; returns what it may forget of solids, or `None` if it is the
+    /// first.
+    fn fold(&mut self) -> Option<usize> {
+        let Generation { first, solids, .. } = self.generations.pop()?;
+        let (before, last) = self.returns.split_at_mut(first);
+        last.iter_mut().filter(|one| one.clamped).for_each(|one| one.seen = one.seen.at_most_one());
+        let to = self.generations.last()?.first;
+        for Return { seen, back: Back { to: place, factor, exponent }, .. } in last {
+            let adapted = reflection::adapted(*seen, *exponent);
+            before[to + *place as usize].seen += reflection::passed_on(*factor, adapted);
+        }
+        self.returns.truncate(first);
+        Some(solids)
+    }
+}
+
+impl<'a> Tracer<'a> {
+    /// Shows `look` the radiance seen along each of the camera's rays, in their order; stops early where the watch
+    /// wants no more.
+    pub fn each_seen(
+        &self,
+        walk: &mut Walk,
+        mut rays: impl Iterator<Item = Ray>,
+        mut look: impl FnMut(Rgb),
+    ) {
+        let mut batch = std::mem::take(&mut walk.batch);
+        let goes_on = rays.try_for_each(|ray| {
+            batch.ways.push(Way::from_camera(ray, batch.ways.len() as u32));
+            if batch.ways.len() < MOST {
+                return ControlFlow::Continue(());
+            }
+            self.gather(walk, &mut batch, &mut look)
+        });
+        if goes_on.is_continue() && !batch.ways.is_empty() {
+            let _ = self.gather(walk, &mut batch, &mut look);
+        }
+        batch.ways.clear();
+        walk.batch = batch;
+    }
+
+    /// Traces a batch of the camera's rays, and shows `look` what comes back along them.
+    fn gather(
+        &self,
+        walk: &mut Walk,
+        batch: &mut Batch,
+        look: &mut impl FnMut(Rgb),
+    ) -> ControlFlow<()> {
+        let count = batch.ways.len();
+        walk.counters.camera += count as u64;
+        batch.begin();
+        self.follow(walk, batch);
+        batch.ways.clear();
+        if walk.patience.is_over_after(count as u32, self.watch) {
+            return ControlFlow::Break(());
+        }
+        batch.returns.iter().for_each(|one| look(one.seen));
+        ControlFlow::Continue(())
+    }
+
+    /// Follows the rays of a batch from generation to generation, and folds what comes back.
+    #[inline(never)]
+    fn follow(&self, walk: &mut Walk, batch: &mut Batch) {
+        if self.bends {
+            walk.media.start(&batch.ways);
+        }
+        self.intersect(walk, batch);
+        loop {
+            while let Some(surfaces) = batch.next() {
+                self.shade(walk, surfaces);
+                if walk.onward.len() + walk.behind.len() >= MOST {
+                    break;
+                }
+            }
+            if walk.patience.is_over {
+                walk.onward.clear();
+                walk.behind.clear();
+                return;
+            }
+            let count = walk.onward.len() + walk.behind.len();
+            if count > 0 {
+                batch.forget_shaded();
+                let onward = || walk.onward.iter().chain(&walk.behind);
+                batch.ways.extend(onward().map(|onward| onward.way));
+                batch.add(count, onward().map(|onward| onward.back), walk.media.known());
+                walk.onward.clear();
+                walk.behind.clear();
+                self.intersect(walk, batch);
+                continue;
+            }
+            match batch.fold() {
+                Some(solids) => walk.media.forget(solids),
+                None => return,
+            }
+        }
+    }
+
+    /// Finds what the rays of the last generation meet.
+    fn intersect(&self, walk: &mut Walk, batch: &mut Batch) {
+        let Batch { ways, hits, .. } = batch;
+        let work = &mut walk.counters.work;
+        while hits.len() < ways.len() {
+            let next = &ways[hits.len()..];
+            let met_by = self.met_by(&next[0]);
+            let together = next.iter().take(TOGETHER);
+            let together = together.take_while(|way| std::ptr::eq(self.met_by(way), met_by));
+            let rays: SmallVec<[&Ray; TOGETHER]> = together.map(|way| &way.ray).collect();
+            met_by.nearest_together(&rays, hits, work);
+        }
+        // A ray that starts inside of an object leaves that first, even where it starts in an edge, too near to the
+        // other face to tell.
+        if self.bends {
+            let Some(&Generation { rays: first, .. }) = batch.generations.last() else { return };
+            for (way, hit) in batch.ways[first..].iter().zip(&mut batch.hits[first..]) {
+                let Some(inside) = way.inside.filter(|_| !hit.leaving) else { continue };
+                let left = self.met_by(way).left_at_start(
+                    &way.ray,
+                    inside.object,
+                    inside.off,
+                    hit.t,
+                    work,
+                );
+                *hit = left.unwrap_or(*hit);
+            }
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! What the stages of a frame share: the World, what rays meet, and which stages run.
+
+use super::Watch;
+use super::sharpness::Sharpness;
+use super::way::Way;
+use crate::geometry::Geometry;
+use crate::plan::{Effect, Plan, Stage};
+use crate::world::{Finish, Texture, World};
+
+/// A World to be traced: nothing in it is without weight, so nothing is asked twice.
+pub(super) struct Tracer<'a> {
+    pub world: &'a World,
+    /// Everything: what stands in the way of light.
+    pub geometry: &'a Geometry,
+    /// What the camera's rays meet.
+    in_image: &'a Geometry,
+    /// What mirrored rays meet.
+    in_reflections: &'a Geometry,
+    pub sharpness: Sharpness,
+    /// Surfaces are lit.
+    pub lights: bool,
+    /// Rays go toward lights.
+    pub shadows: bool,
+    /// Rays go on from surfaces.
+    pub secondary: bool,
+    /// Rays go on behind clear surfaces.
+    pub clear: bool,
+    /// Of each texture with parts, whether light passes through it anywhere.
+    pub clear_composites: Vec<bool>,
+    /// Rays change in interiors: they are bent, split or dimmed.
+    pub bends: bool,
+    /// Interiors dim light.
+    pub absorbs: bool,
+    /// Light comes through clear surfaces.
+    pub filters_shadows: bool,
+    /// Evaluations are counted.
+    pub counts: bool,
+    pub max_trace_level: u32,
+    pub adc_bailout: f64,
+    /// Asked within a batch, where work can pile up.
+    pub watch: &'a dyn Watch,
+}
+
+impl<'a> Tracer<'a> {
+    pub fn new(
+        world: &'a World,
+        geometry: &'a Geometry,
+        plan: &Plan,
+        watch: &'a dyn Watch,
+    ) -> Self {
+        Self {
+            world,
+            geometry,
+            in_image: geometry.in_image(),
+            in_reflections: geometry.in_reflections(),
+            sharpness: Sharpness::of(world),
+            lights: plan.runs(Stage::Light),
+            shadows: plan.runs(Stage::Shadow),
+            secondary: plan.runs(Stage::Scatter),
+            clear: plan.simulates(Effect::Transparency),
+            clear_composites: world
+                .textures
+                .iter()
+                .map(|texture| !matches!(texture, Texture::Plain(_)) && texture.is_clear())
+                .collect(),
+            bends: (plan.runs(Stage::Shadow) || plan.runs(Stage::Scatter))
+                && [Effect::Refraction, Effect::Absorption, Effect::Dispersion]
+                    .into_iter()
+                    .any(|effect| plan.simulates(effect)),
+            absorbs: plan.simulates(Effect::Absorption),
+            filters_shadows: plan.runs(Stage::Shadow) && plan.simulates(Effect::ColoredShadows),
+            counts: geometry.counts(),
+            max_trace_level: plan.max_trace_level,
+            adc_bailout: plan.adc_bailout,
+            watch,
+        }
+    }
+
+    /// What a ray under way can meet.
+    #[inline(always)]
+    pub fn met_by(&self, way: &Way) -> &'a Geometry {
+        if way.mirrored { self.in_reflections } else { self.in_image }
+    }
+
+    /// The weight of a ray that brings back a part of what it sees; `None` where it is cut.
+    ///
+    /// The weight that `adc_bailout` cuts at is the product of [`most`](super::reflection::most) of each surface that
+    /// mirrors, and of the largest component of what each surface lets through; of a surface that lets through less
+    /// brightness than that, whatever the weight, nothing is followed either, as in POV-Ray. A seed finish neither
+    /// lowers the weight nor is cut by it.
+    #[inline(always)]
+    pub fn weight(&self, weight: f64, finish: &Finish, part: impl Fn() -> f64) -> Option<f64> {
+        if finish.seed {
+            return Some(weight);
+        }
+        let weight = weight * part();
+        let cut = weight < self.adc_bailout;
+        (!cut).then_some(weight)
+    }
+}
