@@ -3,16 +3,85 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{Camera, CameraItem, CameraItemKind, CameraKind};
+use crate::scene::{Camera, CameraItem, CameraItemKind, CameraKind, TransformId};
+use crate::source::Site;
 use crate::vocabulary::{Dialect, Word};
 
-use super::super::stream::{Token, TokenKind};
-use super::super::value::{Components, Poison, Value};
-use super::super::{Evaluator, Outcome, Reported};
+use super::super::stream::Token;
+use super::super::value::{Components, Value};
+use super::super::{Evaluator, Outcome};
 use super::Place;
+use super::parts::{Block, Part};
+use CameraItemKind as Kind;
 
 /// The version from which the order of a camera's items does not matter (measured).
 const SORTED_SINCE: f64 = 3.5;
+
+impl Camera {
+    fn add(&mut self, kind: CameraItemKind, site: Site) {
+        self.items.push(CameraItem { kind, site });
+    }
+}
+
+impl Block for Camera {
+    const PLACE: Place = Place::CAMERA;
+    const PARTS: &'static [Part<Self>] = &[
+        Part::flag(Word::Perspective, |c, (), _| c.kind = CameraKind::Perspective),
+        Part::flag(Word::Orthographic, |c, (), site| {
+            c.kind = CameraKind::Orthographic;
+            if c.is_in_order {
+                c.add(Kind::Orthographic, site);
+            }
+        }),
+        Part::point(Word::Location, |c, point, site| c.add(Kind::Location(point), site)),
+        Part::point(Word::LookAt, |c, point, site| c.add(Kind::LookAt(point), site)),
+        Part::direction(Word::Sky, "the sky's direction", |c, sky, site| {
+            c.add(Kind::Sky(sky), site)
+        }),
+        Part::special(Word::Up, |evaluator, token, c| {
+            let given = evaluator.any_direction_after(token, "the picture's height")?;
+            evaluator.lint_lone_side(&given, Word::Up, 'y');
+            c.add(Kind::Up(given.value), evaluator.whole(token));
+            Ok(())
+        }),
+        Part::special(Word::Right, |evaluator, token, c| {
+            let given = evaluator.any_direction_after(token, "the picture's width")?;
+            evaluator.lint_lone_side(&given, Word::Right, 'x');
+            c.add(Kind::Right(given.value), evaluator.whole(token));
+            Ok(())
+        }),
+        Part::direction(Word::Direction, "the lens's axis", |c, axis, site| {
+            c.add(Kind::Direction(axis), site)
+        }),
+        Part::special(Word::Angle, |evaluator, token, c| {
+            let angle = evaluator.angle(token, c)?;
+            c.add(angle, evaluator.whole(token));
+            Ok(())
+        }),
+        Part::special(Word::Shift, |evaluator, token, c| {
+            let shift = evaluator.shift(token)?;
+            c.add(shift, evaluator.whole(token));
+            Ok(())
+        }),
+        // Built as patterns, and not in cameras.
+        Part::special(Word::Spherical, |evaluator, token, _| {
+            Err(evaluator.unbuilt_word(token, Word::Spherical))
+        }),
+        Part::special(Word::Normal, |evaluator, token, _| {
+            Err(evaluator.unbuilt_word(token, Word::Normal))
+        }),
+    ];
+
+    fn inherit(&mut self, _: &Evaluator, value: &Value) -> bool {
+        let Value::Camera(camera) = value else { return false };
+        *self = Self { site: self.site, ..camera.as_ref().clone() };
+        true
+    }
+
+    fn transform(&mut self, _: &mut Evaluator, transform: TransformId, site: Site) {
+        self.add(CameraItemKind::Transform(transform), site);
+    }
+}
 
 impl Evaluator<'_> {
     pub(super) fn camera(&mut self, token: &Token) -> Outcome<Value> {
@@ -20,103 +89,10 @@ impl Evaluator<'_> {
         let is_in_order = self.options.dialect == Dialect::Pov && self.is_before(SORTED_SINCE);
         let (kind, items) = (CameraKind::Perspective, Vec::new());
         let mut camera = Camera { kind, items, is_in_order, site };
-        let outer = self.poison.take();
-        let outcome = self.block(token, Word::Camera, |evaluator| {
-            let mut failed = false;
-            while let Some(token) = evaluator.next() {
-                failed |= evaluator.camera_item(&token, &mut camera) == Err(Reported);
-            }
-            if failed { Err(Reported) } else { Ok(()) }
-        });
-        let poison = std::mem::replace(&mut self.poison, outer);
-        if let Some(poison) = poison {
-            self.set_poison(poison);
-            return Ok(Value::Poison(poison));
-        }
-        outcome?;
-        Ok(Value::Camera(Arc::new(camera)))
-    }
-
-    fn camera_item(&mut self, token: &Token, camera: &mut Camera) -> Outcome<()> {
-        let site = token.here.site(token.span);
-        if let Some(transform) = self.transform_from(token) {
-            camera.items.push(CameraItem { kind: CameraItemKind::Transform(transform?), site });
-            return Ok(());
-        }
-        if let Some(word) = self.contextual_word(token, Word::Camera) {
-            let token = Token { kind: TokenKind::Word(word), ..token.clone() };
-            return self.camera_item(&token, camera);
-        }
-        let word = match token.kind {
-            TokenKind::Word(word) => word,
-            TokenKind::Expression(id) => match self.declared(token, id) {
-                Some(Value::Broken) => return Err(Reported),
-                Some(Value::Camera(declared)) => {
-                    *camera = Camera { site: camera.site, ..declared.as_ref().clone() };
-                    return Ok(());
-                }
-                _ => {
-                    self.unexpected(token, Place::CAMERA);
-                    return if self.poison.is_some() { Ok(()) } else { Err(Reported) };
-                }
-            },
-            TokenKind::Comma | TokenKind::Semicolon => {
-                self.unexpected(token, Place::CAMERA);
-                return Ok(());
-            }
-            _ => {
-                self.unexpected(token, Place::CAMERA);
-                return Err(Reported);
-            }
-        };
-        let kind = match word {
-            Word::Perspective => {
-                camera.kind = CameraKind::Perspective;
-                return Ok(());
-            }
-            Word::Orthographic => {
-                camera.kind = CameraKind::Orthographic;
-                if !camera.is_in_order {
-                    return Ok(());
-                }
-                CameraItemKind::Orthographic
-            }
-            Word::Location => CameraItemKind::Location(self.vector_after(token, "a point")?.value),
-            Word::LookAt => CameraItemKind::LookAt(self.vector_after(token, "a point")?.value),
-            Word::Sky => {
-                CameraItemKind::Sky(self.any_direction_after(token, "the sky's direction")?.value)
-            }
-            Word::Up => {
-                let given = self.any_direction_after(token, "the picture's height")?;
-                self.lint_lone_side(&given, word, 'y');
-                CameraItemKind::Up(given.value)
-            }
-            Word::Right => {
-                let given = self.any_direction_after(token, "the picture's width")?;
-                self.lint_lone_side(&given, word, 'x');
-                CameraItemKind::Right(given.value)
-            }
-            Word::Direction => {
-                CameraItemKind::Direction(self.any_direction_after(token, "the lens's axis")?.value)
-            }
-            Word::Angle => self.angle(token, camera)?,
-            Word::Shift => self.shift(token)?,
-            // Built as patterns, and not in cameras.
-            Word::Spherical | Word::Normal => {
-                self.set_poison(Poison::new(word, token.here.site(token.span)));
-                self.skip_arguments(word);
-                return Ok(());
-            }
-            _ => {
-                if let Some(outcome) = self.inert(token, Place::CAMERA) {
-                    return outcome;
-                }
-                self.unexpected(token, Place::CAMERA);
-                return if self.poison.is_some() { Ok(()) } else { Err(Reported) };
-            }
-        };
-        camera.items.push(CameraItem { kind, site: self.whole(token) });
-        Ok(())
+        self.value_or_poison(|evaluator| {
+            evaluator.block(token, Word::Camera, |evaluator| evaluator.parts(&mut camera))?;
+            Ok(Value::Camera(Arc::new(camera)))
+        })
     }
 
     fn angle(&mut self, token: &Token, camera: &Camera) -> Outcome<CameraItemKind> {
@@ -138,11 +114,8 @@ impl Evaluator<'_> {
             self.number_after(token, "degrees from top to bottom")?;
         }
         if given.value >= 180.0 && camera.kind == CameraKind::Perspective && self.poison.is_none() {
-            return Err(self.out_of_range(
-                &given,
-                Word::Angle,
-                "less than 180 for a perspective camera",
-            ));
+            let wanted = "less than 180 for a perspective camera";
+            return Err(self.out_of_range(&given, Word::Angle, wanted));
         }
         self.lint_angle_in_radians(&given);
         Ok(CameraItemKind::Angle(given.value))
@@ -150,7 +123,8 @@ impl Evaluator<'_> {
 
     /// Reads `shift <x, y>`.
     fn shift(&mut self, token: &Token) -> Outcome<CameraItemKind> {
-        let given = self.given(token, "a vector of two numbers")?;
+        let wanted = "a vector of two numbers";
+        let given = self.given(token, wanted)?;
         match given.value.numbers().as_ref().map(Components::as_slice) {
             Some(&[x, y]) => Ok(CameraItemKind::Shift { x, y }),
             Some(other) => {
@@ -162,12 +136,7 @@ impl Evaluator<'_> {
                 .help(Word::Shift.sentence().to_owned());
                 Err(self.report(&given.here, diagnostic))
             }
-            None => Err(self.wrong_type(
-                &given.here,
-                given.span,
-                "a vector of two numbers",
-                &given.value,
-            )),
+            None => Err(self.wrong_type(&given.here, given.span, wanted, &given.value)),
         }
     }
 }

@@ -2,33 +2,143 @@
 
 mod albedo;
 mod irid;
-mod old;
 mod reflection;
 mod whole;
 
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{ClassicFinish, Finish, FinishId, FinishOrigin};
+use crate::scene::{ClassicFinish, Finish, FinishId, FinishOrigin, Reflection};
 use crate::source::Span;
+use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Dialect, Family, Word};
 
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
+use super::parts::{Block, Part};
+use super::range::Range;
 use super::{Given, Place};
 use whole::Written;
 
 /// How POV-Ray treats a negative power.
 const AS_A_POWER: &str = "light is taken to this negative power";
 
+/// An exponent of a cosine: POV-Ray 3.7 accepts a negative one, too (measured).
+const POWER: Range = Range::NOT_NEGATIVE.but(AS_A_POWER, |power| power);
+
 /// A finish during reading.
 pub(super) struct OpenFinish {
     opener: Token,
     finish: Finish,
+    /// POV-Ray's words, which replace a seed finish that came from the default.
+    classic: ClassicFinish,
     written: Written,
     failed: bool,
     /// Number of messages before it.
     told: usize,
+}
+
+fn classic_of(finish: &Finish) -> ClassicFinish {
+    match finish {
+        Finish::Classic(classic) => classic.clone(),
+        Finish::Seed { .. } => ClassicFinish::default(),
+    }
+}
+
+impl Block for OpenFinish {
+    const PLACE: Place = Place::FINISH;
+    const PARTS: &'static [Part<Self>] = &[
+        Part::ranged(Word::Kd, Range::NOT_NEGATIVE, |f, kd, _| f.written.kd = Some(kd)),
+        Part::ranged(Word::Ks, Range::NOT_NEGATIVE, |f, ks, _| f.written.ks = Some(ks)),
+        Part::ranged(Word::PhongExponent, Range::NOT_NEGATIVE, |f, exponent, _| {
+            f.written.phong_exponent = Some(exponent);
+        }),
+        Part::special(Word::Ambient, |evaluator, token, f| {
+            let given = evaluator.intensity_after(token)?;
+            f.classic.ambient = given.value;
+            f.written.ambient = Some(given);
+            Ok(())
+        }),
+        Part::special(Word::Emission, |evaluator, token, f| {
+            evaluator.intensity_after(token).map(|given| f.classic.emission = given.value)
+        }),
+        Part::special(Word::Diffuse, |evaluator, token, f| {
+            f.written.albedo.diffuse |= evaluator.skip_albedo();
+            f.classic.diffuse = evaluator.strength_after(token, Word::Diffuse)?;
+            f.classic.behind = evaluator.back_side(token)?.unwrap_or(0.0);
+            Ok(())
+        }),
+        Part::ranged(Word::Brilliance, POWER, |f, power, _| f.classic.brilliance = power),
+        Part::special(Word::Phong, |evaluator, token, f| {
+            f.written.albedo.phong |= evaluator.skip_albedo();
+            evaluator.strength_after(token, Word::Phong).map(|phong| f.classic.phong = phong)
+        }),
+        Part::ranged(Word::PhongSize, POWER, |f, size, _| f.classic.phong_size = size),
+        Part::special(Word::Specular, |evaluator, token, f| {
+            f.written.albedo.specular |= evaluator.skip_albedo();
+            f.classic.specular = evaluator.strength_after(token, Word::Specular)?;
+            Ok(())
+        }),
+        Part::special(Word::Roughness, |evaluator, token, f| {
+            evaluator.roughness(token).map(|roughness| f.classic.roughness = roughness)
+        }),
+        Part::optional(Word::Metallic, |f, metallic, _| f.classic.metallic = metallic),
+        Part::special(Word::Reflection, |evaluator, token, f| {
+            let before = f.classic.reflection.clone();
+            f.classic.reflection = Some(evaluator.reflection(token, before)?);
+            Ok(())
+        }),
+        Part::flag(Word::ConserveEnergy, |f, (), _| f.classic.conserve_energy = true),
+        Part::special(Word::Ior, |evaluator, token, f| {
+            f.classic.ior = Some(evaluator.index_of_refraction(token)?);
+            let help = "write `interior { ior … }` beside the texture";
+            let message = "`ior` in a finish is an old form";
+            evaluator.lint_legacy(&token.here, token.span, message, help);
+            Ok(())
+        }),
+        Part::number(Word::Crand, |f, crand, _| f.classic.crand = crand),
+        Part::special(Word::Irid, |evaluator, token, f| {
+            evaluator.irid(token, f.classic.irid).map(|irid| f.classic.irid = Some(irid))
+        }),
+        // Of old versions.
+        Part::special(Word::ReflectionExponent, |evaluator, token, f| {
+            let exponent = evaluator.exponent(token)?;
+            f.classic.reflection.get_or_insert(Reflection::NONE).exponent = exponent;
+            Ok(())
+        }),
+        Part::number(Word::Refraction, |f, refraction, _| f.classic.refraction = refraction),
+        Part::number(Word::Caustics, |f, caustics, _| f.classic.caustics = Some(caustics)),
+    ];
+
+    fn inherit(&mut self, evaluator: &Evaluator, value: &Value) -> bool {
+        let Value::Finish(id) = value else { return false };
+        self.finish.clone_from(&evaluator.scene.finishes[id.index()]);
+        self.classic = classic_of(&self.finish);
+        self.written.origin = evaluator.finish_origin(*id);
+        true
+    }
+
+    fn other(&mut self, evaluator: &mut Evaluator, token: &Token) -> Option<Outcome<()>> {
+        evaluator.ends_of_reflection(token).map(Err)
+    }
+
+    fn after(&mut self, evaluator: &mut Evaluator, token: &Token, word: Word) {
+        let Written { seed, classic, said, highlights, origin, .. } = &mut self.written;
+        let site = evaluator.whole(token);
+        if matches!(word, Word::Kd | Word::Ks | Word::PhongExponent) {
+            seed.get_or_insert((word, token.span));
+        } else {
+            classic.get_or_insert((word, token.span));
+            evaluator.lint_word_twice(token, word, said);
+        }
+        if matches!(word, Word::Roughness | Word::PhongSize | Word::Specular | Word::Phong) {
+            highlights.push((word, site));
+        }
+        use Word as W;
+        if matches!(word, W::Ks | W::Diffuse | W::Phong | W::Specular | W::Reflection | W::Ior) {
+            origin.set(word, site);
+        }
+    }
 }
 
 impl Evaluator<'_> {
@@ -41,9 +151,7 @@ impl Evaluator<'_> {
     pub(super) fn finish_from(&mut self, token: &Token, start: FinishId) -> Outcome<FinishId> {
         self.block(token, Word::Finish, |evaluator| {
             let mut open = evaluator.open_finish(token, start);
-            while let Some(token) = evaluator.next() {
-                evaluator.item_of_finish(&token, &mut open);
-            }
+            open.failed = evaluator.parts(&mut open).is_err();
             evaluator.close_finish(open)
         })
     }
@@ -57,24 +165,29 @@ impl Evaluator<'_> {
                 true => FinishOrigin { seed: None, classic: None, ..origin },
                 false => origin,
             };
-        OpenFinish {
-            opener: token.clone(),
-            finish: self.scene.finishes[start.index()].clone(),
-            written: Written { origin, ..Written::default() },
-            failed: false,
-            told: self.diagnostics.len(),
-        }
+        let finish = self.scene.finishes[start.index()].clone();
+        let written = Written { origin, ..Written::default() };
+        let (opener, told) = (token.clone(), self.diagnostics.len());
+        OpenFinish { opener, classic: classic_of(&finish), finish, written, failed: false, told }
     }
 
     pub(super) fn item_of_finish(&mut self, token: &Token, open: &mut OpenFinish) {
-        if self.finish_item(token, &mut open.finish, &mut open.written) == Err(Reported) {
-            open.failed = true;
-            self.skip_values();
-        }
+        open.failed |= self.part(token, open).is_err();
+    }
+
+    /// Reads a literal number that is `crand`, in a texture of the oldest versions.
+    pub(super) fn bare_crand(&mut self, token: &Token, open: &mut OpenFinish) {
+        let TokenKind::Expression(id) = token.kind else { return };
+        let ExpressionKind::Number(number) = token.here.unit.expression(id).kind else { return };
+        open.classic.crand = number;
+        open.written.classic.get_or_insert((Word::Crand, token.span));
     }
 
     pub(super) fn close_finish(&mut self, open: OpenFinish) -> Outcome<FinishId> {
-        let OpenFinish { opener, mut finish, written, failed, told } = open;
+        let OpenFinish { opener, mut finish, classic, written, failed, told } = open;
+        if written.seed.is_none() && written.classic.is_some() {
+            finish = Finish::Classic(classic);
+        }
         // The missing word may be in the item that failed.
         if failed && written.classic.is_none() {
             return Err(Reported);
@@ -121,140 +234,6 @@ impl Evaluator<'_> {
         self.scene.finish_origins.get(id.index()).cloned().unwrap_or_default()
     }
 
-    fn finish_item(
-        &mut self,
-        token: &Token,
-        finish: &mut Finish,
-        written: &mut Written,
-    ) -> Outcome<()> {
-        if let Some(word) = self.contextual_word(token, Word::Finish) {
-            let token = Token { kind: TokenKind::Word(word), ..token.clone() };
-            return self.finish_item(&token, finish, written);
-        }
-        let word = match token.kind {
-            TokenKind::Word(word) => word,
-            TokenKind::Expression(id) => match self.declared(token, id) {
-                Some(Value::Broken) => return Err(Reported),
-                Some(Value::Finish(id)) => {
-                    *finish = self.scene.finishes[id.index()].clone();
-                    written.origin = self.finish_origin(id);
-                    return Ok(());
-                }
-                Some(Value::Poison(poison)) => {
-                    self.is_of_place(token, poison, Place::FINISH);
-                    self.set_poison(poison);
-                    return Ok(());
-                }
-                _ => {
-                    if let Some(reported) = self.ends_of_reflection(token) {
-                        return Err(reported);
-                    }
-                    self.unexpected(token, Place::FINISH);
-                    return Err(Reported);
-                }
-            },
-            _ => {
-                self.unexpected(token, Place::FINISH);
-                return Ok(());
-            }
-        };
-        match word {
-            Word::Kd | Word::Ks | Word::PhongExponent => {
-                written.seed.get_or_insert((word, token.span));
-                let number = self.at_least_zero(token, word)?;
-                match word {
-                    Word::Kd => written.kd = Some(number),
-                    Word::Ks => {
-                        written.ks = Some(number);
-                        written.origin.set(word, self.whole(token));
-                    }
-                    _ => written.phong_exponent = Some(number),
-                }
-                return Ok(());
-            }
-            _ => {}
-        }
-        let mut classic = match finish {
-            Finish::Classic(classic) => classic.clone(),
-            // POV-Ray's words replace a seed finish that came from the default.
-            Finish::Seed { .. } => ClassicFinish::default(),
-        };
-        let known = self.classic_item(token, word, &mut classic, written)?;
-        if known {
-            if matches!(word, Word::Roughness | Word::PhongSize | Word::Specular | Word::Phong) {
-                written.highlights.push((word, self.whole(token)));
-            }
-            written.classic.get_or_insert((word, token.span));
-            self.lint_word_twice(token, word, &mut written.said);
-            if matches!(word, Word::Phong | Word::Specular | Word::Reflection | Word::Ior) {
-                written.origin.set(word, self.whole(token));
-            }
-            if written.seed.is_none() {
-                *finish = Finish::Classic(classic);
-            }
-        }
-        Ok(())
-    }
-
-    /// Reads one item; returns `Ok(false)` if its word is not a supported one.
-    fn classic_item(
-        &mut self,
-        token: &Token,
-        word: Word,
-        finish: &mut ClassicFinish,
-        written: &mut Written,
-    ) -> Outcome<bool> {
-        let albedo = &mut written.albedo;
-        match word {
-            Word::Ambient => {
-                let given = self.intensity_after(token)?;
-                finish.ambient = given.value;
-                written.ambient = Some(given);
-            }
-            Word::Emission => finish.emission = self.intensity_after(token)?.value,
-            Word::Diffuse => {
-                albedo.diffuse |= self.skip_albedo();
-                finish.diffuse = self.strength_after(token, word)?;
-                let behind = self.back_side(token)?;
-                finish.behind = behind.unwrap_or(0.0);
-                written.origin.set(word, self.whole(token));
-            }
-            Word::Brilliance => finish.brilliance = self.power_after(token, word)?,
-            Word::Phong => {
-                albedo.phong |= self.skip_albedo();
-                finish.phong = self.strength_after(token, word)?;
-            }
-            Word::PhongSize => finish.phong_size = self.power_after(token, word)?,
-            Word::Specular => {
-                albedo.specular |= self.skip_albedo();
-                finish.specular = self.strength_after(token, word)?;
-            }
-            Word::Roughness => finish.roughness = self.roughness(token)?,
-            Word::Metallic => finish.metallic = self.optional_number(token, 1.0)?,
-            Word::Reflection => {
-                let before = finish.reflection.take();
-                finish.reflection = Some(self.reflection(token, before)?);
-            }
-            Word::ConserveEnergy => finish.conserve_energy = true,
-            Word::Ior => {
-                finish.ior = Some(self.index_of_refraction(token)?);
-                let help = "write `interior { ior … }` beside the texture";
-                self.lint_legacy(&token.here, token.span, "`ior` in a finish is an old form", help);
-            }
-            Word::Crand => finish.crand = self.number_after(token, "a number")?.value,
-            Word::Irid => finish.irid = Some(self.irid(token, finish.irid)?),
-            Word::ReflectionExponent | Word::Refraction | Word::Caustics => {
-                self.old_item(token, word, finish)?;
-            }
-            _ => {
-                let poisoned = self.poison.is_some();
-                self.unexpected(token, Place::FINISH);
-                return if poisoned || self.poison.is_some() { Ok(false) } else { Err(Reported) };
-            }
-        }
-        Ok(true)
-    }
-
     /// Reads `roughness`: with 0, as in POV-Ray 3.7 (measured), a highlight has no edge, as if the exponent
     /// were unbounded.
     fn roughness(&mut self, token: &Token) -> Outcome<f64> {
@@ -268,16 +247,6 @@ impl Evaluator<'_> {
             self.out_of_range_but_read(&given, Word::Roughness, "more than 0", AS_A_POWER)?;
         }
         self.lint_highlight(&given, Word::Roughness);
-        Ok(given.value)
-    }
-
-    /// Reads the exponent of a cosine; POV-Ray 3.7 also accepts a negative one (measured).
-    pub(super) fn power_after(&mut self, token: &Token, word: Word) -> Outcome<f64> {
-        let given = self.number_after(token, "a number")?;
-        if given.value < 0.0 {
-            self.out_of_range_but_read(&given, word, "0 or more", AS_A_POWER)?;
-        }
-        self.lint_highlight(&given, word);
         Ok(given.value)
     }
 

@@ -91,10 +91,7 @@ impl Evaluator<'_> {
         let file = self.named_file(token, "the name of a picture's file, or a function")?;
         let mut gamma = Gamma::LINEAR;
         if let Some(word) = self.take_word(Word::GammaWord) {
-            gamma = match self.take_word(Word::Srgb) {
-                Some(_) => Gamma::Srgb,
-                None => Gamma::Power(self.number_of(&word, Word::GammaWord)?.value),
-            };
+            gamma = self.gamma_after(&word, Word::GammaWord)?;
         }
         if let Some(word) = self.take_word(Word::Premultiplied) {
             self.optional_flag(&word)?;

@@ -21,6 +21,7 @@ use super::super::include::missing_file;
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 use super::named::{NamedFile, is_of_picture};
+use super::parts::{Block, Part};
 use super::{Given, Place};
 
 /// Extensions that an image's name may omit.
@@ -31,8 +32,11 @@ const ENDINGS: &[&str] =
 pub(in crate::evaluate) type Pictures = Rc<HashMap<String, Arc<Picture>>>;
 
 /// What an image block says before its picture is placed.
-#[derive(Default)]
 struct OpenImage {
+    /// The word of the block.
+    of: Word,
+    /// Those of a `material_map`.
+    textures: Vec<TextureId>,
     gamma: Option<Gamma>,
     premultiplied: Option<bool>,
     map_type: MapType,
@@ -43,6 +47,68 @@ struct OpenImage {
     clear: Vec<(Clear, Option<u8>, f64, Token)>,
     /// `bump_size`.
     amount: Option<f64>,
+}
+
+impl OpenImage {
+    fn of(word: Word) -> Self {
+        Self {
+            of: word,
+            textures: Vec::new(),
+            gamma: None,
+            premultiplied: None,
+            map_type: MapType::default(),
+            once: false,
+            interpolation: Interpolation::default(),
+            source: Source::default(),
+            clear: Vec::new(),
+            amount: None,
+        }
+    }
+}
+
+impl Block for OpenImage {
+    const PLACE: Place = Place::IMAGE;
+    const PARTS: &'static [Part<Self>] = &[
+        Part::special(Word::GammaWord, |evaluator, token, image| {
+            image.gamma = Some(evaluator.gamma_after(token, Word::GammaWord)?);
+            Ok(())
+        }),
+        Part::optional(Word::Premultiplied, |image, on, _| image.premultiplied = Some(on != 0.0)),
+        Part::choice(Word::MapType, "0, 1, 2 or 5", |image, number| {
+            MapType::of_number(number).map(|map_type| image.map_type = map_type)
+        }),
+        Part::flag(Word::Once, |image, (), _| image.once = true),
+        Part::choice(Word::Interpolate, "2, 3 or 4", |image, number| {
+            Interpolation::of_number(number).map(|it| image.interpolation = it)
+        }),
+        Part::flag(Word::UseColor, |image, (), _| image.source = Source::Color),
+        Part::flag(Word::UseIndex, |image, (), _| image.source = Source::Index),
+        Part::special(Word::UseAlpha, |evaluator, token, image| evaluator.use_alpha(token, image)),
+        Part::number(Word::BumpSize, |image, amount, _| image.amount = Some(amount)),
+        Part::special(Word::Filter, |evaluator, token, image| {
+            evaluator.clear_color(token, Clear::Filter, image)
+        }),
+        Part::special(Word::Transmit, |evaluator, token, image| {
+            evaluator.clear_color(token, Clear::Transmit, image)
+        }),
+    ];
+
+    fn other(&mut self, evaluator: &mut Evaluator, token: &Token) -> Option<Outcome<()>> {
+        match token.kind {
+            TokenKind::Word(Word::Texture) if self.of == Word::MaterialMap => {
+                Some(evaluator.one_texture(token).map(|texture| {
+                    self.textures.push(evaluator.add_texture(texture));
+                }))
+            }
+            TokenKind::Word(_) => {
+                Some(evaluator.other_item(token, Place { word: Some(self.of), ..Place::IMAGE }))
+            }
+            TokenKind::Expression(id) if evaluator.misspelt_item(token, id, Word::ImageMap) => {
+                Some(Err(Reported))
+            }
+            _ => None,
+        }
+    }
 }
 
 /// An image with the `bump_size` in its block.
@@ -87,36 +153,17 @@ impl Evaluator<'_> {
             }
             let file = evaluator.named_file(token, "the name of a picture's file")?;
             let picture = evaluator.picture(&file);
-            let mut open = OpenImage::default();
-            let (mut failed, mut textures) = (false, Vec::new());
-            while let Some(token) = evaluator.next() {
-                if word == Word::MaterialMap && token.kind == TokenKind::Word(Word::Texture) {
-                    match evaluator.one_texture(&token) {
-                        Ok(texture) => textures.push(evaluator.add_texture(texture)),
-                        Err(Reported) => failed = true,
-                    }
-                    continue;
-                }
-                if evaluator.image_item(&token, word, &mut open) == Err(Reported) {
-                    failed = true;
-                    evaluator.skip_values();
-                }
-            }
+            let mut open = OpenImage::of(word);
+            let read = evaluator.parts(&mut open);
             let picture = picture?;
-            if failed {
-                return Err(Reported);
-            }
-            Ok((evaluator.placed_image(word, picture, open)?, textures))
+            read?;
+            let textures = std::mem::take(&mut open.textures);
+            Ok((evaluator.placed_image(picture, open)?, textures))
         })
     }
 
-    fn placed_image(
-        &mut self,
-        word: Word,
-        picture: Arc<Picture>,
-        open: OpenImage,
-    ) -> Outcome<PlacedImage> {
-        let purpose = match word {
+    fn placed_image(&mut self, picture: Arc<Picture>, open: OpenImage) -> Outcome<PlacedImage> {
+        let purpose = match open.of {
             Word::ImageMap => Purpose::Colors(SceneGamma {
                 assumed: self.scene.settings.assumed_gamma,
                 is_stated: self.says_gamma,
@@ -128,7 +175,7 @@ impl Evaluator<'_> {
         image.map_type = open.map_type;
         image.once = open.once;
         image.interpolation = open.interpolation;
-        image.source = match (word, open.source) {
+        image.source = match (open.of, open.source) {
             // Its values are brightness all the same (measured on POV-Ray 3.7, on pictures with and without a
             // palette).
             (Word::ImagePattern, Source::Index) => Source::Color,
@@ -153,72 +200,32 @@ impl Evaluator<'_> {
         Ok(PlacedImage { image, amount: open.amount })
     }
 
-    fn image_item(&mut self, token: &Token, of: Word, open: &mut OpenImage) -> Outcome<()> {
-        let word = match &token.kind {
-            TokenKind::Word(word) => *word,
-            TokenKind::Comma => return Ok(()),
-            TokenKind::Expression(id) if self.misspelt_item(token, *id, Word::ImageMap) => {
-                return Err(Reported);
-            }
-            _ => {
-                self.unexpected(token, Place::IMAGE);
-                return Err(Reported);
-            }
-        };
-        match word {
-            Word::GammaWord => {
-                open.gamma = Some(match self.take_word(Word::Srgb) {
-                    Some(_) => Gamma::Srgb,
-                    None => Gamma::Power(self.number_of(token, word)?.value),
-                });
-            }
-            Word::Premultiplied => open.premultiplied = Some(self.optional_flag(token)?),
-            Word::MapType => {
-                let given = self.number_after(token, "0, 1, 2 or 5")?;
-                match whole(&given).and_then(MapType::of_number) {
-                    Some(map_type) => open.map_type = map_type,
-                    None => return Err(self.out_of_range(&given, word, "0, 1, 2 or 5")),
-                }
-            }
-            Word::Once => open.once = true,
-            Word::Interpolate => {
-                let given = self.number_after(token, "2, 3 or 4")?;
-                match whole(&given).and_then(Interpolation::of_number) {
-                    Some(interpolation) => open.interpolation = interpolation,
-                    None => return Err(self.out_of_range(&given, word, "2, 3 or 4")),
-                }
-            }
-            Word::UseColor => open.source = Source::Color,
-            Word::UseIndex => open.source = Source::Index,
-            Word::UseAlpha if of != Word::ImagePattern => {
-                let message = format!("`use_alpha` has no meaning in `{}`", of.name());
-                let diagnostic = Diagnostic::new(Code::ExtraPart, message)
-                    .at(token.span, "only the values of an `image_pattern` may be those of alpha")
-                    .help("leave it out");
-                return Err(self.report(&token.here, diagnostic));
-            }
-            Word::UseAlpha => open.source = Source::Alpha,
-            Word::BumpSize => open.amount = Some(self.number_after(token, "a number")?.value),
-            Word::Filter | Word::Transmit => {
-                let which = if word == Word::Filter { Clear::Filter } else { Clear::Transmit };
-                let index = match self.take_word(Word::All) {
-                    Some(_) => None,
-                    None => Some(self.number_after(token, "the index of a colour, or `all`")?),
-                };
-                let amount = self.number_after(token, "a number")?.value;
-                // POV-Ray accepts -1, as 0 (measured).
-                if let Some(given) = index.as_ref().filter(|it| !(-1.0..256.0).contains(&it.value))
-                {
-                    return Err(self.out_of_range(given, word, "an index from 0 to 255, or `all`"));
-                }
-                let index = index.map(|Given { value, .. }| value as u8);
-                open.clear.push((which, index, amount, token.clone()));
-            }
-            _ => {
-                self.unexpected(token, Place { word: Some(of), ..Place::IMAGE });
-                return Err(Reported);
-            }
+    fn use_alpha(&mut self, token: &Token, image: &mut OpenImage) -> Outcome<()> {
+        if image.of != Word::ImagePattern {
+            let message = format!("`use_alpha` has no meaning in `{}`", image.of.name());
+            let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+                .at(token.span, "only the values of an `image_pattern` may be those of alpha")
+                .help("leave it out");
+            return Err(self.report(&token.here, diagnostic));
         }
+        image.source = Source::Alpha;
+        Ok(())
+    }
+
+    /// Reads `filter index, amount` and the like.
+    fn clear_color(&mut self, token: &Token, which: Clear, image: &mut OpenImage) -> Outcome<()> {
+        let index = match self.take_word(Word::All) {
+            Some(_) => None,
+            None => Some(self.number_after(token, "the index of a colour, or `all`")?),
+        };
+        let amount = self.number_after(token, "a number")?.value;
+        // POV-Ray accepts -1, as 0 (measured).
+        if let Some(given) = index.as_ref().filter(|it| !(-1.0..256.0).contains(&it.value)) {
+            let word = if which == Clear::Filter { Word::Filter } else { Word::Transmit };
+            return Err(self.out_of_range(given, word, "an index from 0 to 255, or `all`"));
+        }
+        let index = index.map(|Given { value, .. }| value as u8);
+        image.clear.push((which, index, amount, token.clone()));
         Ok(())
     }
 
@@ -274,9 +281,4 @@ impl Evaluator<'_> {
         self.skip_values();
         true
     }
-}
-
-/// Returns a number without its fraction; `None` below 0.
-fn whole(given: &Given<f64>) -> Option<u32> {
-    (given.value > -1.0).then_some(given.value as u32)
 }

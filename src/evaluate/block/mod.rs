@@ -37,6 +37,7 @@ mod normal;
 mod object;
 mod outline;
 mod part;
+mod parts;
 mod pattern;
 mod pigment;
 mod place;
@@ -119,8 +120,8 @@ impl Evaluator<'_> {
                 })
             }
             TokenKind::Word(Word::GlobalSettings) => {
-                self.global_settings(token)?;
-                self.needs_poison()
+                let read = self.global_settings(token);
+                self.needs_poison().and(read)
             }
             TokenKind::Word(Word::MaxTraceLevel | Word::MaxIntersections)
                 if self.options.dialect == Dialect::Pov =>

@@ -42,7 +42,7 @@ impl Evaluator<'_> {
                 Some(parts) => self.shape(token, word, |evaluator, token| {
                     parts(evaluator, token).map(ObjectKind::Solid)
                 }),
-                None => Err(self.shape_not_built(token, word)),
+                None => Err(self.unbuilt_word(token, word)),
             },
         };
         match (std::mem::replace(&mut self.poison, outer), built) {

@@ -245,7 +245,7 @@ impl Evaluator<'_> {
     }
 
     /// Reads the number of a noise generator.
-    fn noise_generator_after(&mut self, token: &Token) -> Outcome<NoiseGenerator> {
+    pub(super) fn noise_generator_after(&mut self, token: &Token) -> Outcome<NoiseGenerator> {
         let given = self.number_after(token, "1, 2 or 3")?;
         match given.value as i64 {
             // That of the scene, in POV-Ray (measured).

@@ -1,11 +1,36 @@
 //! Numbers restricted to a range, and the diagnostics for those outside it.
 
+use crate::color::Gamma;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::vocabulary::{Dialect, Word};
 
 use super::super::stream::Token;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Given;
+
+/// The numbers that a word accepts.
+pub(super) struct Range {
+    pub holds: fn(f64) -> bool,
+    /// Describes them.
+    pub wanted: &'static str,
+    /// How POV-Ray reads other numbers, and what they become; `None` if they are errors.
+    otherwise: Option<(&'static str, fn(f64) -> f64)>,
+}
+
+impl Range {
+    pub const NOT_NEGATIVE: Self = Self::new(|n| n >= 0.0, "0 or more");
+    pub const ZERO_IF_NEGATIVE: Self = Self::NOT_NEGATIVE.but("it is 0", |_| 0.0);
+
+    /// Returns a range beyond which all numbers are errors.
+    pub const fn new(holds: fn(f64) -> bool, wanted: &'static str) -> Self {
+        Self { holds, wanted, otherwise: None }
+    }
+
+    /// Returns this range for a word whose other numbers POV-Ray accepts, `read` so.
+    pub const fn but(self, read: &'static str, replaced: fn(f64) -> f64) -> Self {
+        Self { otherwise: Some((read, replaced)), ..self }
+    }
+}
 
 impl Evaluator<'_> {
     /// Reports a number outside its valid range.
@@ -50,19 +75,29 @@ impl Evaluator<'_> {
         }
     }
 
-    pub(super) fn at_least_zero(&mut self, after: &Token, word: Word) -> Outcome<f64> {
+    /// Reads a number in a range.
+    pub(super) fn number_in(&mut self, after: &Token, word: Word, range: &Range) -> Outcome<f64> {
         let given = self.number_after(after, "a number")?;
-        if given.value < 0.0 {
-            return Err(self.out_of_range(&given, word, "0 or more"));
+        let mut number = given.value;
+        if !(range.holds)(number) {
+            match range.otherwise {
+                None => return Err(self.out_of_range(&given, word, range.wanted)),
+                Some((read, replaced)) => {
+                    self.out_of_range_but_read(&given, word, range.wanted, read)?;
+                    number = replaced(number);
+                }
+            }
         }
         self.lint_highlight(&given, word);
-        Ok(given.value)
+        Ok(number)
     }
 
-    pub(super) fn more_than_zero(&mut self, after: &Token, word: Word) -> Outcome<f64> {
-        let given = self.number_of(after, word)?;
-        self.lint_highlight(&given, word);
-        Ok(given.value)
+    /// Reads `srgb`, or an exponent.
+    pub(super) fn gamma_after(&mut self, after: &Token, word: Word) -> Outcome<Gamma> {
+        match self.take_word(Word::Srgb) {
+            Some(_) => Ok(Gamma::Srgb),
+            None => self.number_of(after, word).map(|given| Gamma::Power(given.value)),
+        }
     }
 
     /// Reads a number above zero.

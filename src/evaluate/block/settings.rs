@@ -4,14 +4,16 @@ use std::sync::Arc;
 
 use crate::color::Gamma;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::noise::NoiseGenerator;
-use crate::scene::{Background, Dialect, SkySphere};
+use crate::scene::{Background, Dialect, SkySphere, TransformId};
+use crate::source::Site;
 use crate::vocabulary::Word;
 
-use super::super::stream::{Token, TokenKind};
+use super::super::stream::Token;
 use super::super::value::Value;
-use super::super::{Evaluator, Outcome, Reported};
+use super::super::{Evaluator, Outcome};
 use super::Place;
+use super::parts::{Block, Part};
+use super::range::Range;
 
 /// The maximum `max_trace_level` that POV-Ray uses; it warns of more.
 const DEEPEST: f64 = 256.0;
@@ -19,95 +21,107 @@ const DEEPEST: f64 = 256.0;
 /// The maximum `max_trace_level` here.
 const MOST_LEVELS: f64 = 1_000_000.0;
 
-impl Evaluator<'_> {
-    pub(super) fn global_settings(&mut self, token: &Token) -> Outcome<()> {
-        self.block(token, Word::GlobalSettings, |evaluator| {
-            let mut failed = false;
-            while let Some(token) = evaluator.next() {
-                failed |= evaluator.setting(&token) == Err(Reported);
-            }
-            if failed { Err(Reported) } else { Ok(()) }
-        })
+/// The block of settings, which go straight into the scene: directives between them change others.
+struct GlobalSettings;
+
+impl Block for GlobalSettings {
+    const PLACE: Place = Place::SETTINGS;
+    const PARTS: &'static [Part<Self>] = &[
+        Part::special(Word::AmbientLight, |evaluator, token, _| {
+            let light = evaluator.color_after(token, "a number or a colour")?.value.rgb;
+            evaluator.scene.settings.ambient_light = light;
+            Ok(())
+        }),
+        Part::special(Word::IridWavelength, |evaluator, token, _| {
+            let wavelengths = evaluator.color_after(token, "a colour")?.value.rgb;
+            evaluator.scene.settings.irid_wavelength = wavelengths;
+            Ok(())
+        }),
+        Part::special(Word::AssumedGamma, |evaluator, token, _| evaluator.assumed_gamma(token)),
+        Part::special(Word::MaxTraceLevel, |evaluator, token, _| evaluator.max_trace_level(token)),
+        Part::special(Word::AdcBailout, |evaluator, token, _| {
+            let bailout = evaluator.number_in(token, Word::AdcBailout, &Range::ZERO_IF_NEGATIVE)?;
+            evaluator.scene.settings.adc_bailout = bailout;
+            Ok(())
+        }),
+        Part::special(Word::NumberOfWaves, |evaluator, token, _| {
+            let given = evaluator.number_after(token, "a number of waves")?;
+            evaluator.waves = if given.value >= 1.0 { given.value as usize } else { 1 };
+            Ok(())
+        }),
+        Part::special(Word::NoiseGenerator, |evaluator, token, _| {
+            evaluator.says_noise = true;
+            evaluator.noise = evaluator.noise_generator_after(token)?;
+            Ok(())
+        }),
+    ];
+}
+
+impl Block for SkySphere {
+    const PLACE: Place = Place::SKY_SPHERE;
+    const PARTS: &'static [Part<Self>] =
+        &[Part::special(Word::Pigment, |evaluator, token, sky| {
+            sky.pigments.push(evaluator.pigment(token)?);
+            sky.items.push(evaluator.whole(token));
+            Ok(())
+        })];
+
+    fn inherit(&mut self, _: &Evaluator, value: &Value) -> bool {
+        let Value::SkySphere(sky) = value else { return false };
+        *self = Self { site: self.site, ..sky.as_ref().clone() };
+        true
     }
 
-    fn setting(&mut self, token: &Token) -> Outcome<()> {
-        match token.kind {
-            TokenKind::Word(Word::AmbientLight) => {
-                self.scene.settings.ambient_light =
-                    self.color_after(token, "a number or a colour")?.value.rgb;
-            }
-            TokenKind::Word(Word::IridWavelength) => {
-                self.scene.settings.irid_wavelength =
-                    self.color_after(token, "a colour")?.value.rgb;
-            }
-            TokenKind::Word(Word::AssumedGamma) => {
-                let gamma = match self.take_word(Word::Srgb) {
-                    Some(_) => Gamma::Srgb,
-                    None => Gamma::Power(self.more_than_zero(token, Word::AssumedGamma)?),
-                };
-                // If repeated, the first counts, as in POV-Ray.
-                if !std::mem::replace(&mut self.says_gamma, true) {
-                    if let Some(site) = self.srgb_before_gamma
-                        && gamma != Gamma::LINEAR
-                    {
-                        let message = "`assumed_gamma` stands behind a colour that it changes";
-                        let diagnostic = Diagnostic::new(Code::UnknownWord, message)
-                            .at(token.span, "expected before the first `srgb`")
-                            .also(site.span, "this colour is converted already")
-                            .help("write `global_settings` first in the file");
-                        return Err(self.report(&token.here, diagnostic));
-                    }
-                    self.scene.settings.assumed_gamma = gamma;
-                }
-            }
-            TokenKind::Word(Word::MaxTraceLevel) => {
-                let given = self.number_after(token, "a whole number")?;
-                let level = given.value.trunc().clamp(1.0, MOST_LEVELS);
-                if level != given.value {
-                    let wanted = format!("a whole number from 1 to {MOST_LEVELS}");
-                    let read = format!("it is {level}");
-                    self.out_of_range_but_read(&given, Word::MaxTraceLevel, &wanted, &read)?;
-                }
-                if given.value > DEEPEST && self.options.dialect == Dialect::Pov {
-                    let message = format!(
-                        "`max_trace_level` is {}, and POV-Ray follows no ray deeper than {DEEPEST}",
-                        given.value
-                    );
-                    let diagnostic = Diagnostic::new(Code::DeepTrace, message)
-                        .at(given.span, format!("expected {DEEPEST} or less"))
-                        .help("here rays go as deep as they are told to");
-                    self.report(&given.here, diagnostic);
-                }
-                self.scene.settings.max_trace_level = level as u32;
-                self.scene.settings.max_trace_level_site = Some(given.site());
-            }
-            TokenKind::Word(Word::AdcBailout) => {
-                let given = self.number_after(token, "a number")?;
-                if given.value < 0.0 {
-                    let read = "it is 0";
-                    self.out_of_range_but_read(&given, Word::AdcBailout, "0 or more", read)?;
-                }
-                self.scene.settings.adc_bailout = given.value.max(0.0);
-            }
-            TokenKind::Word(Word::NumberOfWaves) => {
-                let given = self.number_after(token, "a number of waves")?;
-                self.waves = if given.value >= 1.0 { given.value as usize } else { 1 };
-            }
-            TokenKind::Word(Word::NoiseGenerator) => {
-                let given = self.number_after(token, "a number")?;
-                self.says_noise = true;
-                self.noise = match given.value.trunc() {
-                    1.0 => NoiseGenerator::Plateaus,
-                    2.0 => NoiseGenerator::RangeCorrected,
-                    3.0 => NoiseGenerator::Perlin,
-                    _ => return Err(self.out_of_range(&given, Word::NoiseGenerator, "1, 2 or 3")),
-                };
-            }
-            _ => match self.inert(token, Place::SETTINGS) {
-                Some(outcome) => outcome?,
-                None => self.unexpected(token, Place::SETTINGS),
-            },
+    fn transform(&mut self, _: &mut Evaluator, transform: TransformId, _: Site) {
+        self.transforms.push(transform);
+    }
+}
+
+impl Evaluator<'_> {
+    pub(super) fn global_settings(&mut self, token: &Token) -> Outcome<()> {
+        self.block(token, Word::GlobalSettings, |evaluator| evaluator.parts(&mut GlobalSettings))
+    }
+
+    fn assumed_gamma(&mut self, token: &Token) -> Outcome<()> {
+        let gamma = self.gamma_after(token, Word::AssumedGamma)?;
+        // If repeated, the first counts, as in POV-Ray.
+        if std::mem::replace(&mut self.says_gamma, true) {
+            return Ok(());
         }
+        if let Some(site) = self.srgb_before_gamma
+            && gamma != Gamma::LINEAR
+        {
+            let message = "`assumed_gamma` stands behind a colour that it changes";
+            let diagnostic = Diagnostic::new(Code::UnknownWord, message)
+                .at(token.span, "expected before the first `srgb`")
+                .also(site.span, "this colour is converted already")
+                .help("write `global_settings` first in the file");
+            return Err(self.report(&token.here, diagnostic));
+        }
+        self.scene.settings.assumed_gamma = gamma;
+        Ok(())
+    }
+
+    fn max_trace_level(&mut self, token: &Token) -> Outcome<()> {
+        let given = self.number_after(token, "a whole number")?;
+        let level = given.value.trunc().clamp(1.0, MOST_LEVELS);
+        if level != given.value {
+            let wanted = format!("a whole number from 1 to {MOST_LEVELS}");
+            let read = format!("it is {level}");
+            self.out_of_range_but_read(&given, Word::MaxTraceLevel, &wanted, &read)?;
+        }
+        if given.value > DEEPEST && self.options.dialect == Dialect::Pov {
+            let message = format!(
+                "`max_trace_level` is {}, and POV-Ray follows no ray deeper than {DEEPEST}",
+                given.value
+            );
+            let diagnostic = Diagnostic::new(Code::DeepTrace, message)
+                .at(given.span, format!("expected {DEEPEST} or less"))
+                .help("here rays go as deep as they are told to");
+            self.report(&given.here, diagnostic);
+        }
+        self.scene.settings.max_trace_level = level as u32;
+        self.scene.settings.max_trace_level_site = Some(given.site());
         Ok(())
     }
 
@@ -120,7 +134,7 @@ impl Evaluator<'_> {
             .at(token.span, "it belongs in `global_settings { … }`")
             .help(format!("write `global_settings {{ {name} … }}`"));
         self.opinion(&token.here, diagnostic)?;
-        self.setting(token)
+        self.part(token, &mut GlobalSettings)
     }
 
     pub(super) fn background(&mut self, token: &Token) -> Outcome<()> {
@@ -145,54 +159,24 @@ impl Evaluator<'_> {
             site: token.here.site(token.span),
             items: Vec::new(),
         };
-        let outer = self.poison.take();
-        let opener = token.clone();
-        let outcome = self.block(token, Word::SkySphere, |evaluator| {
-            let (mut failed, told) = (false, evaluator.diagnostics.len());
-            while let Some(token) = evaluator.next() {
-                failed |= evaluator.sky_item(&token, &mut sky) == Err(Reported);
-            }
-            let is_whole = failed || evaluator.poison.is_some() || !sky.pigments.is_empty();
-            // POV-Ray refuses it.
-            let refused = !is_whole && evaluator.options.dialect == Dialect::Pov;
-            if refused && evaluator.diagnostics.len() == told {
-                let message = "this `sky_sphere` has no `pigment`";
-                let diagnostic = Diagnostic::new(Code::MissingPart, message)
-                    .at(opener.span, "expected `pigment { … }` in it")
-                    .help(Word::SkySphere.sentence());
-                return Err(evaluator.report(&opener.here, diagnostic));
-            }
-            if failed { Err(Reported) } else { Ok(()) }
-        });
-        let poison = std::mem::replace(&mut self.poison, outer);
-        if let Some(poison) = poison {
-            self.set_poison(poison);
-            return Ok(Value::Poison(poison));
-        }
-        outcome?;
-        Ok(Value::SkySphere(Arc::new(sky)))
-    }
-
-    fn sky_item(&mut self, token: &Token, sky: &mut SkySphere) -> Outcome<()> {
-        if let Some(transform) = self.transform_from(token) {
-            sky.transforms.push(transform?);
-            return Ok(());
-        }
-        match token.kind {
-            TokenKind::Word(Word::Pigment) => {
-                sky.pigments.push(self.pigment(token)?);
-                sky.items.push(self.whole(token));
-            }
-            TokenKind::Expression(id) => match self.declared(token, id) {
-                Some(Value::Broken) => return Err(Reported),
-                Some(Value::SkySphere(declared)) => {
-                    *sky = SkySphere { site: sky.site, ..declared.as_ref().clone() };
+        self.value_or_poison(|evaluator| {
+            evaluator.block(token, Word::SkySphere, |evaluator| {
+                let told = evaluator.diagnostics.len();
+                evaluator.parts(&mut sky)?;
+                let is_whole = evaluator.poison.is_some() || !sky.pigments.is_empty();
+                // POV-Ray refuses it.
+                let refused = !is_whole && evaluator.options.dialect == Dialect::Pov;
+                if refused && evaluator.diagnostics.len() == told {
+                    let message = "this `sky_sphere` has no `pigment`";
+                    let diagnostic = Diagnostic::new(Code::MissingPart, message)
+                        .at(token.span, "expected `pigment { … }` in it")
+                        .help(Word::SkySphere.sentence());
+                    return Err(evaluator.report(&token.here, diagnostic));
                 }
-                _ => self.unexpected(token, Place::SKY_SPHERE),
-            },
-            _ => self.unexpected(token, Place::SKY_SPHERE),
-        }
-        Ok(())
+                Ok(())
+            })?;
+            Ok(Value::SkySphere(Arc::new(sky)))
+        })
     }
 
     /// Sets the sky, replacing any earlier one.

@@ -113,7 +113,7 @@ impl Evaluator<'_> {
         self.report(&token.here, diagnostic);
     }
 
-    pub(super) fn shape_not_built(&mut self, token: &Token, word: Word) -> Reported {
+    pub(super) fn unbuilt_word(&mut self, token: &Token, word: Word) -> Reported {
         self.set_poison(Poison::new(word, token.here.site(token.span)));
         self.skip_arguments(word);
         Reported

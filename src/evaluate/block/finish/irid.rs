@@ -1,10 +1,28 @@
 //! `irid { amount thickness … turbulence … }` in a finish: a thin film.
 
+use crate::evaluate::block::parts::{Block, Part};
 use crate::evaluate::block::{Given, Place};
-use crate::evaluate::stream::{Token, TokenKind};
+use crate::evaluate::stream::Token;
 use crate::evaluate::{Evaluator, Outcome};
 use crate::scene::Irid;
 use crate::vocabulary::Word;
+
+impl Block for Irid {
+    const PLACE: Place = Place::IRID;
+    const PARTS: &'static [Part<Self>] = &[
+        Part::number(Word::Thickness, |irid, thickness, _| irid.thickness = thickness),
+        Part::special(Word::Turbulence, |evaluator, token, irid| {
+            let given = evaluator.given(token, "a number")?;
+            let numbers = given.value.numbers();
+            let Some(&[first, ..]) = numbers.as_ref().map(|numbers| numbers.as_slice()) else {
+                let Given { here, span, value, .. } = &given;
+                return Err(evaluator.wrong_type(here, *span, "a number", value));
+            };
+            irid.turbulence = first;
+            Ok(())
+        }),
+    ];
+}
 
 impl Evaluator<'_> {
     /// Reads `irid`. What is not specified keeps its value from `before`, a negative amount has no effect, and
@@ -22,24 +40,7 @@ impl Evaluator<'_> {
             let (thickness, turbulence) =
                 before.map_or((0.0, 0.0), |irid| (irid.thickness, irid.turbulence));
             let mut irid = Irid { amount, thickness, turbulence, generator };
-            while let Some(token) = evaluator.next() {
-                match token.kind {
-                    TokenKind::Word(Word::Thickness) => {
-                        irid.thickness = evaluator.number_after(&token, "a number")?.value;
-                    }
-                    TokenKind::Word(Word::Turbulence) => {
-                        let given = evaluator.given(&token, "a number")?;
-                        let numbers = given.value.numbers();
-                        let Some(&[first, ..]) = numbers.as_ref().map(|numbers| numbers.as_slice())
-                        else {
-                            let Given { here, span, value, .. } = &given;
-                            return Err(evaluator.wrong_type(here, *span, "a number", value));
-                        };
-                        irid.turbulence = first;
-                    }
-                    _ => evaluator.unexpected(&token, Place::IRID),
-                }
-            }
+            evaluator.parts(&mut irid)?;
             Ok(irid)
         })
     }

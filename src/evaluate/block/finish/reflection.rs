@@ -1,7 +1,9 @@
 //! `reflection` in a finish: a colour, or two for the limits of the angle.
 
+use super::POWER;
 use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::evaluate::block::parts::{Block, Part};
 use crate::evaluate::block::{Given, Place};
 use crate::evaluate::stream::{Token, TokenKind};
 use crate::evaluate::{Evaluator, Outcome, Reported};
@@ -12,6 +14,30 @@ use crate::vocabulary::Word;
 /// An `exponent` below this counts as 0: light to the power of a million vanishes.
 const NEARLY_NOTHING: f64 = 1e-6;
 
+impl Reflection {
+    /// What a finish without `reflection` has.
+    pub(super) const NONE: Self = Self {
+        maximum: Rgb::BLACK,
+        minimum: Rgb::BLACK,
+        falloff: 1.0,
+        fresnel: false,
+        exponent: 1.0,
+        metallic: 0.0,
+    };
+}
+
+impl Block for Reflection {
+    const PLACE: Place = Place::REFLECTION;
+    const PARTS: &'static [Part<Self>] = &[
+        Part::ranged(Word::Falloff, POWER, |reflection, power, _| reflection.falloff = power),
+        Part::special(Word::Exponent, |evaluator, token, reflection| {
+            evaluator.exponent(token).map(|exponent| reflection.exponent = exponent)
+        }),
+        Part::optional(Word::Metallic, |reflection, metallic, _| reflection.metallic = metallic),
+        Part::optional(Word::Fresnel, |reflection, on, _| reflection.fresnel = on != 0.0),
+    ];
+}
+
 impl Evaluator<'_> {
     /// Reads `reflection 0.5`, `reflection rgb <…>` or `reflection { [min,] max … }`. Properties that are not
     /// specified keep their values from `before`, as in POV-Ray.
@@ -20,12 +46,8 @@ impl Evaluator<'_> {
         token: &Token,
         before: Option<Reflection>,
     ) -> Outcome<Reflection> {
-        let plain = |color: Rgb| {
-            let (falloff, exponent, metallic) =
-                before.as_ref().map_or((1.0, 1.0, 0.0), |r| (r.falloff, r.exponent, r.metallic));
-            let fresnel = before.as_ref().is_some_and(|r| r.fresnel);
-            Reflection { minimum: color, maximum: color, falloff, fresnel, exponent, metallic }
-        };
+        let before = before.unwrap_or(Reflection::NONE);
+        let plain = |color: Rgb| Reflection { minimum: color, maximum: color, ..before };
         if !matches!(self.peek(), Some(Token { kind: TokenKind::Block(_), .. })) {
             let color = self.intensity_after(token)?.value;
             if let Some(reported) = self.ends_without_braces(token) {
@@ -47,23 +69,7 @@ impl Evaluator<'_> {
                 evaluator.lint_reflection_order(&least, &most);
                 reflection.maximum = most.value;
             }
-            while let Some(token) = evaluator.next() {
-                match token.kind {
-                    TokenKind::Word(Word::Falloff) => {
-                        reflection.falloff = evaluator.power_after(&token, Word::Falloff)?;
-                    }
-                    TokenKind::Word(Word::Exponent) => {
-                        reflection.exponent = evaluator.exponent(&token)?;
-                    }
-                    TokenKind::Word(Word::Metallic) => {
-                        reflection.metallic = evaluator.optional_number(&token, 1.0)?;
-                    }
-                    TokenKind::Word(Word::Fresnel) => {
-                        reflection.fresnel = evaluator.optional_flag(&token)?;
-                    }
-                    _ => evaluator.unexpected(&token, Place::REFLECTION),
-                }
-            }
+            evaluator.parts(&mut reflection)?;
             // With only one colour, the minimum is zero (measured on POV-Ray 3.7).
             if reflection.fresnel && !both {
                 reflection.minimum = Rgb::BLACK;

@@ -1,0 +1,245 @@
+//! Blocks whose items come in any order: one reader for all of them, and one line for each plain word.
+//!
+//! **In:** a block's list of [`Part`]s. **Out:** the block, with each value stored. **Invariant:** an item that
+//! is no part is inert, transforms the block, or is reported for its [`Place`].
+
+use crate::color::Rgb;
+use crate::evaluate::stream::{Token, TokenKind};
+use crate::evaluate::value::Value;
+use crate::evaluate::{Evaluator, Outcome, Reported};
+use crate::math::Vector;
+use crate::scene::TransformId;
+use crate::source::Site;
+use crate::vocabulary::{Family, Word};
+
+use super::Place;
+use super::range::Range;
+
+/// A block during reading.
+pub(super) trait Block: Sized + 'static {
+    const PLACE: Place;
+    const PARTS: &'static [Part<Self>];
+
+    /// Goes on from a declared value; returns `false` if the block cannot begin with one of this kind.
+    fn inherit(&mut self, _: &Evaluator, _: &Value) -> bool {
+        false
+    }
+
+    /// Moves the block, if its place allows transforms.
+    fn transform(&mut self, _: &mut Evaluator, _: TransformId, _: Site) {}
+
+    /// Reads an item that is neither a part nor a declared value of the block; `None` for other items.
+    fn other(&mut self, _: &mut Evaluator, _: &Token) -> Option<Outcome<()>> {
+        None
+    }
+
+    /// Records that the part `word` was read.
+    fn after(&mut self, _: &mut Evaluator, _: &Token, _: Word) {}
+}
+
+/// A word of a block, what follows it, and where that is stored: the functions receive the block, the value,
+/// and the site of the entire item.
+pub(super) struct Part<B> {
+    word: Word,
+    argument: Argument<B>,
+}
+
+type Set<B, T> = fn(&mut B, T, Site);
+type Read<B> = fn(&mut Evaluator, &Token, &mut B) -> Outcome<()>;
+
+enum Argument<B> {
+    Flag(Set<B, ()>),
+    Optional(Set<B, f64>),
+    Number(&'static str, Set<B, f64>),
+    Ranged(Range, Set<B, f64>),
+    Choice(&'static str, fn(&mut B, u32) -> Option<()>),
+    Color(&'static str, Set<B, Rgb>),
+    Point(Set<B, Vector>),
+    Direction(&'static str, Set<B, Vector>),
+    Special(Read<B>),
+}
+
+impl<B> Part<B> {
+    /// A word alone.
+    pub const fn flag(word: Word, set: Set<B, ()>) -> Self {
+        Self { word, argument: Argument::Flag(set) }
+    }
+
+    /// A number that may be missing: then 1, which is also `on`.
+    pub const fn optional(word: Word, set: Set<B, f64>) -> Self {
+        Self { word, argument: Argument::Optional(set) }
+    }
+
+    pub const fn number(word: Word, set: Set<B, f64>) -> Self {
+        Self { word, argument: Argument::Number("a number", set) }
+    }
+
+    /// A number in a range.
+    pub const fn ranged(word: Word, range: Range, set: Set<B, f64>) -> Self {
+        Self { word, argument: Argument::Ranged(range, set) }
+    }
+
+    /// A number that stands for a choice, without its fraction. `wanted` lists those for which `set` does not
+    /// return `None`.
+    pub const fn choice(
+        word: Word,
+        wanted: &'static str,
+        set: fn(&mut B, u32) -> Option<()>,
+    ) -> Self {
+        Self { word, argument: Argument::Choice(wanted, set) }
+    }
+
+    /// A colour, or a number for a gray; `what` describes it.
+    pub const fn color(word: Word, what: &'static str, set: Set<B, Rgb>) -> Self {
+        Self { word, argument: Argument::Color(what, set) }
+    }
+
+    pub const fn point(word: Word, set: Set<B, Vector>) -> Self {
+        Self { word, argument: Argument::Point(set) }
+    }
+
+    /// A vector that should not be zero; `what` describes it.
+    pub const fn direction(word: Word, what: &'static str, set: Set<B, Vector>) -> Self {
+        Self { word, argument: Argument::Direction(what, set) }
+    }
+
+    /// A word that `read` reads by hand.
+    pub const fn special(word: Word, read: Read<B>) -> Self {
+        Self { word, argument: Argument::Special(read) }
+    }
+}
+
+impl Evaluator<'_> {
+    /// Reads the items up to the end of a block.
+    pub(super) fn parts<B: Block>(&mut self, block: &mut B) -> Outcome<()> {
+        let mut failed = false;
+        while let Some(token) = self.next() {
+            failed |= self.part(&token, block).is_err();
+        }
+        if failed { Err(Reported) } else { Ok(()) }
+    }
+
+    /// Reads one item of a block; skips its values if it is wrong.
+    pub(super) fn part<B: Block>(&mut self, token: &Token, block: &mut B) -> Outcome<()> {
+        let word = match token.kind {
+            TokenKind::Word(word) => Some(word),
+            _ => B::PLACE.word.and_then(|of| self.contextual_word(token, of)),
+        };
+        let read = match word {
+            None => self.item_of(token, block),
+            Some(word) => match B::PARTS.iter().find(|part| part.word == word) {
+                None => self.item_of(token, block),
+                Some(part) => {
+                    let token = Token { kind: TokenKind::Word(word), ..token.clone() };
+                    let read = self.value_of_part(&token, part, block);
+                    read.map(|()| block.after(self, &token, word))
+                }
+            },
+        };
+        if read.is_err() {
+            self.skip_values();
+        }
+        read
+    }
+
+    fn value_of_part<B: Block>(
+        &mut self,
+        token: &Token,
+        part: &Part<B>,
+        block: &mut B,
+    ) -> Outcome<()> {
+        match &part.argument {
+            Argument::Flag(set) => set(block, (), self.whole(token)),
+            Argument::Optional(set) => {
+                let number = self.optional_number(token, 1.0)?;
+                set(block, number, self.whole(token));
+            }
+            Argument::Number(what, set) => {
+                let number = self.number_after(token, what)?.value;
+                set(block, number, self.whole(token));
+            }
+            Argument::Ranged(range, set) => {
+                let number = self.number_in(token, part.word, range)?;
+                set(block, number, self.whole(token));
+            }
+            Argument::Choice(wanted, set) => {
+                let given = self.number_after(token, wanted)?;
+                let number = (given.value > -1.0).then_some(given.value as u32);
+                if number.and_then(|number| set(block, number)).is_none() {
+                    return Err(self.out_of_range(&given, part.word, wanted));
+                }
+            }
+            Argument::Color(what, set) => {
+                let color = self.color_after(token, what)?.value.rgb;
+                set(block, color, self.whole(token));
+            }
+            Argument::Point(set) => {
+                let point = self.vector_after(token, "a point")?.value;
+                set(block, point, self.whole(token));
+            }
+            Argument::Direction(what, set) => {
+                let direction = self.any_direction_after(token, what)?.value;
+                set(block, direction, self.whole(token));
+            }
+            Argument::Special(read) => read(self, token, block)?,
+        }
+        Ok(())
+    }
+
+    /// Reads an item that is no part of the block.
+    fn item_of<B: Block>(&mut self, token: &Token, block: &mut B) -> Outcome<()> {
+        if B::PLACE.families.contains(&Family::Transform)
+            && let Some(transform) = self.transform_from(token)
+        {
+            block.transform(self, transform?, token.here.site(token.span));
+            return Ok(());
+        }
+        if let TokenKind::Expression(id) = token.kind {
+            match self.declared(token, id) {
+                Some(Value::Broken) => {
+                    self.broken_of_place(token, id, B::PLACE);
+                    return Err(Reported);
+                }
+                Some(Value::Poison(poison)) => {
+                    self.is_of_place(token, poison, B::PLACE);
+                    self.set_poison(poison);
+                    return Ok(());
+                }
+                Some(value) if block.inherit(self, &value) => return Ok(()),
+                _ => {}
+            }
+        }
+        match block.other(self, token) {
+            Some(read) => read,
+            None => self.other_item(token, B::PLACE),
+        }
+    }
+
+    /// Returns the value that `read` reads, or the poison in it.
+    pub(super) fn value_or_poison(
+        &mut self,
+        read: impl FnOnce(&mut Self) -> Outcome<Value>,
+    ) -> Outcome<Value> {
+        let outer = self.poison.take();
+        let read = read(self);
+        match std::mem::replace(&mut self.poison, outer) {
+            Some(poison) => {
+                self.set_poison(poison);
+                Ok(Value::Poison(poison))
+            }
+            None => read,
+        }
+    }
+
+    /// Reads an inert item, or reports one that the place does not accept: a mistake, unless it belongs to
+    /// something unsupported.
+    pub(super) fn other_item(&mut self, token: &Token, place: Place) -> Outcome<()> {
+        if let Some(outcome) = self.inert(token, place) {
+            return outcome;
+        }
+        let poisoned = self.poison.is_some();
+        self.unexpected(token, place);
+        let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
+        if harmless || poisoned || self.poison.is_some() { Ok(()) } else { Err(Reported) }
+    }
+}
