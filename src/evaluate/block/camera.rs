@@ -11,7 +11,7 @@ use super::super::stream::Token;
 use super::super::value::{Components, Value};
 use super::super::{Evaluator, Outcome};
 use super::Place;
-use super::parts::{Block, Part};
+use super::parts::{Block, Part, Parts};
 use CameraItemKind as Kind;
 
 /// The version from which the order of a camera's items does not matter (measured).
@@ -25,49 +25,41 @@ impl Camera {
 
 impl Block for Camera {
     const PLACE: Place = Place::CAMERA;
-    const PARTS: &'static [Part<Self>] = &[
-        Part::flag(Word::Perspective, |c, (), _| c.kind = CameraKind::Perspective),
-        Part::flag(Word::Orthographic, |c, (), site| {
+    const PARTS: Parts<Self> = &[
+        Part::Flag(Word::Perspective, |c, (), _| c.kind = CameraKind::Perspective),
+        Part::Flag(Word::Orthographic, |c, (), site| {
             c.kind = CameraKind::Orthographic;
             if c.is_in_order {
                 c.add(Kind::Orthographic, site);
             }
         }),
-        Part::point(Word::Location, |c, point, site| c.add(Kind::Location(point), site)),
-        Part::point(Word::LookAt, |c, point, site| c.add(Kind::LookAt(point), site)),
-        Part::direction(Word::Sky, "the sky's direction", |c, sky, site| {
+        Part::Point(Word::Location, |c, point, site| c.add(Kind::Location(point), site)),
+        Part::Point(Word::LookAt, |c, point, site| c.add(Kind::LookAt(point), site)),
+        Part::Direction(Word::Sky, "the sky's direction", |c, sky, site| {
             c.add(Kind::Sky(sky), site)
         }),
-        Part::special(Word::Up, |evaluator, token, c| {
+        Part::Special(Word::Up, |evaluator, token, c| {
             let given = evaluator.any_direction_after(token, "the picture's height")?;
             evaluator.lint_lone_side(&given, Word::Up, 'y');
             c.add(Kind::Up(given.value), evaluator.whole(token));
             Ok(())
         }),
-        Part::special(Word::Right, |evaluator, token, c| {
+        Part::Special(Word::Right, |evaluator, token, c| {
             let given = evaluator.any_direction_after(token, "the picture's width")?;
             evaluator.lint_lone_side(&given, Word::Right, 'x');
             c.add(Kind::Right(given.value), evaluator.whole(token));
             Ok(())
         }),
-        Part::direction(Word::Direction, "the lens's axis", |c, axis, site| {
+        Part::Direction(Word::Direction, "the lens's axis", |c, axis, site| {
             c.add(Kind::Direction(axis), site)
         }),
-        Part::special(Word::Angle, |evaluator, token, c| {
-            let angle = evaluator.angle(token, c)?;
-            c.add(angle, evaluator.whole(token));
-            Ok(())
-        }),
-        Part::special(Word::Shift, |evaluator, token, c| {
-            let shift = evaluator.shift(token)?;
-            c.add(shift, evaluator.whole(token));
-            Ok(())
-        }),
+        Part::Special(Word::Angle, |evaluator, token, c| evaluator.angle(token, c)),
+        Part::Special(Word::Shift, |evaluator, token, c| evaluator.shift(token, c)),
         // Built as patterns, and not in cameras.
-        Part::special(Word::Spherical, |evaluator, token, _| {
+        Part::Special(Word::Spherical, |evaluator, token, _| {
             Err(evaluator.unbuilt_word(token, Word::Spherical))
         }),
-        Part::special(Word::Normal, |evaluator, token, _| {
+        Part::Special(Word::Normal, |evaluator, token, _| {
             Err(evaluator.unbuilt_word(token, Word::Normal))
         }),
     ];
@@ -95,7 +87,7 @@ impl Evaluator<'_> {
         })
     }
 
-    fn angle(&mut self, token: &Token, camera: &Camera) -> Outcome<CameraItemKind> {
+    fn angle(&mut self, token: &Token, camera: &mut Camera) -> Outcome<()> {
         let given = self.number_after(token, "degrees")?;
         if given.value < 0.0 {
             return Err(self.out_of_range(&given, Word::Angle, "more than 0"));
@@ -118,15 +110,19 @@ impl Evaluator<'_> {
             return Err(self.out_of_range(&given, Word::Angle, wanted));
         }
         self.lint_angle_in_radians(&given);
-        Ok(CameraItemKind::Angle(given.value))
+        camera.add(Kind::Angle(given.value), self.whole(token));
+        Ok(())
     }
 
     /// Reads `shift <x, y>`.
-    fn shift(&mut self, token: &Token) -> Outcome<CameraItemKind> {
+    fn shift(&mut self, token: &Token, camera: &mut Camera) -> Outcome<()> {
         let wanted = "a vector of two numbers";
         let given = self.given(token, wanted)?;
         match given.value.numbers().as_ref().map(Components::as_slice) {
-            Some(&[x, y]) => Ok(CameraItemKind::Shift { x, y }),
+            Some(&[x, y]) => {
+                camera.add(Kind::Shift { x, y }, self.whole(token));
+                Ok(())
+            }
             Some(other) => {
                 let diagnostic = Diagnostic::new(
                     Code::WrongArity,

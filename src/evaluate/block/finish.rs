@@ -15,7 +15,7 @@ use crate::vocabulary::{Dialect, Family, Word};
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
-use super::parts::{Block, Part};
+use super::parts::{Block, Part, Parts};
 use super::range::Range;
 use super::{Given, Place};
 use whole::Written;
@@ -47,67 +47,67 @@ fn classic_of(finish: &Finish) -> ClassicFinish {
 
 impl Block for OpenFinish {
     const PLACE: Place = Place::FINISH;
-    const PARTS: &'static [Part<Self>] = &[
-        Part::ranged(Word::Kd, Range::NOT_NEGATIVE, |f, kd, _| f.written.kd = Some(kd)),
-        Part::ranged(Word::Ks, Range::NOT_NEGATIVE, |f, ks, _| f.written.ks = Some(ks)),
-        Part::ranged(Word::PhongExponent, Range::NOT_NEGATIVE, |f, exponent, _| {
+    const PARTS: Parts<Self> = &[
+        Part::Ranged(Word::Kd, Range::NOT_NEGATIVE, |f, kd, _| f.written.kd = Some(kd)),
+        Part::Ranged(Word::Ks, Range::NOT_NEGATIVE, |f, ks, _| f.written.ks = Some(ks)),
+        Part::Ranged(Word::PhongExponent, Range::NOT_NEGATIVE, |f, exponent, _| {
             f.written.phong_exponent = Some(exponent);
         }),
-        Part::special(Word::Ambient, |evaluator, token, f| {
+        Part::Special(Word::Ambient, |evaluator, token, f| {
             let given = evaluator.intensity_after(token)?;
             f.classic.ambient = given.value;
             f.written.ambient = Some(given);
             Ok(())
         }),
-        Part::special(Word::Emission, |evaluator, token, f| {
+        Part::Special(Word::Emission, |evaluator, token, f| {
             evaluator.intensity_after(token).map(|given| f.classic.emission = given.value)
         }),
-        Part::special(Word::Diffuse, |evaluator, token, f| {
+        Part::Special(Word::Diffuse, |evaluator, token, f| {
             f.written.albedo.diffuse |= evaluator.skip_albedo();
             f.classic.diffuse = evaluator.strength_after(token, Word::Diffuse)?;
             f.classic.behind = evaluator.back_side(token)?.unwrap_or(0.0);
             Ok(())
         }),
-        Part::ranged(Word::Brilliance, POWER, |f, power, _| f.classic.brilliance = power),
-        Part::special(Word::Phong, |evaluator, token, f| {
+        Part::Ranged(Word::Brilliance, POWER, |f, power, _| f.classic.brilliance = power),
+        Part::Special(Word::Phong, |evaluator, token, f| {
             f.written.albedo.phong |= evaluator.skip_albedo();
             evaluator.strength_after(token, Word::Phong).map(|phong| f.classic.phong = phong)
         }),
-        Part::ranged(Word::PhongSize, POWER, |f, size, _| f.classic.phong_size = size),
-        Part::special(Word::Specular, |evaluator, token, f| {
+        Part::Ranged(Word::PhongSize, POWER, |f, size, _| f.classic.phong_size = size),
+        Part::Special(Word::Specular, |evaluator, token, f| {
             f.written.albedo.specular |= evaluator.skip_albedo();
             f.classic.specular = evaluator.strength_after(token, Word::Specular)?;
             Ok(())
         }),
-        Part::special(Word::Roughness, |evaluator, token, f| {
+        Part::Special(Word::Roughness, |evaluator, token, f| {
             evaluator.roughness(token).map(|roughness| f.classic.roughness = roughness)
         }),
-        Part::optional(Word::Metallic, |f, metallic, _| f.classic.metallic = metallic),
-        Part::special(Word::Reflection, |evaluator, token, f| {
+        Part::Optional(Word::Metallic, |f, metallic, _| f.classic.metallic = metallic),
+        Part::Special(Word::Reflection, |evaluator, token, f| {
             let before = f.classic.reflection.clone();
             f.classic.reflection = Some(evaluator.reflection(token, before)?);
             Ok(())
         }),
-        Part::flag(Word::ConserveEnergy, |f, (), _| f.classic.conserve_energy = true),
-        Part::special(Word::Ior, |evaluator, token, f| {
+        Part::Flag(Word::ConserveEnergy, |f, (), _| f.classic.conserve_energy = true),
+        Part::Special(Word::Ior, |evaluator, token, f| {
             f.classic.ior = Some(evaluator.index_of_refraction(token)?);
             let help = "write `interior { ior … }` beside the texture";
             let message = "`ior` in a finish is an old form";
             evaluator.lint_legacy(&token.here, token.span, message, help);
             Ok(())
         }),
-        Part::number(Word::Crand, |f, crand, _| f.classic.crand = crand),
-        Part::special(Word::Irid, |evaluator, token, f| {
+        Part::Number(Word::Crand, |f, crand, _| f.classic.crand = crand),
+        Part::Special(Word::Irid, |evaluator, token, f| {
             evaluator.irid(token, f.classic.irid).map(|irid| f.classic.irid = Some(irid))
         }),
         // Of old versions.
-        Part::special(Word::ReflectionExponent, |evaluator, token, f| {
+        Part::Special(Word::ReflectionExponent, |evaluator, token, f| {
             let exponent = evaluator.exponent(token)?;
             f.classic.reflection.get_or_insert(Reflection::NONE).exponent = exponent;
             Ok(())
         }),
-        Part::number(Word::Refraction, |f, refraction, _| f.classic.refraction = refraction),
-        Part::number(Word::Caustics, |f, caustics, _| f.classic.caustics = Some(caustics)),
+        Part::Number(Word::Refraction, |f, refraction, _| f.classic.refraction = refraction),
+        Part::Number(Word::Caustics, |f, caustics, _| f.classic.caustics = Some(caustics)),
     ];
 
     fn inherit(&mut self, evaluator: &Evaluator, value: &Value) -> bool {

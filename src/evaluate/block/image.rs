@@ -21,7 +21,7 @@ use super::super::include::missing_file;
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 use super::named::{NamedFile, is_of_picture};
-use super::parts::{Block, Part};
+use super::parts::{Block, Part, Parts};
 use super::{Given, Place};
 
 /// Extensions that an image's name may omit.
@@ -68,27 +68,27 @@ impl OpenImage {
 
 impl Block for OpenImage {
     const PLACE: Place = Place::IMAGE;
-    const PARTS: &'static [Part<Self>] = &[
-        Part::special(Word::GammaWord, |evaluator, token, image| {
+    const PARTS: Parts<Self> = &[
+        Part::Special(Word::GammaWord, |evaluator, token, image| {
             image.gamma = Some(evaluator.gamma_after(token, Word::GammaWord)?);
             Ok(())
         }),
-        Part::optional(Word::Premultiplied, |image, on, _| image.premultiplied = Some(on != 0.0)),
-        Part::choice(Word::MapType, "0, 1, 2 or 5", |image, number| {
+        Part::Optional(Word::Premultiplied, |image, on, _| image.premultiplied = Some(on != 0.0)),
+        Part::Choice(Word::MapType, "0, 1, 2 or 5", |image, number| {
             MapType::of_number(number).map(|map_type| image.map_type = map_type)
         }),
-        Part::flag(Word::Once, |image, (), _| image.once = true),
-        Part::choice(Word::Interpolate, "2, 3 or 4", |image, number| {
+        Part::Flag(Word::Once, |image, (), _| image.once = true),
+        Part::Choice(Word::Interpolate, "2, 3 or 4", |image, number| {
             Interpolation::of_number(number).map(|it| image.interpolation = it)
         }),
-        Part::flag(Word::UseColor, |image, (), _| image.source = Source::Color),
-        Part::flag(Word::UseIndex, |image, (), _| image.source = Source::Index),
-        Part::special(Word::UseAlpha, |evaluator, token, image| evaluator.use_alpha(token, image)),
-        Part::number(Word::BumpSize, |image, amount, _| image.amount = Some(amount)),
-        Part::special(Word::Filter, |evaluator, token, image| {
+        Part::Flag(Word::UseColor, |image, (), _| image.source = Source::Color),
+        Part::Flag(Word::UseIndex, |image, (), _| image.source = Source::Index),
+        Part::Special(Word::UseAlpha, |evaluator, token, image| evaluator.use_alpha(token, image)),
+        Part::Number(Word::BumpSize, |image, amount, _| image.amount = Some(amount)),
+        Part::Special(Word::Filter, |evaluator, token, image| {
             evaluator.clear_color(token, Clear::Filter, image)
         }),
-        Part::special(Word::Transmit, |evaluator, token, image| {
+        Part::Special(Word::Transmit, |evaluator, token, image| {
             evaluator.clear_color(token, Clear::Transmit, image)
         }),
     ];

@@ -9,32 +9,32 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::{Material, Value};
 use super::super::{Evaluator, Outcome};
 use super::Place;
-use super::parts::{Block, Part};
+use super::parts::{Block, Part, Parts};
 
 /// The most rays that one ray is split into by dispersion.
 const MOST_SAMPLES: f64 = 65_535.0;
 
 impl Block for Interior {
     const PLACE: Place = Place::INTERIOR;
-    const PARTS: &'static [Part<Self>] = &[
-        Part::special(Word::Ior, |evaluator, token, interior| {
+    const PARTS: Parts<Self> = &[
+        Part::Special(Word::Ior, |evaluator, token, interior| {
             interior.ior = evaluator.index_of_refraction(token)?;
             interior.is_refractive = true;
             interior.ior_site = Some(evaluator.whole(token));
             Ok(())
         }),
-        Part::number(Word::FadeDistance, |interior, number, site| {
+        Part::Number(Word::FadeDistance, |interior, number, site| {
             (interior.fade_distance, interior.fade_site) = (number, Some(site));
         }),
-        Part::number(Word::FadePower, |interior, number, _| interior.fade_power = number),
-        Part::color(Word::FadeColor, "a colour", |interior, color, _| interior.fade_color = color),
-        Part::number(Word::Dispersion, |interior, number, site| {
+        Part::Number(Word::FadePower, |interior, number, _| interior.fade_power = number),
+        Part::Color(Word::FadeColor, "a colour", |interior, color, _| interior.fade_color = color),
+        Part::Number(Word::Dispersion, |interior, number, site| {
             (interior.dispersion, interior.dispersion_site) = (number, Some(site));
         }),
-        Part::special(Word::DispersionSamples, |evaluator, token, interior| {
+        Part::Special(Word::DispersionSamples, |evaluator, token, interior| {
             evaluator.dispersion_samples(token, interior)
         }),
-        Part::number(Word::Caustics, |interior, number, _| interior.caustics = Some(number)),
+        Part::Number(Word::Caustics, |interior, number, _| interior.caustics = Some(number)),
     ];
 
     fn inherit(&mut self, evaluator: &Evaluator, value: &Value) -> bool {
@@ -50,16 +50,16 @@ impl Block for Interior {
 
 impl Block for Material {
     const PLACE: Place = Place::MATERIAL;
-    const PARTS: &'static [Part<Self>] = &[
-        Part::special(Word::Texture, |evaluator, token, material| {
+    const PARTS: Parts<Self> = &[
+        Part::Special(Word::Texture, |evaluator, token, material| {
             evaluator.texture(token).map(|texture| material.texture = Some(texture))
         }),
-        Part::special(Word::InteriorTexture, |evaluator, token, material| {
+        Part::Special(Word::InteriorTexture, |evaluator, token, material| {
             let texture = evaluator.layers_of(Word::InteriorTexture, token)?;
             material.interior_texture = Some(texture);
             Ok(())
         }),
-        Part::special(Word::Interior, |evaluator, token, material| {
+        Part::Special(Word::Interior, |evaluator, token, material| {
             evaluator.interior(token).map(|interior| material.interior = Some(interior))
         }),
     ];

@@ -210,7 +210,7 @@ impl Evaluator<'_> {
                             site: token.here.site(token.span),
                         });
                     }),
-                    None => self.other_light_word(&token),
+                    None => self.other_item(&token, Place::LIGHT),
                 },
             };
             failed |= outcome.is_err();
@@ -240,15 +240,6 @@ impl Evaluator<'_> {
             self.lint_light(&cone, &light.kind);
         }
         if failed { Err(Reported) } else { Ok(()) }
-    }
-
-    fn other_light_word(&mut self, token: &Token) -> Outcome<()> {
-        if let Some(outcome) = self.inert(token, Place::LIGHT) {
-            return outcome;
-        }
-        self.unexpected(token, Place::LIGHT);
-        let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
-        if harmless || self.poison.is_some() { Ok(()) } else { Err(Reported) }
     }
 }
 

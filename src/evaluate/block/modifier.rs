@@ -243,15 +243,6 @@ impl Evaluator<'_> {
         }
         let TokenKind::Word(word) = token.kind else { return None };
         let site = token.here.site(token.span);
-        let start_texture =
-            |evaluator: &Self, modifiers: &mut Vec<Modifier>, textured: &mut bool| {
-                // A pigment or finish alone modifies a copy of the default texture.
-                if !*textured {
-                    let kind = ModifierKind::Texture(evaluator.default_texture);
-                    modifiers.push(Modifier { kind, site });
-                    *textured = true;
-                }
-            };
         let kind = match word {
             Word::Texture => self.texture(token).map(|texture| {
                 *textured = true;
@@ -274,29 +265,30 @@ impl Evaluator<'_> {
                 modifiers.extend(parts.into_iter().flatten().map(|kind| Modifier { kind, site }));
                 None
             }),
-            Word::Pigment => {
-                start_texture(self, modifiers, textured);
+            Word::Pigment | Word::Normal | Word::Finish => {
+                // Alone it modifies a copy of the default texture.
+                if !std::mem::replace(textured, true) {
+                    let kind = ModifierKind::Texture(self.default_texture);
+                    modifiers.push(Modifier { kind, site });
+                }
                 if let Err(told) = self.plain_before(token, word, modifiers, used) {
                     return Some(Err(told));
                 }
-                let start = self.pigment_of(modifiers, used);
-                self.pigment_from(token, start).map(|pigment| Some(ModifierKind::Pigment(pigment)))
-            }
-            Word::Normal => {
-                start_texture(self, modifiers, textured);
-                if let Err(told) = self.plain_before(token, word, modifiers, used) {
-                    return Some(Err(told));
-                }
-                let start = self.normal_of(modifiers, used);
-                self.normal_from(token, start).map(|normal| Some(ModifierKind::Normal(normal)))
-            }
-            Word::Finish => {
-                start_texture(self, modifiers, textured);
-                if let Err(told) = self.plain_before(token, word, modifiers, used) {
-                    return Some(Err(told));
-                }
-                let start = self.finish_of(modifiers, used);
-                self.finish_from(token, start).map(|finish| Some(ModifierKind::Finish(finish)))
+                let part = match word {
+                    Word::Pigment => {
+                        let start = self.pigment_of(modifiers, used);
+                        self.pigment_from(token, start).map(ModifierKind::Pigment)
+                    }
+                    Word::Normal => {
+                        let start = self.normal_of(modifiers, used);
+                        self.normal_from(token, start).map(ModifierKind::Normal)
+                    }
+                    _ => {
+                        let start = self.finish_of(modifiers, used);
+                        self.finish_from(token, start).map(ModifierKind::Finish)
+                    }
+                };
+                part.map(Some)
             }
             Word::NoShadow => {
                 self.optional_flag(token).map(|on| on.then_some(ModifierKind::NoShadow))

@@ -7,7 +7,8 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{Normal, NormalId, NormalKind, Pattern, Source};
+use crate::scene::{Normal, NormalId, NormalKind, Pattern, Source, Step, TransformId};
+use crate::source::Site;
 use crate::texture::normal::bump::{ACCURACY, AMOUNT};
 use crate::vocabulary::{Family, Word};
 
@@ -16,6 +17,7 @@ use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
 use super::blend_map::Entry;
+use super::parts::{Block, Part, Parts};
 use super::pattern::OpenPattern;
 
 /// A normal during reading.
@@ -34,7 +36,7 @@ pub(super) struct OpenNormal {
 
 impl OpenNormal {
     /// Goes on from a declared normal.
-    fn inherit(&mut self, normal: &Normal) {
+    fn go_on_from(&mut self, normal: &Normal) {
         let pattern = normal.kind.pattern();
         let is_flat =
             matches!(normal.kind, NormalKind::Bumps { .. }) && pattern.source == Source::Average;
@@ -52,6 +54,76 @@ impl OpenNormal {
                 (self.amount, self.is_image) = (*amount, true);
             }
             NormalKind::Map { entries, .. } => self.entries = Some(entries.clone()),
+        }
+    }
+}
+
+impl Block for OpenNormal {
+    const PLACE: Place = Place::NORMAL;
+    const PARTS: Parts<Self> = &[
+        Part::Number(Word::BumpSize, |normal, size, _| normal.amount = size),
+        Part::Number(Word::Accuracy, |normal, accuracy, _| normal.accuracy = accuracy),
+        Part::Flag(Word::NoBumpScale, |normal, (), _| normal.normal.keeps_depth = true),
+        Part::Special(Word::BumpMap, |evaluator, token, normal| {
+            let placed = evaluator.image(token, Word::BumpMap)?;
+            normal.amount = placed.amount.unwrap_or(normal.amount);
+            let source = Source::Image(Arc::new(placed.image));
+            normal.pattern.choose(source, evaluator.whole(token));
+            normal.is_image = true;
+            Ok(())
+        }),
+        Part::Special(Word::SlopeMap, |evaluator, token, normal| {
+            let entries = evaluator.entries_of(token, Word::SlopeMap, false)?.into_iter();
+            let slope = |(value, entry)| match entry {
+                Entry::Slope([height, slope]) => Some([value, height, slope]),
+                _ => None,
+            };
+            normal.slopes = entries.filter_map(slope).collect();
+            Ok(())
+        }),
+        Part::Special(Word::NormalMap, |evaluator, token, normal| {
+            let pattern = normal.pattern.close();
+            let average = pattern.is_some_and(|pattern| pattern.source == Source::Average);
+            let entries = evaluator.entries_of(token, Word::NormalMap, average)?.into_iter();
+            let of_entry = |(value, entry)| match entry {
+                Entry::Normal(id) => Some((value, id)),
+                _ => None,
+            };
+            normal.entries = Some(entries.filter_map(of_entry).collect());
+            Ok(())
+        }),
+        Part::Special(Word::Object, |evaluator, token, normal| {
+            let (source, entries) =
+                evaluator.object_pattern(token, |evaluator, _| evaluator.list_of_normals(2))?;
+            normal.entries = entries;
+            normal.pattern.choose(source, evaluator.whole(token));
+            Ok(())
+        }),
+    ];
+
+    fn inherit(&mut self, evaluator: &Evaluator, value: &Value) -> bool {
+        let Value::Normal(id) = value else { return false };
+        self.go_on_from(&evaluator.scene.normals[id.index()]);
+        true
+    }
+
+    fn transform(&mut self, _: &mut Evaluator, transform: TransformId, _: Site) {
+        self.pattern.steps.push(Step::Transform(transform));
+    }
+
+    fn other(&mut self, evaluator: &mut Evaluator, token: &Token) -> Option<Outcome<()>> {
+        match token.kind {
+            TokenKind::Word(word) if word.family() == Family::Color => {
+                Some(Err(evaluator.color_for_normal(token, word)))
+            }
+            TokenKind::Word(word) => match evaluator.pattern_item(token, &mut self.pattern) {
+                Some(read) => Some(read),
+                None => evaluator.bumps(token, word, self),
+            },
+            TokenKind::Expression(id) if evaluator.misspelt_item(token, id, Word::Normal) => {
+                Some(Err(Reported))
+            }
+            _ => None,
         }
     }
 }
@@ -104,17 +176,14 @@ impl Evaluator<'_> {
             failed: false,
         };
         if let Some(start) = start {
-            open.inherit(&self.scene.normals[start.index()]);
+            open.go_on_from(&self.scene.normals[start.index()]);
         }
         open
     }
 
     pub(super) fn item_of_normal(&mut self, token: &Token, open: &mut OpenNormal) {
         open.says_something = true;
-        if self.normal_item(token, open) == Err(Reported) {
-            open.failed = true;
-            self.skip_values();
-        }
+        open.failed |= self.part(token, open).is_err();
     }
 
     /// Adds the normal that was read. `needs_pattern` is as for [`Self::normal_of_items`].
@@ -166,108 +235,32 @@ impl Evaluator<'_> {
         NormalId(self.scene.normals.len() as u32 - 1)
     }
 
-    fn normal_item(&mut self, token: &Token, open: &mut OpenNormal) -> Outcome<()> {
-        if let Some(read) = self.pattern_item(token, &mut open.pattern) {
-            return read;
-        }
-        let word = match token.kind {
-            TokenKind::Word(word) => word,
-            TokenKind::Expression(id) => {
-                match self.declared(token, id) {
-                    Some(Value::Normal(id)) => {
-                        let declared = self.scene.normals[id.index()].clone();
-                        open.inherit(&declared);
-                    }
-                    Some(Value::Broken) => return Err(Reported),
-                    Some(Value::Poison(poison)) => {
-                        self.is_of_place(token, poison, Place::NORMAL);
-                        self.set_poison(poison);
-                    }
-                    _ => {
-                        if self.misspelt_item(token, id, Word::Normal) {
-                            return Err(Reported);
-                        }
-                        self.unexpected(token, Place::NORMAL);
-                        return Err(Reported);
-                    }
-                }
-                return Ok(());
+    /// Reads a pattern, with its amount or its list.
+    fn bumps(&mut self, token: &Token, word: Word, open: &mut OpenNormal) -> Option<Outcome<()>> {
+        let source = self.pattern_source(token, word)?;
+        Some(source.and_then(|source| {
+            let site = self.whole(token);
+            if let Some(count) = source.list() {
+                open.entries = self.list_of_normals(count)?;
             }
-            TokenKind::Comma => return Ok(()),
-            _ => {
-                self.unexpected(token, Place::NORMAL);
-                return Err(Reported);
+            open.pattern.choose(source, site);
+            open.is_image = false;
+            if open.entries.is_none() && self.is_before_value() {
+                open.amount = self.number_after(token, "an amount")?.value;
             }
-        };
-        match word {
-            Word::BumpSize => open.amount = self.number_after(token, "a number")?.value,
-            Word::Accuracy => open.accuracy = self.number_after(token, "a number")?.value,
-            Word::NoBumpScale => open.normal.keeps_depth = true,
-            Word::BumpMap => {
-                let placed = self.image(token, word)?;
-                open.amount = placed.amount.unwrap_or(open.amount);
-                let source = Source::Image(Arc::new(placed.image));
-                open.pattern.choose(source, self.whole(token));
-                open.is_image = true;
-            }
-            Word::SlopeMap => {
-                let entries = self.entries_of(token, word, false)?.into_iter();
-                let slope = |(value, entry)| match entry {
-                    Entry::Slope([height, slope]) => Some([value, height, slope]),
-                    _ => None,
-                };
-                open.slopes = entries.filter_map(slope).collect();
-            }
-            Word::NormalMap => {
-                let pattern = open.pattern.close();
-                let average = pattern.is_some_and(|pattern| pattern.source == Source::Average);
-                let entries = self.entries_of(token, word, average)?.into_iter();
-                let normal = |(value, entry)| match entry {
-                    Entry::Normal(id) => Some((value, id)),
-                    _ => None,
-                };
-                open.entries = Some(entries.filter_map(normal).collect());
-            }
-            Word::Object => {
-                let (source, entries) =
-                    self.object_pattern(token, |evaluator, _| evaluator.list_of_normals(2))?;
-                open.entries = entries;
-                open.pattern.choose(source, self.whole(token));
-            }
-            _ if word.family() == Family::Color => {
-                let message = "a `normal` is made of a pattern, and has no colour";
-                let diagnostic = Diagnostic::new(Code::MisplacedBlock, message)
-                    .at(token.span, "expected a pattern, such as `bumps 0.5`")
-                    .help("colours belong in `pigment { … }`");
-                let reported = self.report(&token.here, diagnostic);
-                self.skip_arguments(word);
-                return Err(reported);
-            }
-            _ => {
-                if let Some(source) = self.pattern_source(token, word) {
-                    let source = source?;
-                    let site = self.whole(token);
-                    if let Some(count) = source.list() {
-                        open.entries = self.list_of_normals(count)?;
-                    }
-                    open.pattern.choose(source, site);
-                    open.is_image = false;
-                    if open.entries.is_none() && self.is_before_value() {
-                        open.amount = self.number_after(token, "an amount")?.value;
-                    }
-                    return Ok(());
-                }
-                if let Some(outcome) = self.inert(token, Place::NORMAL) {
-                    return outcome;
-                }
-                let poisoned = self.poison.is_some();
-                self.unexpected(token, Place::NORMAL);
-                if !poisoned && self.poison.is_none() {
-                    return Err(Reported);
-                }
-            }
-        }
-        Ok(())
+            Ok(())
+        }))
+    }
+
+    /// Reports a colour.
+    fn color_for_normal(&mut self, token: &Token, word: Word) -> Reported {
+        let message = "a `normal` is made of a pattern, and has no colour";
+        let diagnostic = Diagnostic::new(Code::MisplacedBlock, message)
+            .at(token.span, "expected a pattern, such as `bumps 0.5`")
+            .help("colours belong in `pigment { … }`");
+        let reported = self.report(&token.here, diagnostic);
+        self.skip_arguments(word);
+        reported
     }
 
     /// Reads the normals after a pattern that takes `count`, if there are any.

@@ -18,7 +18,7 @@ use super::range::Range;
 /// A block during reading.
 pub(super) trait Block: Sized + 'static {
     const PLACE: Place;
-    const PARTS: &'static [Part<Self>];
+    const PARTS: Parts<Self>;
 
     /// Goes on from a declared value; returns `false` if the block cannot begin with one of this kind.
     fn inherit(&mut self, _: &Evaluator, _: &Value) -> bool {
@@ -37,75 +37,45 @@ pub(super) trait Block: Sized + 'static {
     fn after(&mut self, _: &mut Evaluator, _: &Token, _: Word) {}
 }
 
-/// A word of a block, what follows it, and where that is stored: the functions receive the block, the value,
-/// and the site of the entire item.
-pub(super) struct Part<B> {
-    word: Word,
-    argument: Argument<B>,
+/// The parts of a block.
+pub(super) type Parts<B> = &'static [Part<B>];
+
+/// A word, what follows it, and where that is stored: the function receives the block, the value, and the site
+/// of the entire item.
+pub(super) enum Part<B> {
+    /// A word alone.
+    Flag(Word, Set<B, ()>),
+    /// A number that may be missing: then 1, which is also `on`.
+    Optional(Word, Set<B, f64>),
+    Number(Word, Set<B, f64>),
+    Ranged(Word, Range, Set<B, f64>),
+    /// A number that stands for a choice, without its fraction: the list of those for which the function does
+    /// not return `None`.
+    Choice(Word, &'static str, fn(&mut B, u32) -> Option<()>),
+    /// A colour, or a number for a gray, with its description.
+    Color(Word, &'static str, Set<B, Rgb>),
+    Point(Word, Set<B, Vector>),
+    /// A vector that should not be zero, with its description.
+    Direction(Word, &'static str, Set<B, Vector>),
+    /// What the function reads by hand.
+    Special(Word, fn(&mut Evaluator, &Token, &mut B) -> Outcome<()>),
 }
 
 type Set<B, T> = fn(&mut B, T, Site);
-type Read<B> = fn(&mut Evaluator, &Token, &mut B) -> Outcome<()>;
-
-enum Argument<B> {
-    Flag(Set<B, ()>),
-    Optional(Set<B, f64>),
-    Number(&'static str, Set<B, f64>),
-    Ranged(Range, Set<B, f64>),
-    Choice(&'static str, fn(&mut B, u32) -> Option<()>),
-    Color(&'static str, Set<B, Rgb>),
-    Point(Set<B, Vector>),
-    Direction(&'static str, Set<B, Vector>),
-    Special(Read<B>),
-}
 
 impl<B> Part<B> {
-    /// A word alone.
-    pub const fn flag(word: Word, set: Set<B, ()>) -> Self {
-        Self { word, argument: Argument::Flag(set) }
-    }
-
-    /// A number that may be missing: then 1, which is also `on`.
-    pub const fn optional(word: Word, set: Set<B, f64>) -> Self {
-        Self { word, argument: Argument::Optional(set) }
-    }
-
-    pub const fn number(word: Word, set: Set<B, f64>) -> Self {
-        Self { word, argument: Argument::Number("a number", set) }
-    }
-
-    /// A number in a range.
-    pub const fn ranged(word: Word, range: Range, set: Set<B, f64>) -> Self {
-        Self { word, argument: Argument::Ranged(range, set) }
-    }
-
-    /// A number that stands for a choice, without its fraction. `wanted` lists those for which `set` does not
-    /// return `None`.
-    pub const fn choice(
-        word: Word,
-        wanted: &'static str,
-        set: fn(&mut B, u32) -> Option<()>,
-    ) -> Self {
-        Self { word, argument: Argument::Choice(wanted, set) }
-    }
-
-    /// A colour, or a number for a gray; `what` describes it.
-    pub const fn color(word: Word, what: &'static str, set: Set<B, Rgb>) -> Self {
-        Self { word, argument: Argument::Color(what, set) }
-    }
-
-    pub const fn point(word: Word, set: Set<B, Vector>) -> Self {
-        Self { word, argument: Argument::Point(set) }
-    }
-
-    /// A vector that should not be zero; `what` describes it.
-    pub const fn direction(word: Word, what: &'static str, set: Set<B, Vector>) -> Self {
-        Self { word, argument: Argument::Direction(what, set) }
-    }
-
-    /// A word that `read` reads by hand.
-    pub const fn special(word: Word, read: Read<B>) -> Self {
-        Self { word, argument: Argument::Special(read) }
+    fn word(&self) -> Word {
+        match self {
+            Self::Flag(word, _)
+            | Self::Optional(word, _)
+            | Self::Number(word, _)
+            | Self::Ranged(word, ..)
+            | Self::Choice(word, ..)
+            | Self::Color(word, ..)
+            | Self::Point(word, _)
+            | Self::Direction(word, ..)
+            | Self::Special(word, _) => *word,
+        }
     }
 }
 
@@ -127,7 +97,7 @@ impl Evaluator<'_> {
         };
         let read = match word {
             None => self.item_of(token, block),
-            Some(word) => match B::PARTS.iter().find(|part| part.word == word) {
+            Some(word) => match B::PARTS.iter().find(|part| part.word() == word) {
                 None => self.item_of(token, block),
                 Some(part) => {
                     let token = Token { kind: TokenKind::Word(word), ..token.clone() };
@@ -148,40 +118,34 @@ impl Evaluator<'_> {
         part: &Part<B>,
         block: &mut B,
     ) -> Outcome<()> {
-        match &part.argument {
-            Argument::Flag(set) => set(block, (), self.whole(token)),
-            Argument::Optional(set) => {
-                let number = self.optional_number(token, 1.0)?;
-                set(block, number, self.whole(token));
+        match part {
+            Part::Flag(_, set) => set(block, (), self.whole(token)),
+            Part::Optional(_, set) => {
+                set(block, self.optional_number(token, 1.0)?, self.whole(token))
             }
-            Argument::Number(what, set) => {
-                let number = self.number_after(token, what)?.value;
-                set(block, number, self.whole(token));
+            Part::Number(_, set) => {
+                set(block, self.number_after(token, "a number")?.value, self.whole(token));
             }
-            Argument::Ranged(range, set) => {
-                let number = self.number_in(token, part.word, range)?;
-                set(block, number, self.whole(token));
+            Part::Ranged(word, range, set) => {
+                set(block, self.number_in(token, *word, range)?, self.whole(token));
             }
-            Argument::Choice(wanted, set) => {
+            Part::Choice(word, wanted, set) => {
                 let given = self.number_after(token, wanted)?;
                 let number = (given.value > -1.0).then_some(given.value as u32);
                 if number.and_then(|number| set(block, number)).is_none() {
-                    return Err(self.out_of_range(&given, part.word, wanted));
+                    return Err(self.out_of_range(&given, *word, wanted));
                 }
             }
-            Argument::Color(what, set) => {
-                let color = self.color_after(token, what)?.value.rgb;
-                set(block, color, self.whole(token));
+            Part::Color(_, what, set) => {
+                set(block, self.color_after(token, what)?.value.rgb, self.whole(token));
             }
-            Argument::Point(set) => {
-                let point = self.vector_after(token, "a point")?.value;
-                set(block, point, self.whole(token));
+            Part::Point(_, set) => {
+                set(block, self.vector_after(token, "a point")?.value, self.whole(token));
             }
-            Argument::Direction(what, set) => {
-                let direction = self.any_direction_after(token, what)?.value;
-                set(block, direction, self.whole(token));
+            Part::Direction(_, what, set) => {
+                set(block, self.any_direction_after(token, what)?.value, self.whole(token));
             }
-            Argument::Special(read) => read(self, token, block)?,
+            Part::Special(_, read) => read(self, token, block)?,
         }
         Ok(())
     }

@@ -227,22 +227,13 @@ impl Evaluator<'_> {
             // The site of a surplus colour, which is reported.
             TokenKind::Comma if open.written.first.is_some() && self.at_color() => {}
             _ => {
-                if let Some(outcome) = self.inert(token, Place::PIGMENT) {
-                    return outcome;
-                }
-                let poisoned = self.poison.is_some();
-                self.unexpected(token, Place::PIGMENT);
+                self.other_item(token, Place::PIGMENT)?;
+                // A pattern that is not built.
                 if let TokenKind::Word(word) = token.kind
                     && word.family() == Family::Pattern
                     && self.poison.is_some()
                 {
                     self.alone_in_pigment(token, Some(word), &mut open.written)?;
-                }
-                if !poisoned
-                    && self.poison.is_none()
-                    && !matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon)
-                {
-                    return Err(Reported);
                 }
             }
         }

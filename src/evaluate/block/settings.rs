@@ -12,7 +12,7 @@ use super::super::stream::Token;
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome};
 use super::Place;
-use super::parts::{Block, Part};
+use super::parts::{Block, Part, Parts};
 use super::range::Range;
 
 /// The maximum `max_trace_level` that POV-Ray uses; it warns of more.
@@ -26,30 +26,30 @@ struct GlobalSettings;
 
 impl Block for GlobalSettings {
     const PLACE: Place = Place::SETTINGS;
-    const PARTS: &'static [Part<Self>] = &[
-        Part::special(Word::AmbientLight, |evaluator, token, _| {
+    const PARTS: Parts<Self> = &[
+        Part::Special(Word::AmbientLight, |evaluator, token, _| {
             let light = evaluator.color_after(token, "a number or a colour")?.value.rgb;
             evaluator.scene.settings.ambient_light = light;
             Ok(())
         }),
-        Part::special(Word::IridWavelength, |evaluator, token, _| {
+        Part::Special(Word::IridWavelength, |evaluator, token, _| {
             let wavelengths = evaluator.color_after(token, "a colour")?.value.rgb;
             evaluator.scene.settings.irid_wavelength = wavelengths;
             Ok(())
         }),
-        Part::special(Word::AssumedGamma, |evaluator, token, _| evaluator.assumed_gamma(token)),
-        Part::special(Word::MaxTraceLevel, |evaluator, token, _| evaluator.max_trace_level(token)),
-        Part::special(Word::AdcBailout, |evaluator, token, _| {
+        Part::Special(Word::AssumedGamma, |evaluator, token, _| evaluator.assumed_gamma(token)),
+        Part::Special(Word::MaxTraceLevel, |evaluator, token, _| evaluator.max_trace_level(token)),
+        Part::Special(Word::AdcBailout, |evaluator, token, _| {
             let bailout = evaluator.number_in(token, Word::AdcBailout, &Range::ZERO_IF_NEGATIVE)?;
             evaluator.scene.settings.adc_bailout = bailout;
             Ok(())
         }),
-        Part::special(Word::NumberOfWaves, |evaluator, token, _| {
+        Part::Special(Word::NumberOfWaves, |evaluator, token, _| {
             let given = evaluator.number_after(token, "a number of waves")?;
             evaluator.waves = if given.value >= 1.0 { given.value as usize } else { 1 };
             Ok(())
         }),
-        Part::special(Word::NoiseGenerator, |evaluator, token, _| {
+        Part::Special(Word::NoiseGenerator, |evaluator, token, _| {
             evaluator.says_noise = true;
             evaluator.noise = evaluator.noise_generator_after(token)?;
             Ok(())
@@ -59,12 +59,11 @@ impl Block for GlobalSettings {
 
 impl Block for SkySphere {
     const PLACE: Place = Place::SKY_SPHERE;
-    const PARTS: &'static [Part<Self>] =
-        &[Part::special(Word::Pigment, |evaluator, token, sky| {
-            sky.pigments.push(evaluator.pigment(token)?);
-            sky.items.push(evaluator.whole(token));
-            Ok(())
-        })];
+    const PARTS: Parts<Self> = &[Part::Special(Word::Pigment, |evaluator, token, sky| {
+        sky.pigments.push(evaluator.pigment(token)?);
+        sky.items.push(evaluator.whole(token));
+        Ok(())
+    })];
 
     fn inherit(&mut self, _: &Evaluator, value: &Value) -> bool {
         let Value::SkySphere(sky) = value else { return false };

@@ -237,26 +237,14 @@ impl Evaluator<'_> {
                     return Err(Reported);
                 }
             },
-            _ => {
-                if let Some(outcome) = self.inert(token, Place::TEXTURE) {
-                    return outcome;
-                }
-                let poisoned = self.poison.is_some();
-                self.unexpected(token, Place::TEXTURE);
-                let harmless = matches!(token.kind, TokenKind::Comma | TokenKind::Semicolon);
-                if !harmless && !poisoned && self.poison.is_none() {
-                    return Err(Reported);
-                }
-            }
+            _ => return self.other_item(token, Place::TEXTURE),
         }
         Ok(())
     }
 
-    /// Returns a texture that others may start from.
-    fn default_texture_of(&mut self, token: &Token, texture: Texture) -> Outcome<TextureId> {
-        let Some((name, span)) = self.top_pattern(&texture) else {
-            return Ok(self.add_texture(texture));
-        };
+    /// Reports a default texture that is a pattern of textures.
+    fn is_plain_default(&mut self, token: &Token, texture: &Texture) -> Outcome<()> {
+        let Some((name, span)) = self.top_pattern(texture) else { return Ok(()) };
         let message = format!("the default texture is of the pattern `{name}`");
         let diagnostic = Diagnostic::new(Code::ExtraPart, message)
             .at(token.span, "other textures start from its pigment, normal and finish")
@@ -270,43 +258,30 @@ impl Evaluator<'_> {
         let outer = self.poison.take();
         while let Some(token) = self.next() {
             let finishes = self.scene.finishes.len();
-            let changed = match token.kind {
-                TokenKind::Word(Word::Texture) => {
-                    // Of several, POV-Ray uses the last (measured).
-                    let texture = self.one_texture(&token);
-                    self.forget_words_of_finishes(finishes);
-                    texture.and_then(|texture| self.default_texture_of(&token, texture))
-                }
+            let mut texture = self.scene.textures[self.default_texture.index()].clone();
+            let read = match token.kind {
+                // Of several, POV-Ray uses the last (measured).
+                TokenKind::Word(Word::Texture) => self.one_texture(&token).and_then(|read| {
+                    texture = read;
+                    self.is_plain_default(&token, &texture)
+                }),
                 TokenKind::Word(Word::Pigment) => {
-                    let mut texture = self.scene.textures[self.default_texture.index()].clone();
-                    self.pigment(&token).map(|pigment| {
-                        texture.set_pigment(pigment);
-                        self.add_texture(texture)
-                    })
+                    self.pigment(&token).map(|pigment| texture.set_pigment(pigment))
                 }
                 TokenKind::Word(Word::Normal) => {
-                    let mut texture = self.scene.textures[self.default_texture.index()].clone();
-                    self.normal(&token).map(|normal| {
-                        texture.set_normal(normal);
-                        self.add_texture(texture)
-                    })
+                    self.normal(&token).map(|normal| texture.set_normal(normal))
                 }
                 TokenKind::Word(Word::Finish) => {
-                    let mut texture = self.scene.textures[self.default_texture.index()].clone();
-                    let finish = self.finish(&token);
-                    self.forget_words_of_finishes(finishes);
-                    finish.map(|finish| {
-                        texture.set_finish(finish);
-                        self.add_texture(texture)
-                    })
+                    self.finish(&token).map(|finish| texture.set_finish(finish))
                 }
                 _ => {
                     self.unexpected(&token, Place::DEFAULT);
                     continue;
                 }
             };
-            if let Ok(texture) = changed {
-                self.default_texture = texture;
+            self.forget_words_of_finishes(finishes);
+            if read.is_ok() {
+                self.default_texture = self.add_texture(texture);
             }
         }
         let poison = std::mem::replace(&mut self.poison, outer);

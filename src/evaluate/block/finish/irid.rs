@@ -1,6 +1,6 @@
 //! `irid { amount thickness … turbulence … }` in a finish: a thin film.
 
-use crate::evaluate::block::parts::{Block, Part};
+use crate::evaluate::block::parts::{Block, Part, Parts};
 use crate::evaluate::block::{Given, Place};
 use crate::evaluate::stream::Token;
 use crate::evaluate::{Evaluator, Outcome};
@@ -9,9 +9,9 @@ use crate::vocabulary::Word;
 
 impl Block for Irid {
     const PLACE: Place = Place::IRID;
-    const PARTS: &'static [Part<Self>] = &[
-        Part::number(Word::Thickness, |irid, thickness, _| irid.thickness = thickness),
-        Part::special(Word::Turbulence, |evaluator, token, irid| {
+    const PARTS: Parts<Self> = &[
+        Part::Number(Word::Thickness, |irid, thickness, _| irid.thickness = thickness),
+        Part::Special(Word::Turbulence, |evaluator, token, irid| {
             let given = evaluator.given(token, "a number")?;
             let numbers = given.value.numbers();
             let Some(&[first, ..]) = numbers.as_ref().map(|numbers| numbers.as_slice()) else {

@@ -3,7 +3,7 @@
 use super::POWER;
 use crate::color::{Color, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::evaluate::block::parts::{Block, Part};
+use crate::evaluate::block::parts::{Block, Part, Parts};
 use crate::evaluate::block::{Given, Place};
 use crate::evaluate::stream::{Token, TokenKind};
 use crate::evaluate::{Evaluator, Outcome, Reported};
@@ -28,13 +28,13 @@ impl Reflection {
 
 impl Block for Reflection {
     const PLACE: Place = Place::REFLECTION;
-    const PARTS: &'static [Part<Self>] = &[
-        Part::ranged(Word::Falloff, POWER, |reflection, power, _| reflection.falloff = power),
-        Part::special(Word::Exponent, |evaluator, token, reflection| {
+    const PARTS: Parts<Self> = &[
+        Part::Ranged(Word::Falloff, POWER, |reflection, power, _| reflection.falloff = power),
+        Part::Special(Word::Exponent, |evaluator, token, reflection| {
             evaluator.exponent(token).map(|exponent| reflection.exponent = exponent)
         }),
-        Part::optional(Word::Metallic, |reflection, metallic, _| reflection.metallic = metallic),
-        Part::optional(Word::Fresnel, |reflection, on, _| reflection.fresnel = on != 0.0),
+        Part::Optional(Word::Metallic, |reflection, metallic, _| reflection.metallic = metallic),
+        Part::Optional(Word::Fresnel, |reflection, on, _| reflection.fresnel = on != 0.0),
     ];
 }
 
