@@ -33,8 +33,8 @@ impl Block for Camera {
                 c.add(Kind::Orthographic, site);
             }
         }),
-        Part::Point(Word::Location, |c, point, site| c.add(Kind::Location(point), site)),
-        Part::Point(Word::LookAt, |c, point, site| c.add(Kind::LookAt(point), site)),
+        Part::Vector(Word::Location, "a point", |c, at, site| c.add(Kind::Location(at), site)),
+        Part::Vector(Word::LookAt, "a point", |c, point, site| c.add(Kind::LookAt(point), site)),
         Part::Direction(Word::Sky, "the sky's direction", |c, sky, site| {
             c.add(Kind::Sky(sky), site)
         }),

@@ -32,9 +32,10 @@ const ENDINGS: &[&str] =
 pub(in crate::evaluate) type Pictures = Rc<HashMap<String, Arc<Picture>>>;
 
 /// What an image block says before its picture is placed.
+#[derive(Default)]
 struct OpenImage {
     /// The word of the block.
-    of: Word,
+    of: Option<Word>,
     /// Those of a `material_map`.
     textures: Vec<TextureId>,
     gamma: Option<Gamma>,
@@ -47,23 +48,6 @@ struct OpenImage {
     clear: Vec<(Clear, Option<u8>, f64, Token)>,
     /// `bump_size`.
     amount: Option<f64>,
-}
-
-impl OpenImage {
-    fn of(word: Word) -> Self {
-        Self {
-            of: word,
-            textures: Vec::new(),
-            gamma: None,
-            premultiplied: None,
-            map_type: MapType::default(),
-            once: false,
-            interpolation: Interpolation::default(),
-            source: Source::default(),
-            clear: Vec::new(),
-            amount: None,
-        }
-    }
 }
 
 impl Block for OpenImage {
@@ -95,13 +79,13 @@ impl Block for OpenImage {
 
     fn other(&mut self, evaluator: &mut Evaluator, token: &Token) -> Option<Outcome<()>> {
         match token.kind {
-            TokenKind::Word(Word::Texture) if self.of == Word::MaterialMap => {
+            TokenKind::Word(Word::Texture) if self.of == Some(Word::MaterialMap) => {
                 Some(evaluator.one_texture(token).map(|texture| {
                     self.textures.push(evaluator.add_texture(texture));
                 }))
             }
             TokenKind::Word(_) => {
-                Some(evaluator.other_item(token, Place { word: Some(self.of), ..Place::IMAGE }))
+                Some(evaluator.other_item(token, Place { word: self.of, ..Place::IMAGE }))
             }
             TokenKind::Expression(id) if evaluator.misspelt_item(token, id, Word::ImageMap) => {
                 Some(Err(Reported))
@@ -153,7 +137,7 @@ impl Evaluator<'_> {
             }
             let file = evaluator.named_file(token, "the name of a picture's file")?;
             let picture = evaluator.picture(&file);
-            let mut open = OpenImage::of(word);
+            let mut open = OpenImage { of: Some(word), ..OpenImage::default() };
             let read = evaluator.parts(&mut open);
             let picture = picture?;
             read?;
@@ -164,7 +148,7 @@ impl Evaluator<'_> {
 
     fn placed_image(&mut self, picture: Arc<Picture>, open: OpenImage) -> Outcome<PlacedImage> {
         let purpose = match open.of {
-            Word::ImageMap => Purpose::Colors(SceneGamma {
+            Some(Word::ImageMap) => Purpose::Colors(SceneGamma {
                 assumed: self.scene.settings.assumed_gamma,
                 is_stated: self.says_gamma,
                 is_old: self.is_before(3.7),
@@ -178,7 +162,7 @@ impl Evaluator<'_> {
         image.source = match (open.of, open.source) {
             // Its values are brightness all the same (measured on POV-Ray 3.7, on pictures with and without a
             // palette).
-            (Word::ImagePattern, Source::Index) => Source::Color,
+            (Some(Word::ImagePattern), Source::Index) => Source::Color,
             (_, source) => source,
         };
         for (which, index, amount, token) in open.clear {
@@ -201,8 +185,9 @@ impl Evaluator<'_> {
     }
 
     fn use_alpha(&mut self, token: &Token, image: &mut OpenImage) -> Outcome<()> {
-        if image.of != Word::ImagePattern {
-            let message = format!("`use_alpha` has no meaning in `{}`", image.of.name());
+        if image.of != Some(Word::ImagePattern) {
+            let place = Place { word: image.of, ..Place::IMAGE };
+            let message = format!("`use_alpha` has no meaning {}", place.name());
             let diagnostic = Diagnostic::new(Code::ExtraPart, message)
                 .at(token.span, "only the values of an `image_pattern` may be those of alpha")
                 .help("leave it out");

@@ -12,6 +12,7 @@ use super::super::lint::Compared;
 use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
+use super::range::Range;
 use super::{Given, Place};
 
 /// POV-Ray's value if `accuracy` or `max_gradient` is missing, or not positive.
@@ -52,12 +53,12 @@ impl Evaluator<'_> {
                     self.number_after(&item, "a number").map(|given| threshold = given.value)
                 }
                 Word::Accuracy => {
-                    self.positive_after(&item, accuracy).map(|value| accuracy = value)
+                    self.positive_after(&item, word, accuracy).map(|value| accuracy = value)
                 }
                 Word::ContainedBy => self
                     .contained_by(&item, container.unwrap_or(Container::DEFAULT))
                     .map(|held| container = Some(held)),
-                Word::MaxGradient => self.positive_after(&item, MAX_GRADIENT).map(drop),
+                Word::MaxGradient => self.positive_after(&item, word, MAX_GRADIENT).map(drop),
                 Word::Open => {
                     open = true;
                     Ok(())
@@ -179,7 +180,7 @@ impl Evaluator<'_> {
                     self.contained_by(&item, container).map(|held| container = held)
                 }
                 // Every intersection is found as exactly as rounding allows.
-                Word::Accuracy => self.positive_after(&item, ACCURACY).map(drop),
+                Word::Accuracy => self.positive_after(&item, word, ACCURACY).map(drop),
                 _ => self.inert(&item, Place::shape(Word::Parametric)).unwrap_or(Ok(())),
             };
             failed |= outcome.is_err();
@@ -215,18 +216,10 @@ impl Evaluator<'_> {
     }
 
     /// Reads a number above 0; any other is replaced by `otherwise`, as in POV-Ray 3.7 (measured).
-    fn positive_after(&mut self, item: &Token, otherwise: f64) -> Outcome<f64> {
-        let given = self.number_after(item, "a number more than 0")?;
-        if given.value > 0.0 {
-            return Ok(given.value);
-        }
-        let name = self.describe(item);
-        let what = if item.kind == TokenKind::Word(Word::MaxGradient) { "slope" } else { "length" };
-        let message = format!("{name} is {}, and must be a {what}", given.value);
-        let diagnostic = Diagnostic::new(Code::OutOfRange, message)
-            .at(given.span, "expected a number more than 0");
-        self.opinion(&given.here, diagnostic)?;
-        Ok(otherwise)
+    fn positive_after(&mut self, item: &Token, word: Word, otherwise: f64) -> Outcome<f64> {
+        let range = Range::POSITIVE.but("it has no effect", |_| 0.0);
+        let number = self.number_in(item, word, &range)?;
+        Ok(if number > 0.0 { number } else { otherwise })
     }
 
     /// Reads `contained_by { sphere { … } }` or `contained_by { box { … } }`. If it is empty, POV-Ray 3.7

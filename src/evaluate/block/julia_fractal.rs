@@ -8,6 +8,7 @@ use crate::vocabulary::{Role, Word};
 use super::super::stream::{Token, TokenKind};
 use super::super::{Evaluator, Outcome, Reported};
 use super::Given;
+use super::range::Range;
 
 /// Items after the parameter, besides the functions.
 const ITEMS: &[Word] =
@@ -134,12 +135,8 @@ impl Evaluator<'_> {
     }
 
     fn precision(&mut self, item: &Token) -> Outcome<()> {
-        let given = self.number_after(item, "a number")?;
-        if given.value <= 0.0 {
-            let read = "it is 1";
-            self.out_of_range_but_read(&given, Word::Precision, "more than 0", read)?;
-        }
-        Ok(())
+        let range = Range::POSITIVE.but("it is 1", |_| 1.0);
+        self.number_in(item, Word::Precision, &range).map(drop)
     }
 
     /// Reads the normal of the three-dimensional slice, and its distance from the origin along it.

@@ -10,6 +10,7 @@ use crate::evaluate::{Evaluator, Outcome, Reported};
 use crate::math::Vector;
 use crate::scene::TransformId;
 use crate::source::Site;
+use crate::syntax::ast::ExpressionId;
 use crate::vocabulary::{Family, Word};
 
 use super::Place;
@@ -54,7 +55,8 @@ pub(super) enum Part<B> {
     Choice(Word, &'static str, fn(&mut B, u32) -> Option<()>),
     /// A colour, or a number for a gray, with its description.
     Color(Word, &'static str, Set<B, Rgb>),
-    Point(Word, Set<B, Vector>),
+    /// A vector, with its description.
+    Vector(Word, &'static str, Set<B, Vector>),
     /// A vector that should not be zero, with its description.
     Direction(Word, &'static str, Set<B, Vector>),
     /// What the function reads by hand.
@@ -72,7 +74,7 @@ impl<B> Part<B> {
             | Self::Ranged(word, ..)
             | Self::Choice(word, ..)
             | Self::Color(word, ..)
-            | Self::Point(word, _)
+            | Self::Vector(word, ..)
             | Self::Direction(word, ..)
             | Self::Special(word, _) => *word,
         }
@@ -91,25 +93,30 @@ impl Evaluator<'_> {
 
     /// Reads one item of a block; skips its values if it is wrong.
     pub(super) fn part<B: Block>(&mut self, token: &Token, block: &mut B) -> Outcome<()> {
-        let word = match token.kind {
-            TokenKind::Word(word) => Some(word),
-            _ => B::PLACE.word.and_then(|of| self.contextual_word(token, of)),
+        let contextual = B::PLACE.word.and_then(|of| self.contextual_word(token, of));
+        let meant = contextual.map(|word| Token { kind: TokenKind::Word(word), ..token.clone() });
+        let token = meant.as_ref().unwrap_or(token);
+        let listed = match token.kind {
+            TokenKind::Word(word) => self.listed_part(token, word, block),
+            _ => None,
         };
-        let read = match word {
-            None => self.item_of(token, block),
-            Some(word) => match B::PARTS.iter().find(|part| part.word() == word) {
-                None => self.item_of(token, block),
-                Some(part) => {
-                    let token = Token { kind: TokenKind::Word(word), ..token.clone() };
-                    let read = self.value_of_part(&token, part, block);
-                    read.map(|()| block.after(self, &token, word))
-                }
-            },
-        };
+        let read = listed.unwrap_or_else(|| self.item_of(token, block));
         if read.is_err() {
             self.skip_values();
         }
         read
+    }
+
+    /// Reads a word that is in the list of a block; `None` for other words.
+    pub(super) fn listed_part<B: Block>(
+        &mut self,
+        token: &Token,
+        word: Word,
+        block: &mut B,
+    ) -> Option<Outcome<()>> {
+        let part = B::PARTS.iter().find(|part| part.word() == word)?;
+        let read = self.value_of_part(token, part, block);
+        Some(read.map(|()| block.after(self, token, word)))
     }
 
     fn value_of_part<B: Block>(
@@ -139,8 +146,8 @@ impl Evaluator<'_> {
             Part::Color(_, what, set) => {
                 set(block, self.color_after(token, what)?.value.rgb, self.whole(token));
             }
-            Part::Point(_, set) => {
-                set(block, self.vector_after(token, "a point")?.value, self.whole(token));
+            Part::Vector(_, what, set) => {
+                set(block, self.vector_after(token, what)?.value, self.whole(token));
             }
             Part::Direction(_, what, set) => {
                 set(block, self.any_direction_after(token, what)?.value, self.whole(token));
@@ -159,23 +166,36 @@ impl Evaluator<'_> {
             return Ok(());
         }
         if let TokenKind::Expression(id) = token.kind {
-            match self.declared(token, id) {
-                Some(Value::Broken) => {
-                    self.broken_of_place(token, id, B::PLACE);
-                    return Err(Reported);
-                }
-                Some(Value::Poison(poison)) => {
-                    self.is_of_place(token, poison, B::PLACE);
-                    self.set_poison(poison);
-                    return Ok(());
-                }
-                Some(value) if block.inherit(self, &value) => return Ok(()),
-                _ => {}
+            match self.declared_item(token, id, B::PLACE) {
+                Err(read) => return read,
+                Ok(Some(value)) if block.inherit(self, &value) => return Ok(()),
+                Ok(_) => {}
             }
         }
         match block.other(self, token) {
             Some(read) => read,
             None => self.other_item(token, B::PLACE),
+        }
+    }
+
+    /// Returns the value of a declared item. Fails with the result of reading it if its value is missing.
+    pub(super) fn declared_item(
+        &mut self,
+        token: &Token,
+        id: ExpressionId,
+        place: Place,
+    ) -> Result<Option<Value>, Outcome<()>> {
+        match self.declared(token, id) {
+            Some(Value::Broken) => {
+                self.broken_of_place(token, id, place);
+                Err(Err(Reported))
+            }
+            Some(Value::Poison(poison)) => {
+                self.is_of_place(token, poison, place);
+                self.set_poison(poison);
+                Err(Ok(()))
+            }
+            value => Ok(value),
         }
     }
 

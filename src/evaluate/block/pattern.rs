@@ -9,7 +9,9 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::noise::{NoiseGenerator, Turbulence};
 use crate::pattern::{Kind, WaveKind};
 use crate::scene::texture::{Layers, Modifiers};
-use crate::scene::{ColorMap, Colors, Pattern, Pigment, PigmentId, PigmentKind, Source, Step};
+use crate::scene::{
+    ColorMap, Colors, Pattern, Pigment, PigmentId, PigmentKind, Source, Step, TransformId,
+};
 use crate::source::Site;
 use crate::vocabulary::{Dialect, Word};
 
@@ -17,6 +19,7 @@ use super::super::stream::{Token, TokenKind};
 use super::super::value::Value;
 use super::super::{Evaluator, Outcome, Reported};
 use super::Place;
+use super::parts::{Block, Part, Parts};
 
 mod argument;
 mod source;
@@ -89,6 +92,12 @@ impl OpenPattern {
         self.inherited.clone().map(|pattern| Pattern { modifiers, ..pattern })
     }
 
+    fn change_layers(&mut self, change: impl FnOnce(&mut Layers)) {
+        change(&mut self.modifiers.layers);
+        let Layers { octaves, lambda, omega } = self.modifiers.layers;
+        self.modifiers.setting.turbulence = Turbulence::new(lambda, omega, octaves);
+    }
+
     fn kind(&mut self) -> Option<&mut Kind> {
         let source = match &mut self.chosen {
             Some((source, _)) => source,
@@ -98,6 +107,44 @@ impl OpenPattern {
             Source::Kind(kind) => Some(kind),
             _ => None,
         }
+    }
+}
+
+/// As the block `pattern { … }`; the other blocks of a pattern read its parts among their own.
+impl Block for OpenPattern {
+    const PLACE: Place = Place::PATTERN;
+    const PARTS: Parts<Self> = &[
+        Part::Number(Word::Frequency, |open, n, _| open.modifiers.frequency = Some(n)),
+        Part::Number(Word::Phase, |open, n, _| open.modifiers.phase = Some(n)),
+        Part::Vector(Word::Turbulence, "a number or a vector", |open, vector, _| {
+            open.modifiers.turbulence = Some(vector);
+        }),
+        Part::Number(Word::Octaves, |open, n, _| open.change_layers(|it| it.octaves = n)),
+        Part::Number(Word::Lambda, |open, n, _| open.change_layers(|it| it.lambda = n)),
+        Part::Number(Word::Omega, |open, n, _| open.change_layers(|it| it.omega = n)),
+        Part::Special(Word::NoiseGenerator, |evaluator, token, open| {
+            open.modifiers.setting.noise = evaluator.noise_generator_after(token)?;
+            Ok(())
+        }),
+        Part::Flag(Word::UvMapping, |open, (), _| open.modifiers.uv_mapping = true),
+        Part::Special(Word::Warp, |evaluator, token, open| {
+            evaluator.warp(token).map(|warp| open.steps.push(Step::Warp(warp)))
+        }),
+    ];
+
+    fn other(&mut self, evaluator: &mut Evaluator, token: &Token) -> Option<Outcome<()>> {
+        if let Some(read) = evaluator.pattern_item(token, self) {
+            return Some(read);
+        }
+        let TokenKind::Word(word) = token.kind else { return None };
+        Some(evaluator.pattern_source(token, word)?.and_then(|source| {
+            self.choose(source, evaluator.whole(token));
+            evaluator.only_in_normals(token, word)
+        }))
+    }
+
+    fn transform(&mut self, _: &mut Evaluator, transform: TransformId, _: Site) {
+        self.steps.push(Step::Transform(transform));
     }
 }
 
@@ -136,40 +183,13 @@ impl Evaluator<'_> {
         if let Some(kind) = wave_of(word) {
             return Some(self.wave_after(token, kind).map(|kind| open.modifiers.wave = Some(kind)));
         }
-        let modifiers = &mut open.modifiers;
-        Some(match word {
-            Word::Frequency => {
-                self.number_after(token, "a number").map(|n| modifiers.frequency = Some(n.value))
-            }
-            Word::Phase => {
-                self.number_after(token, "a number").map(|n| modifiers.phase = Some(n.value))
-            }
-            Word::Turbulence => self
-                .vector_after(token, "a number or a vector")
-                .map(|v| modifiers.turbulence = Some(v.value)),
-            Word::Octaves | Word::Lambda | Word::Omega => {
-                self.number_after(token, "a number").map(|given| {
-                    let layers = &mut modifiers.layers;
-                    match word {
-                        Word::Octaves => layers.octaves = given.value,
-                        Word::Lambda => layers.lambda = given.value,
-                        _ => layers.omega = given.value,
-                    }
-                    let Layers { octaves, lambda, omega } = *layers;
-                    modifiers.setting.turbulence = Turbulence::new(lambda, omega, octaves);
-                })
-            }
-            Word::NoiseGenerator => self
-                .noise_generator_after(token)
-                .map(|generator| modifiers.setting.noise = generator),
-            Word::Interpolate => return self.interpolation(token, open),
-            Word::UvMapping => {
-                modifiers.uv_mapping = true;
-                Ok(())
-            }
-            Word::Warp => self.warp(token).map(|warp| open.steps.push(Step::Warp(warp))),
-            _ => return self.pattern_parameter(token, word, open),
-        })
+        match word {
+            Word::Interpolate => self.interpolation(token, open),
+            _ => match self.listed_part(token, word, open) {
+                Some(read) => Some(read),
+                None => self.pattern_parameter(token, word, open),
+            },
+        }
     }
 
     /// Reports `facets` where a pattern has values.
@@ -264,26 +284,7 @@ impl Evaluator<'_> {
     pub(in crate::evaluate) fn pattern_block(&mut self, token: &Token) -> Outcome<PigmentId> {
         let mut open = OpenPattern::new(self.noise, self.waves);
         let told = self.reports;
-        self.block(token, Word::Pattern, |evaluator| {
-            while let Some(token) = evaluator.next() {
-                if let Some(read) = evaluator.pattern_item(&token, &mut open) {
-                    read?;
-                    continue;
-                }
-                if let TokenKind::Word(word) = token.kind
-                    && let Some(source) = evaluator.pattern_source(&token, word)
-                {
-                    open.choose(source?, evaluator.whole(&token));
-                    evaluator.only_in_normals(&token, word)?;
-                    continue;
-                }
-                match evaluator.inert(&token, Place::PATTERN) {
-                    Some(outcome) => outcome?,
-                    None => evaluator.unexpected(&token, Place::PATTERN),
-                }
-            }
-            Ok(())
-        })?;
+        self.block(token, Word::Pattern, |evaluator| evaluator.parts(&mut open))?;
         let site = token.here.site(token.span);
         let Some(pattern) = open.close() else {
             if self.poison.is_some() || self.reports > told {

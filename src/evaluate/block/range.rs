@@ -18,6 +18,7 @@ pub(super) struct Range {
 }
 
 impl Range {
+    pub const POSITIVE: Self = Self::new(|n| n > 0.0, "more than 0");
     pub const NOT_NEGATIVE: Self = Self::new(|n| n >= 0.0, "0 or more");
     pub const ZERO_IF_NEGATIVE: Self = Self::NOT_NEGATIVE.but("it is 0", |_| 0.0);
 
@@ -96,20 +97,7 @@ impl Evaluator<'_> {
     pub(super) fn gamma_after(&mut self, after: &Token, word: Word) -> Outcome<Gamma> {
         match self.take_word(Word::Srgb) {
             Some(_) => Ok(Gamma::Srgb),
-            None => self.number_of(after, word).map(|given| Gamma::Power(given.value)),
+            None => self.number_in(after, word, &Range::POSITIVE).map(Gamma::Power),
         }
-    }
-
-    /// Reads a number above zero.
-    pub(in crate::evaluate) fn number_of(
-        &mut self,
-        after: &Token,
-        word: Word,
-    ) -> Outcome<Given<f64>> {
-        let given = self.number_after(after, "a number")?;
-        if given.value <= 0.0 {
-            return Err(self.out_of_range(&given, word, "more than 0"));
-        }
-        Ok(given)
     }
 }

@@ -11,6 +11,7 @@ use crate::vocabulary::{Dialect, Word};
 use super::super::stream::Token;
 use super::super::{Evaluator, Outcome};
 use super::Given;
+use super::range::Range;
 
 /// Maximum distance of a polygon's points from its plane, relative to its size: the error of numbers with six
 /// digits.
@@ -146,12 +147,7 @@ impl Evaluator<'_> {
                         self.out_of_range_but_read(&kind, word, "0 or 1", read)?;
                     }
                 }
-                _ => {
-                    let given = self.number_after(&item, "a number")?;
-                    if given.value < 0.0 {
-                        self.out_of_range_but_read(&given, word, "0 or more", "it is 0")?;
-                    }
-                }
+                _ => drop(self.number_in(&item, word, &Range::ZERO_IF_NEGATIVE)?),
             }
         }
         if !typed && self.options.dialect == Dialect::Pov {

@@ -215,27 +215,17 @@ impl Evaluator<'_> {
                 let finish = self.finish_from(token, top.kind.first_finish())?;
                 self.change_top(texture, |top| top.set_finish(finish));
             }
-            TokenKind::Expression(id) => match self.declared(token, id) {
-                Some(Value::Broken) => {
-                    self.broken_of_place(token, id, Place::TEXTURE);
-                    return Err(Reported);
-                }
-                Some(Value::Texture(id)) => {
+            TokenKind::Expression(id) => match self.declared_item(token, id, Place::TEXTURE) {
+                Err(read) => return read,
+                Ok(Some(Value::Texture(id))) => {
                     let texture = self.scene.textures[id.index()].clone();
                     open.inherit(texture);
                 }
                 // As in POV-Ray, their keywords are optional here.
-                Some(Value::Pigment(id)) => self.change_top(texture, |top| top.set_pigment(id)),
-                Some(Value::Normal(id)) => self.change_top(texture, |top| top.set_normal(id)),
-                Some(Value::Finish(id)) => self.change_top(texture, |top| top.set_finish(id)),
-                Some(Value::Poison(poison)) => {
-                    self.is_of_place(token, poison, Place::TEXTURE);
-                    self.set_poison(poison);
-                }
-                _ => {
-                    self.unexpected(token, Place::TEXTURE);
-                    return Err(Reported);
-                }
+                Ok(Some(Value::Pigment(id))) => self.change_top(texture, |top| top.set_pigment(id)),
+                Ok(Some(Value::Normal(id))) => self.change_top(texture, |top| top.set_normal(id)),
+                Ok(Some(Value::Finish(id))) => self.change_top(texture, |top| top.set_finish(id)),
+                Ok(_) => return self.other_item(token, Place::TEXTURE),
             },
             _ => return self.other_item(token, Place::TEXTURE),
         }

@@ -1,6 +1,7 @@
 //! `irid { amount thickness … turbulence … }` in a finish: a thin film.
 
 use crate::evaluate::block::parts::{Block, Part, Parts};
+use crate::evaluate::block::range::Range;
 use crate::evaluate::block::{Given, Place};
 use crate::evaluate::stream::Token;
 use crate::evaluate::{Evaluator, Outcome};
@@ -31,12 +32,8 @@ impl Evaluator<'_> {
         let generator = self.noise;
         let opener = token.clone();
         self.block(token, Word::Irid, |evaluator| {
-            let given = evaluator.number_after(&opener, "a number")?;
-            let amount = given.value;
-            if amount < 0.0 {
-                let read = "it has no effect";
-                evaluator.out_of_range_but_read(&given, Word::Irid, "0 or more", read)?;
-            }
+            let range = Range::NOT_NEGATIVE.but("it has no effect", |amount| amount);
+            let amount = evaluator.number_in(&opener, Word::Irid, &range)?;
             let (thickness, turbulence) =
                 before.map_or((0.0, 0.0), |irid| (irid.thickness, irid.turbulence));
             let mut irid = Irid { amount, thickness, turbulence, generator };

@@ -101,33 +101,20 @@ impl Evaluator<'_> {
     fn listed_textures(&mut self) -> Outcome<Vec<TextureId>> {
         let mut listed = Vec::new();
         while let Some(token) = self.next() {
-            listed.push(match token.kind {
+            let texture = match token.kind {
                 TokenKind::Comma => continue,
-                TokenKind::Word(Word::Texture) => self.face_texture(&token)?,
-                TokenKind::Expression(id) => match self.declared(&token, id) {
-                    Some(Value::Texture(id)) => id,
-                    Some(Value::Broken) => return Err(Reported),
-                    Some(Value::Poison(poison)) => {
-                        self.is_of_place(&token, poison, Place::TEXTURE);
-                        self.set_poison(poison);
-                        return Err(Reported);
-                    }
-                    _ => {
-                        return Err(self.expected(
-                            "a texture",
-                            Some(&token),
-                            (&token.here, token.span),
-                        ));
-                    }
+                TokenKind::Word(Word::Texture) => Some(self.face_texture(&token)?),
+                TokenKind::Expression(id) => match self.declared_item(&token, id, Place::TEXTURE) {
+                    Err(_) => return Err(Reported),
+                    Ok(Some(Value::Texture(id))) => Some(id),
+                    Ok(_) => None,
                 },
-                _ => {
-                    return Err(self.expected(
-                        "a texture",
-                        Some(&token),
-                        (&token.here, token.span),
-                    ));
-                }
-            });
+                _ => None,
+            };
+            let Some(texture) = texture else {
+                return Err(self.expected("a texture", Some(&token), (&token.here, token.span)));
+            };
+            listed.push(texture);
         }
         Ok(listed)
     }

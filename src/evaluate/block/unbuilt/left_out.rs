@@ -6,6 +6,7 @@ use crate::vocabulary::Word;
 use super::super::super::stream::{Token, TokenKind};
 use super::super::super::{Evaluator, Outcome};
 use super::super::Place;
+use super::super::range::Range;
 
 impl Evaluator<'_> {
     /// Reads `radiosity { importance n }` of an object: its relative number of samples.
@@ -14,8 +15,8 @@ impl Evaluator<'_> {
             while let Some(item) = evaluator.next() {
                 match item.kind {
                     TokenKind::Word(Word::Importance) => {
-                        let given = evaluator.number_of(&item, Word::Importance)?;
-                        if given.value != 1.0 {
+                        let range = &Range::POSITIVE;
+                        if evaluator.number_in(&item, Word::Importance, range)? != 1.0 {
                             evaluator.not_simulated(&item);
                         }
                     }
