@@ -35,9 +35,7 @@ impl Block for Camera {
         }),
         Part::Vector(Word::Location, "a point", |c, at, site| c.add(Kind::Location(at), site)),
         Part::Vector(Word::LookAt, "a point", |c, point, site| c.add(Kind::LookAt(point), site)),
-        Part::Direction(Word::Sky, "the sky's direction", |c, sky, site| {
-            c.add(Kind::Sky(sky), site)
-        }),
+        Part::Direction(Word::Sky, "the sky's direction", |c, at, site| c.add(Kind::Sky(at), site)),
         Part::Special(Word::Up, |evaluator, token, c| {
             let given = evaluator.any_direction_after(token, "the picture's height")?;
             evaluator.lint_lone_side(&given, Word::Up, 'y');
@@ -50,8 +48,8 @@ impl Block for Camera {
             c.add(Kind::Right(given.value), evaluator.whole(token));
             Ok(())
         }),
-        Part::Direction(Word::Direction, "the lens's axis", |c, axis, site| {
-            c.add(Kind::Direction(axis), site)
+        Part::Direction(Word::Direction, "the lens's axis", |c, at, site| {
+            c.add(Kind::Direction(at), site)
         }),
         Part::Special(Word::Angle, |evaluator, token, c| evaluator.angle(token, c)),
         Part::Special(Word::Shift, |evaluator, token, c| evaluator.shift(token, c)),

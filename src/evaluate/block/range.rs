@@ -10,9 +10,9 @@ use super::Given;
 
 /// The numbers that a word accepts.
 pub(super) struct Range {
-    pub holds: fn(f64) -> bool,
+    holds: fn(f64) -> bool,
     /// Describes them.
-    pub wanted: &'static str,
+    wanted: &'static str,
     /// How POV-Ray reads other numbers, and what they become; `None` if they are errors.
     otherwise: Option<(&'static str, fn(f64) -> f64)>,
 }

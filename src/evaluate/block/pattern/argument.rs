@@ -19,6 +19,7 @@ impl Evaluator<'_> {
             let mut warp: Option<Warp> = None;
             while let Some(token) = evaluator.next() {
                 if matches!(token.kind, TokenKind::Comma) {
+                    evaluator.unexpected(&token, Place::WARP);
                     continue;
                 }
                 let TokenKind::Word(word) = token.kind else {
