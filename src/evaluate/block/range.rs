@@ -13,8 +13,10 @@ pub(super) struct Range {
     holds: fn(f64) -> bool,
     /// Describes them.
     wanted: &'static str,
-    /// How POV-Ray reads other numbers, and what they become; `None` if they are errors.
-    otherwise: Option<(&'static str, fn(f64) -> f64)>,
+    /// How POV-Ray reads other numbers; `None` if they are errors.
+    read: Option<&'static str>,
+    /// What they become.
+    replaced: fn(f64) -> f64,
 }
 
 impl Range {
@@ -24,12 +26,12 @@ impl Range {
 
     /// Returns a range beyond which all numbers are errors.
     pub const fn new(holds: fn(f64) -> bool, wanted: &'static str) -> Self {
-        Self { holds, wanted, otherwise: None }
+        Self { holds, wanted, read: None, replaced: |n| n }
     }
 
     /// Returns this range for a word whose other numbers POV-Ray accepts, `read` so.
     pub const fn but(self, read: &'static str, replaced: fn(f64) -> f64) -> Self {
-        Self { otherwise: Some((read, replaced)), ..self }
+        Self { read: Some(read), replaced, ..self }
     }
 }
 
@@ -81,13 +83,11 @@ impl Evaluator<'_> {
         let given = self.number_after(after, "a number")?;
         let mut number = given.value;
         if !(range.holds)(number) {
-            match range.otherwise {
-                None => return Err(self.out_of_range(&given, word, range.wanted)),
-                Some((read, replaced)) => {
-                    self.out_of_range_but_read(&given, word, range.wanted, read)?;
-                    number = replaced(number);
-                }
-            }
+            let Some(read) = range.read else {
+                return Err(self.out_of_range(&given, word, range.wanted));
+            };
+            self.out_of_range_but_read(&given, word, range.wanted, read)?;
+            number = (range.replaced)(number);
         }
         self.lint_highlight(&given, word);
         Ok(number)
