@@ -135,7 +135,8 @@ fn png(image: &Image, out: &mut Vec<u8>) -> Result<(), String> {
     let mut encoder = png::Encoder::new(out, image.width, image.height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(depth);
-    encoder.set_compression(png::Compression::Balanced);
+    // A sixth to a third larger than by the usual compression, which takes as long as tracing a simple scene.
+    encoder.set_compression(png::Compression::Fast);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     // The curve's nearest power, for readers that know no sRGB.
     encoder.set_source_gamma(png::ScaledFloat::from_scaled(45_455));

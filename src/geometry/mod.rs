@@ -253,12 +253,20 @@ impl Geometry {
                 let (box_, reach_squared) = self.boxes[i as usize];
                 Ball::new(box_.centre, reach_squared)
             }
-            Solid::Placed(_) | Solid::Whole(_) => match bounds(world, entry.object) {
-                Some(Bounds { low, high }) => {
+            Solid::Placed(_) | Solid::Whole(_) => {
+                let own = match entry.solid {
+                    Solid::Placed(i) => self.placed[i as usize].ball(),
+                    _ => None,
+                };
+                let own = own.map(|(centre, reach)| Ball::new(centre, reach * reach));
+                let around = bounds(world, entry.object).map(|Bounds { low, high }| {
                     Ball::new((low + high) * 0.5, (high - low).length_squared() * 0.25)
-                }
-                None => Ball::EVERYWHERE,
-            },
+                });
+                let size = |ball: &Ball| ball.reach_squared;
+                let least =
+                    own.into_iter().chain(around).min_by(|a, b| size(a).total_cmp(&size(b)));
+                least.unwrap_or(Ball::EVERYWHERE)
+            }
             Solid::Plane(_) | Solid::Ellipsoid(_) => Ball::EVERYWHERE,
         }
     }
@@ -322,8 +330,8 @@ impl Geometry {
         let first = placed.first_crossings(ray, limit);
         let met = match first.iter().find(|met| sides.see(met)) {
             Some(met) => *met,
-            // The first ahead is not seen from here.
-            None if first.iter().any(|met| met.crossing().is_ahead()) => {
+            // A body ends its search at the first that is seen from either side; from here it is not.
+            None if sides != Sides::Both && first.iter().any(|met| met.crossing().is_ahead()) => {
                 placed.crossings(ray).into_iter().find(|met| sides.see(met))?
             }
             None => return None,

@@ -287,6 +287,21 @@ impl Placed {
         (self.placement.world_from_local.transpose() * gradient).length()
     }
 
+    /// Returns the centre and the radius of a ball that holds all crossings that rays find; `None` where it is
+    /// unbounded, or the placement stretches it so much that rounding has more room.
+    ///
+    /// With M = `world_from_local`, ‖M‖² is at most the greatest sum of a row of |MᵀM|, and equal for a similarity.
+    pub fn ball(&self) -> Option<(Vector, f64)> {
+        const MOST_STRETCHED: f64 = 12.0;
+        let Placement { centre, world_from_local, .. } = self.placement;
+        let square = (world_from_local.transpose() * world_from_local).abs();
+        let rows = square * Vector::ONE;
+        let reach = self.body.reach() * rows.max_element().sqrt() * (1.0 + 64.0 * U)
+            + 8.0 * U * centre.length();
+        let is_known = reach.is_finite() && self.placement.condition() < MOST_STRETCHED;
+        is_known.then_some((centre, reach))
+    }
+
     /// Returns the bounds; `None` where it is unbounded. Along each axis, they are the body's extent along
     /// that row of `world_from_local`.
     pub fn bounds(&self, rounding: Rounding) -> Option<Bounds> {

@@ -223,7 +223,7 @@ impl<'a> Tracer<'a> {
         loop {
             while let Some(surfaces) = batch.next() {
                 self.shade(walk, surfaces);
-                if walk.onward.len() + walk.behind.len() >= MOST {
+                if walk.pending() >= MOST {
                     break;
                 }
             }
@@ -232,7 +232,7 @@ impl<'a> Tracer<'a> {
                 walk.behind.clear();
                 return;
             }
-            let count = walk.onward.len() + walk.behind.len();
+            let count = walk.pending();
             if count > 0 {
                 batch.forget_shaded();
                 let onward = || walk.onward.iter().chain(&walk.behind);

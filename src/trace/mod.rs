@@ -114,6 +114,11 @@ pub(crate) struct Walk {
 }
 
 impl Walk {
+    /// How many rays go on from surfaces.
+    fn pending(&self) -> usize {
+        self.onward.len() + self.behind.len()
+    }
+
     #[inline(never)]
     fn remember(&mut self, light: usize, occluder: Occluder) {
         if self.occluders.len() <= light {

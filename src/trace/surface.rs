@@ -32,17 +32,20 @@ impl<'a> Tracer<'a> {
     pub fn shade(&self, walk: &mut Walk, mut surfaces: Surfaces) {
         let (ways, hits) = (surfaces.ways, surfaces.hits);
         let mut stands: SmallVec<[Stand; SLICE]> = SmallVec::new();
+        // Surfaces that rays go on from.
+        let (mut steps, mut pending) = (0, walk.pending());
+        let mut count = |walk: &Walk| {
+            steps += u32::from(walk.pending() > pending);
+            pending = walk.pending();
+        };
         for (number, (way, hit)) in ways.iter().zip(hits).enumerate() {
             if self.counts {
                 let hidden = !std::ptr::eq(self.met_by(way), self.geometry);
                 walk.counters.evaluations.count(self.world, hit.found().as_ref(), hidden);
             }
             if hit.found().is_none() {
-                surfaces.show(
-                    number,
-                    sky::seen(self.world, &self.sharpness, way.ray.direction),
-                    false,
-                );
+                let sky = sky::seen(self.world, &self.sharpness, way.ray.direction);
+                surfaces.show(number, sky, false);
                 continue;
             }
             let object = &self.world.objects[hit.object as usize];
@@ -53,6 +56,7 @@ impl<'a> Tracer<'a> {
                     let to = surfaces.first + number as u32;
                     let local = self.composite(walk, way, hit, to);
                     surfaces.show(number, local, false);
+                    count(walk);
                 }
             }
         }
@@ -68,10 +72,10 @@ impl<'a> Tracer<'a> {
             surfaces.show(stand.number, stand.local, finish.seed);
             if self.secondary && stand.way.level < self.max_trace_level {
                 self.scatter(walk, stand, surfaces.first + stand.number as u32);
+                count(walk);
             }
         }
-        let steps = walk.onward.len() + walk.behind.len();
-        walk.patience.is_over_after(steps as u32, self.watch);
+        walk.patience.is_over_after(steps, self.watch);
     }
 
     /// What there is where a ray meets a surface, on the side it comes from.

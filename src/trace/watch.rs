@@ -73,12 +73,15 @@ impl Patience {
 
     /// Whether to give up, after some more steps.
     #[inline(always)]
-    pub fn is_over_after(&mut self, steps: u32, watch: &dyn Watch) -> bool {
-        if steps <= self.left {
-            self.left -= steps;
-            return false;
+    pub fn is_over_after(&mut self, mut steps: u32, watch: &dyn Watch) -> bool {
+        while steps > self.left {
+            steps -= self.left;
+            if self.ask(watch) {
+                return true;
+            }
         }
-        self.ask(watch)
+        self.left -= steps;
+        false
     }
 
     #[cold]

@@ -60,7 +60,7 @@ fn no_box_is_visited_without_a_tree() {
     let work = |balls| counted(&row(balls), 1, small).work;
     assert_eq!(work(7).box_visits, 0);
     assert!(work(7).root_solves > 48 * 36 / 2);
-    assert!(work(8).box_visits > 48 * 36, "each ray looks at the root");
+    assert!(work(8).box_visits > 48 * 36 / 8, "each packet looks at the root");
     assert_eq!(counted(&World::default(), 1, small).work, Work::default());
 }
 
