@@ -124,6 +124,7 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         | Effect::ColoredShadows
         | Effect::Patterns
         | Effect::Sky
+        | Effect::Fog
         | Effect::Antialiasing => None,
     }
 }

@@ -7,6 +7,7 @@
 pub mod blob;
 pub mod camera;
 pub mod finish;
+pub mod fog;
 pub mod height_field;
 pub mod julia_fractal;
 pub mod light;
@@ -27,6 +28,7 @@ pub use crate::vocabulary::Dialect;
 use crate::vocabulary::Word;
 pub use camera::{Camera, CameraItem, CameraItemKind, CameraKind};
 pub use finish::{ClassicFinish, Finish, FinishOrigin, Irid, Reflection};
+pub use fog::{Fog, FogTurbulence};
 pub use julia_fractal::JuliaFractal;
 pub use light::{Beam, Fade, LightKind, LightSource};
 pub use solid::{Container, Solid};
@@ -59,6 +61,8 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     pub background: Option<Background>,
     pub sky_sphere: Option<SkySphere>,
+    /// In written order.
+    pub fogs: Vec<Fog>,
     /// The lights and solids placed in the scene itself, in written order.
     pub roots: Vec<Root>,
     pub objects: Vec<Object>,
@@ -178,6 +182,8 @@ pub enum ModifierKind {
     NoReflection(bool),
     /// Likewise, lights on either side illuminate both sides.
     DoubleIlluminate(bool),
+    /// Likewise, fog is inside as well.
+    Hollow(bool),
     Inverse,
     /// The parts of the operation without a texture show those of the parts around their points.
     CutawayTextures,

@@ -5,6 +5,7 @@
 //! Specified in `docs/world.md`.
 
 mod csg_solid;
+mod fog;
 pub mod print;
 mod solid;
 
@@ -15,6 +16,7 @@ use crate::shape::uv::Mapping;
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
 use crate::source::{Expansions, Site, Span};
 pub use csg_solid::{CsgSolid, Cutaway};
+pub use fog::{Churn, Fog, Ground};
 
 pub use crate::texture::{
     Extras, Finish, Irid, Lobe, LobeKind, Pigment, Plain, Reflection, Texture,
@@ -27,6 +29,8 @@ pub struct World {
     /// The colour of a ray that leaves the scene where the sky is transparent.
     pub background: Rgb,
     pub sky: Option<Sky>,
+    /// In written order; each changes the picture.
+    pub fogs: Vec<Fog>,
     pub lights: Vec<Light>,
     /// In written order.
     pub objects: Vec<Object>,
@@ -74,6 +78,8 @@ pub struct Origins {
     pub double_illuminate: Vec<Site>,
     pub camera: Option<Site>,
     pub sky: Option<SkyOrigin>,
+    /// The whole item of each fog.
+    pub fogs: Vec<Site>,
     pub max_trace_level: Option<Site>,
     /// Parts that lowering left out, with the reasons.
     pub dropped: Vec<Dropped>,
@@ -207,6 +213,8 @@ pub struct Object {
     pub in_reflections: bool,
     /// Light on one side of the surface illuminates the other, too.
     pub double_illuminate: bool,
+    /// Fog is inside as well. False where the World has no fog.
+    pub hollow: bool,
     /// Inside and outside are exchanged.
     pub inverse: bool,
     /// Index into `World::csg_solids` of the CSG solid that it is part of; it is not an object by itself then.
@@ -228,6 +236,7 @@ impl Object {
             in_image: true,
             in_reflections: true,
             double_illuminate: false,
+            hollow: false,
             inverse: false,
             csg_solid: None,
         }
@@ -297,11 +306,13 @@ pub struct Light {
     pub attenuation: Option<Attenuation>,
 }
 
-/// Attenuation of a light: the product of both factors.
+/// Attenuation of a light: the product of all factors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Attenuation {
     pub beam: Option<Beam>,
     pub fade: Option<Fade>,
+    /// Fog dims it on its way.
+    pub fog: bool,
 }
 
 /// A beam, in terms of s(a, b; v) = t²(3 − 2t), where t = (v − a)/(b − a) is clamped to 0 … 1.

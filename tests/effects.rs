@@ -131,6 +131,7 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         patterns,
         hiding,
         sky,
+        fog,
     } = counters.evaluations;
     match effect {
         Effect::Diffuse => diffuse,
@@ -147,6 +148,7 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         Effect::Patterns => patterns,
         Effect::Hiding => hiding,
         Effect::Sky => sky,
+        Effect::Fog => fog,
         Effect::Antialiasing => {
             let pixels = OPTIONS.frame.width * OPTIONS.frame.height;
             counters.camera.saturating_sub(u64::from(pixels))
@@ -293,7 +295,7 @@ sphere { 0, 1 no_shadow }";
     let filter = format!("sphere {{ x, 1 pigment {{ rgbf <1, 0, 0, 1> }} {dull} }}");
     // Of the same window, so that no other piece of text calls for transparency.
     let filled = "sphere { 3*x, 0.5 texture { Window } interior { ior 1.5 } no_shadow }";
-    let cases: [(&str, &str, Effect, &str); 19] = [
+    let cases: [(&str, &str, Effect, &str); 20] = [
         (
             unlit,
             "light_source { 9, rgb 1 shadowless }",
@@ -338,6 +340,7 @@ sphere { 0, 1 no_shadow }";
             "checker",
         ),
         (BARE, "sky_sphere { pigment { rgb 1 } }", Effect::Sky, "pigment { rgb 1 }"),
+        (LIT, "fog { distance 9 rgb 1 }", Effect::Fog, "fog { distance 9 rgb 1 }"),
         (LIT, "sphere { x, 1 finish { phong 0.4 phong_size 9 } }", Effect::Highlights, "phong 0.4"),
         (
             LIT,

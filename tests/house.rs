@@ -30,7 +30,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("shape", &["bvh", "function", "math", "texture"]),
     // nouns
     ("scene", &["color", "math", "noise", "pattern", "source", "texture", "vocabulary"]),
-    ("world", &["color", "math", "pattern", "shape", "source", "texture"]),
+    ("world", &["color", "math", "noise", "pattern", "shape", "source", "texture"]),
     ("geometry", &["bvh", "math", "shape", "world"]),
     ("plan", &["color", "math", "pattern", "shape", "source", "world"]),
     ("film", &["color", "math", "plan"]),

@@ -66,6 +66,7 @@ pub struct Evaluations {
     pub patterns: u64,
     pub hiding: u64,
     pub sky: u64,
+    pub fog: u64,
 }
 
 impl From<trace::Evaluations> for Evaluations {
@@ -82,6 +83,7 @@ impl From<trace::Evaluations> for Evaluations {
             patterns,
             hiding,
             sky,
+            fog,
         } = counted;
         Self {
             diffuse,
@@ -95,6 +97,7 @@ impl From<trace::Evaluations> for Evaluations {
             patterns,
             hiding,
             sky,
+            fog,
         }
     }
 }
@@ -164,6 +167,7 @@ impl Stats {
             count("patterns", self.evaluations.patterns),
             count("hidden objects", self.evaluations.hiding),
             count("sky", self.evaluations.sky),
+            count("fog", self.evaluations.fog),
         ]
         .concat()
     }

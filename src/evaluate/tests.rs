@@ -56,6 +56,7 @@ mod continuation;
 mod deep;
 mod extent;
 mod file;
+mod fog;
 mod internal;
 mod made;
 mod promotion;
@@ -329,7 +330,7 @@ fn inert_words_are_read_and_leave_no_trace() {
         "global_settings { max_intersections 9 number_of_waves 3 noise_generator 2 hf_gray_16
            irid_wavelength rgb <.7, .5, .4> mm_per_unit 10 charset utf8 }
          camera { location -5*z focal_point 0 blur_samples 4, 9 confidence .9 variance 1/99 }
-         light_source { 9, rgb 1 media_interaction off media_attenuation }
+         light_source { 9, rgb 1 }
          union { sphere { 0, 1 sturm hierarchy off no_radiosity bounded_by { box { -1, 1 } } }
            box { 1, 2 pigment { rgb 1 quick_color rgb x } } split_union off
            bounded_by { clipped_by } interior { dispersion_samples 7 } }",
@@ -357,26 +358,6 @@ fn what_belongs_to_an_inert_word_is_of_its_kind() {
     let said = |text: &str| world(&format!("{VERSION} global_settings {{ {text} }}")).1;
     assert_eq!(said("max_intersections \"64\""), "expected a number, found a string");
     assert_eq!(said("charset latin"), "expected `ascii`, `utf8` or `sys`, found `latin`");
-}
-
-#[test]
-fn a_word_of_visibility_holds_for_all_below_and_off_undoes_it_for_the_object_itself() {
-    let flags = |text: &str| {
-        let (world, said) =
-            world(&format!("{VERSION} #declare Ball = sphere {{ 0, 1 no_image }} {text}"));
-        assert_eq!(said, "");
-        let object = world.objects[0];
-        (object.in_image, object.in_reflections, object.double_illuminate)
-    };
-    assert_eq!(flags("object { Ball }"), (false, true, false));
-    assert_eq!(flags("object { Ball no_image off }"), (true, true, false));
-    assert_eq!(flags("union { object { Ball } no_image off }"), (false, true, false));
-    assert_eq!(
-        flags(
-            "union { sphere { 0, 1 no_reflection off double_illuminate off } no_reflection double_illuminate }"
-        ),
-        (true, false, true)
-    );
 }
 
 #[test]

@@ -103,6 +103,7 @@ pub enum Value {
     Spline(Arc<SplineValue>),
     Function(FunctionId),
     SkySphere(Arc<crate::scene::SkySphere>),
+    Fog(Arc<crate::scene::Fog>),
     /// A file opened by `#fopen`.
     File(FileHandle),
     Macro(super::scope::MacroId),
@@ -187,6 +188,7 @@ impl Value {
             Self::Spline(_) => "a spline",
             Self::Function(_) => "a function",
             Self::SkySphere(_) => "a sky_sphere",
+            Self::Fog(_) => "a fog",
             Self::File(_) => "a file",
             Self::Macro(_) => "a macro",
             Self::Poison(_) => "something not built yet",

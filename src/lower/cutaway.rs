@@ -6,8 +6,8 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::csg::Making;
+use super::inherited::Inherited;
 use super::modifier::Modified;
-use super::object::Inherited;
 use super::shape::LocalFace;
 use super::surface::Surface;
 use super::texture::Written;

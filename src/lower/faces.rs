@@ -7,7 +7,7 @@ use rustc_hash::FxHashSet;
 use smallvec::SmallVec;
 
 use super::finish::lower_finish;
-use super::object::Inherited;
+use super::inherited::Inherited;
 use super::pigment::faces;
 use super::surface::{Parts, Slot, Surface, add_slots};
 use super::texture::{Written, plain};

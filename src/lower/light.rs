@@ -21,12 +21,19 @@ impl Lowering<'_, '_> {
         }
         let LightSource { beam_site, fade_site, .. } = *light;
         let spent = self.aim(light).and_then(|aim| spend(light, map, &aim));
-        let Some(light) = self.reporter.made(spent, site) else { return };
-        if let Some(Attenuation { beam, fade }) = light.attenuation {
-            let sites = [beam.and(beam_site), fade.and(fade_site)];
+        let Some(mut placed) = self.reporter.made(spent, site) else { return };
+        let in_fog = light.media_site.filter(|_| light.media_interaction && placed.casts_shadows);
+        let fog = in_fog.filter(|_| !self.world.fogs.is_empty());
+        if fog.is_some() {
+            let none = Attenuation { beam: None, fade: None, fog: false };
+            let others = placed.attenuation.unwrap_or(none);
+            placed.attenuation = Some(Attenuation { fog: true, ..others });
+        }
+        if let Some(Attenuation { beam, fade, .. }) = placed.attenuation {
+            let sites = [beam.and(beam_site), fade.and(fade_site), fog];
             self.origins.attenuation.extend(sites.into_iter().flatten());
         }
-        self.world.lights.push(light);
+        self.world.lights.push(placed);
         self.lamps.push(site);
         self.origins.lights.push(item);
     }
@@ -108,5 +115,5 @@ fn attenuation(
     if numbers.iter().chain(&fades).any(|number| !number.is_finite()) {
         return Err(Fault::not_finite("this light"));
     }
-    Ok((beam.is_some() || fade.is_some()).then_some(Attenuation { beam, fade }))
+    Ok((beam.is_some() || fade.is_some()).then_some(Attenuation { beam, fade, fog: false }))
 }

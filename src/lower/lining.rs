@@ -3,7 +3,7 @@
 //! **Source:** POV-Ray 3.7's behaviour, measured with each kind of shape, seen from both sides, inverse and
 //! reflected.
 
-use super::object::Inherited;
+use super::inherited::Inherited;
 use super::place::next;
 use super::shape::LocalFace;
 use super::surface::Surface;

@@ -16,6 +16,9 @@ mod doubled;
 mod empty;
 mod faces;
 mod finish;
+mod fog;
+mod hollow;
+mod inherited;
 mod inside;
 mod interior;
 mod light;
@@ -105,6 +108,7 @@ pub fn lower(
     lowering.settings();
     lowering.camera();
     lowering.sky();
+    lowering.fogs();
     lowering.objects();
     if lowering.sees_nothing {
         lowering.world.objects.iter_mut().for_each(|object| object.in_image = false);

@@ -48,6 +48,8 @@ pub(super) struct Flags {
     pub no_image: bool,
     pub no_reflection: bool,
     pub double_illuminate: bool,
+    /// As written; of an object that is about to be placed, as it counts.
+    pub hollow: bool,
     pub inverse: bool,
 }
 
@@ -59,6 +61,7 @@ impl Flags {
             no_image: self.no_image || above.no_image,
             no_reflection: self.no_reflection || above.no_reflection,
             double_illuminate: self.double_illuminate || above.double_illuminate,
+            hollow: self.hollow,
             inverse: self.inverse != above.inverse,
         }
     }
@@ -161,6 +164,7 @@ impl Lowering<'_, '_> {
                     flags.double_illuminate = on;
                     calls.note(Word::DoubleIlluminate, on, modifier.site);
                 }
+                ModifierKind::Hollow(on) => flags.hollow = on,
                 ModifierKind::Inverse => flags.inverse = !flags.inverse,
                 ModifierKind::CutawayTextures => modified.cuts_away = true,
                 ModifierKind::ClippedBy(region) => modified.clips.push((region, Affine::IDENTITY)),

@@ -6,57 +6,18 @@ use std::sync::Arc;
 
 use super::csg::{Making, Open};
 use super::cutaway::CutFaces;
+use super::inherited::Inherited;
 use super::modifier::{Calls, Flags, Modified};
 use super::place::next;
 use super::shape::{Round, no_size};
-use super::surface::{Parts, Surface};
+use super::surface::Parts;
 use super::transform::Affine;
 use super::{Fault, Lowering, NO_SIZE, blob, body, outline, points, shape, sweep};
 use crate::diagnostic::Code;
 use crate::math::Vector;
-use crate::scene::{Dialect, InteriorId, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
+use crate::scene::{Dialect, ObjectId, ObjectKind, Operation, Root, Solid, TextureId};
 use crate::shape::Shape;
 use crate::source::Site;
-
-/// What an object inherits from those around it.
-#[derive(Debug, Clone)]
-pub(super) struct Inherited {
-    pub world_from_here: Affine,
-    /// The texture of objects that have none; its placement is in world space.
-    pub surface: Surface,
-    /// The texture of the inner side of objects that have none, likewise.
-    pub lining: Option<Surface>,
-    /// The interior of objects that have none.
-    pub interior: Option<InteriorId>,
-    pub flags: Flags,
-    /// The outermost object whose flags hide this one from every ray.
-    pub hidden_by: Option<ObjectId>,
-    /// The innermost enclosing item that could be removed from the source.
-    pub item: Option<Site>,
-    /// One of the transforms is near-singular by itself.
-    pub strained: bool,
-    /// No ray hits the CSG solid that this object belongs to.
-    pub unseen: bool,
-    pub cut: CutFaces,
-}
-
-impl Inherited {
-    /// Returns what a root object inherits; `surface` is the scene's default.
-    fn root(surface: Surface) -> Self {
-        Self {
-            world_from_here: Affine::IDENTITY,
-            surface,
-            lining: None,
-            interior: None,
-            flags: Flags::default(),
-            hidden_by: None,
-            item: None,
-            strained: false,
-            unseen: false,
-            cut: CutFaces::default(),
-        }
-    }
-}
 
 /// Objects that remain to be visited.
 struct Frame<'s> {
@@ -165,6 +126,8 @@ impl<'s> Lowering<'s, '_> {
             self.drop_flags_of_part(&mut modified, object.site);
         }
         let flags = modified.flags.under(inherited.flags);
+        let filling = self.filling(id, &modified, inherited);
+        let flags = Flags { hollow: filling.is_hollow(), ..flags };
         let cut = inherited.cut.within(&object.kind, &modified, flags.inverse);
         let by_both = flags.hide().then_some(id);
         let mut here = Inherited {
@@ -187,6 +150,7 @@ impl<'s> Lowering<'s, '_> {
             strained: inherited.strained || modified.strained,
             unseen: inherited.unseen,
             cut,
+            filling: Some(filling),
         };
         let is_whole = !modified.clips.is_empty() || matches!(object.kind, ObjectKind::Csg { .. });
         here.unseen |= is_whole && self.building.is_none() && self.drop_unseen_whole(&here);

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::cutaway::UNKNOWN;
+use super::inherited::Inherited;
 use super::modifier::{Calls, Flags, Modified};
-use super::object::Inherited;
 use super::shape::LocalFace;
 use super::surface::Surface;
 use super::transform::Affine;
@@ -106,11 +106,13 @@ impl Lowering<'_, '_> {
         site: Site,
     ) -> Result<(), Fault> {
         let Flags { no_shadow, no_image, no_reflection, double_illuminate, .. } = here.flags;
+        let hollow = here.flags.hollow && !self.world.fogs.is_empty();
         let object = Object {
             casts_shadow: !no_shadow,
             in_image: !no_image,
             in_reflections: !no_reflection,
             double_illuminate,
+            hollow,
             inverse,
             ..Object::plain(shape)
         };

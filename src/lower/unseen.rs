@@ -2,7 +2,7 @@
 //!
 //! **Invariant:** pruning is exact. With `no_image`, `no_reflection` and `no_shadow` no ray hits the object:
 //! no camera ray, direct or transmitted, no reflected ray (total reflection included), and no shadow ray. It
-//! stays only where its interior may be visible all the same: the camera may be inside, and the scene
+//! stays only where its interior may be visible all the same: the camera may be inside, and the scene has fog or
 //! refracts light.
 //!
 //! **Source:** POV-Ray manual, sections 3.4.5.5.6 to 3.4.5.5.8; the exception and total reflection
@@ -42,9 +42,9 @@ impl Lowering<'_, '_> {
         self.drop_part(self.scene.objects[by.index()].site, self.word(by), why);
     }
 
-    /// Returns whether anything in the Scene, placed or not, refracts or absorbs light.
+    /// Returns whether anything in the Scene, placed or not, refracts or absorbs light, or fog is outside of solids.
     pub(super) fn bends_light(&self) -> bool {
-        bends_light(self.scene)
+        bends_light(self.scene) || !self.world.fogs.is_empty()
     }
 
     /// Returns the keyword of an object, or of the object that it uses.

@@ -51,6 +51,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
     plan.stages = Stage::ALL.to_vec();
     plan.stages.retain(|stage| match stage {
         Stage::Camera | Stage::Intersect | Stage::Surface => true,
+        Stage::Medium => !world.fogs.is_empty(),
         Stage::Light => !world.lights.is_empty(),
         Stage::Shadow => plan.effects.iter().any(|called| called.effect == Effect::Shadows),
         Stage::Scatter | Stage::Fold => scatters,
@@ -93,6 +94,7 @@ impl Census<'_> {
             Effect::Patterns => self.patterns(),
             Effect::Hiding => self.hiding(),
             Effect::Sky => self.sky(),
+            Effect::Fog => self.fog(),
             Effect::Antialiasing => antialiasing(self.options.antialias),
         }
     }
@@ -284,6 +286,22 @@ impl Census<'_> {
                 None => because("no `sky_sphere`", None),
             },
         }
+    }
+
+    fn fog(&self) -> Decision {
+        let fogs = &self.world.fogs;
+        if fogs.is_empty() {
+            let mut dropped = self.origins.dropped.iter().filter(|part| part.what == "fog");
+            return match dropped.next() {
+                Some(fog) => because("no fog veils anything", Some(fog.site)),
+                None => because("no `fog`", None),
+            };
+        }
+        let ground =
+            if fogs.iter().any(|fog| fog.ground.is_some()) { ", two arc tangents" } else { "" };
+        let churn = if fogs.iter().any(|fog| fog.churn.is_some()) { ", noise" } else { "" };
+        let cost = format!("an exponential{ground}{churn}; {} a ray", count(fogs.len(), "fog"));
+        Ok((self.origins.fogs.clone(), cost))
     }
 
     /// Returns the locations of the lights selected by `calls`.

@@ -133,12 +133,14 @@ pub enum Effect {
     /// Objects that are invisible to the camera or in reflections.
     Hiding,
     Sky,
+    /// Fog between surfaces.
+    Fog,
     Antialiasing,
 }
 
 impl Effect {
     /// All effects, in the order in which the plan lists them.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Diffuse,
         Self::Highlights,
         Self::Shadows,
@@ -153,6 +155,7 @@ impl Effect {
         Self::Patterns,
         Self::Hiding,
         Self::Sky,
+        Self::Fog,
         Self::Antialiasing,
     ];
 
@@ -173,6 +176,7 @@ impl Effect {
             Self::Patterns => "patterns",
             Self::Hiding => "hidden objects",
             Self::Sky => "sky",
+            Self::Fog => "fog",
             Self::Antialiasing => "antialiasing",
         }
     }

@@ -8,6 +8,8 @@ pub enum Stage {
     Camera,
     /// Rays find what they meet.
     Intersect,
+    /// What lies between rays' starts and what they meet: fog.
+    Medium,
     /// Where a ray meets a surface: its point, its normal, its texture; elsewhere the sky.
     Surface,
     /// What surfaces send to the viewer of each light.
@@ -21,9 +23,10 @@ pub enum Stage {
 }
 
 impl Stage {
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Camera,
         Self::Intersect,
+        Self::Medium,
         Self::Surface,
         Self::Light,
         Self::Shadow,
@@ -35,6 +38,7 @@ impl Stage {
         match self {
             Self::Camera => "camera",
             Self::Intersect => "intersect",
+            Self::Medium => "medium",
             Self::Surface => "surface",
             Self::Light => "light",
             Self::Shadow => "shadow",

@@ -22,6 +22,10 @@ pub struct LightSource {
     pub beam_site: Option<Site>,
     /// The last `fade_distance`, with its value.
     pub fade_site: Option<Site>,
+    /// The last `media_attenuation`, if it is on.
+    pub media_site: Option<Site>,
+    /// `false`: `media_attenuation` has no effect.
+    pub media_interaction: bool,
 }
 
 impl LightSource {
@@ -36,6 +40,8 @@ impl LightSource {
             fade: None,
             beam_site: None,
             fade_site: None,
+            media_site: None,
+            media_interaction: true,
         }
     }
 }

@@ -9,8 +9,9 @@ mod texture;
 use std::fmt::{self, Write};
 
 use super::{
-    Beam, CameraItemKind, CameraKind, Fade, Finish, Interior, Irid, LightKind, LightSource,
-    Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings, TextureId, TransformId,
+    Beam, CameraItemKind, CameraKind, Fade, Finish, FogTurbulence, Interior, Irid, LightKind,
+    LightSource, Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings, TextureId,
+    TransformId,
 };
 use crate::color::Clearness;
 use crate::math::transform::Step as TransformStep;
@@ -68,6 +69,7 @@ impl Printer<'_> {
                 self.transform(out, id, "  ")?;
             }
         }
+        self.fogs(out)?;
         for root in &self.scene.roots {
             self.object(out, root.object)?;
         }
@@ -78,6 +80,29 @@ impl Printer<'_> {
         for id in defaults {
             writeln!(out, "default texture {}", id.0)?;
             self.texture(out, id, "  ")?;
+        }
+        Ok(())
+    }
+
+    fn fogs(&self, out: &mut String) -> fmt::Result {
+        for fog in &self.scene.fogs {
+            writeln!(out, "fog  ({})", self.sources.place(fog.site.span))?;
+            writeln!(out, "  color {}", fog.color)?;
+            writeln!(out, "  distance {}", fog.distance)?;
+            if fog.is_ground {
+                writeln!(out, "  fog_type 2")?;
+                writeln!(out, "  fog_offset {}", fog.offset)?;
+                writeln!(out, "  fog_alt {}", fog.alt)?;
+                writeln!(out, "  up {}", vector(fog.up))?;
+                for &id in &fog.transforms {
+                    self.transform(out, id, "  ")?;
+                }
+            }
+            if let Some(FogTurbulence { scale, octaves, lambda, omega }) = fog.turbulence {
+                write!(out, "  turbulence {} octaves {octaves}", vector(scale))?;
+                writeln!(out, " lambda {lambda} omega {omega}")?;
+                writeln!(out, "  turb_depth {} {:?}", fog.turb_depth, fog.noise)?;
+            }
         }
         Ok(())
     }
@@ -197,6 +222,7 @@ impl Printer<'_> {
             ModifierKind::DoubleIlluminate(on) => {
                 writeln!(out, "{indent}double_illuminate{}", off(on))
             }
+            ModifierKind::Hollow(on) => writeln!(out, "{indent}hollow{}", off(on)),
             ModifierKind::CutawayTextures => writeln!(out, "{indent}cutaway_textures"),
             ModifierKind::Inverse => writeln!(out, "{indent}inverse"),
             ModifierKind::ClippedBy(id) => writeln!(out, "{indent}clipped_by {}", id.0),
@@ -327,6 +353,12 @@ fn light(out: &mut String, source: &LightSource) -> fmt::Result {
     write!(out, " color {}", source.color)?;
     if source.shadowless {
         write!(out, " shadowless")?;
+    }
+    if source.media_site.is_some() {
+        write!(out, " media_attenuation")?;
+    }
+    if !source.media_interaction {
+        write!(out, " media_interaction off")?;
     }
     Ok(())
 }

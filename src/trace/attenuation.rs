@@ -85,19 +85,19 @@ mod tests {
         let (edge, core) = (cosine(falloff), cosine(radius));
         let beam = Some(Beam::Cone { axis: -UnitVector::Y, edge, core, tightness });
         let kind = LightKind::Point { position: Vector::Y };
-        lit(kind, Attenuation { beam, fade: None }, x)
+        lit(kind, Attenuation { beam, fade: None, fog: false }, x)
     }
 
     fn cylinder(radius: f64, tightness: f64, x: f64) -> f64 {
         let beam = Some(Beam::Cylinder { radius: 1.0, core: 1.0 - radius, tightness });
         let kind = LightKind::Parallel { position: Vector::Y, to_light: UnitVector::Y };
-        lit(kind, Attenuation { beam, fade: None }, x)
+        lit(kind, Attenuation { beam, fade: None, fog: false }, x)
     }
 
     fn fading(distance: f64, power: f64, x: f64) -> f64 {
         let fade = Some(Fade { distance, power });
         let kind = LightKind::Point { position: Vector::Y };
-        lit(kind, Attenuation { beam: None, fade }, x)
+        lit(kind, Attenuation { beam: None, fade, fog: false }, x)
     }
 
     /// The numbers on the right are POV-Ray 3.7's, of a picture with 16 bits.
@@ -125,10 +125,10 @@ mod tests {
     fn a_cylinder_of_light_is_dark_behind_its_plane_and_a_cone_behind_its_tip() {
         let beam = Some(Beam::Cylinder { radius: 1.0, core: 0.0, tightness: 0.0 });
         let kind = LightKind::Parallel { position: -Vector::Y, to_light: UnitVector::Y };
-        assert_eq!(lit(kind, Attenuation { beam, fade: None }, 0.0), 0.0);
+        assert_eq!(lit(kind, Attenuation { beam, fade: None, fog: false }, 0.0), 0.0);
         let beam = Some(Beam::Cone { axis: UnitVector::Y, edge: -1.0, core: -1.0, tightness: 0.0 });
         let kind = LightKind::Point { position: Vector::Y };
-        assert_eq!(lit(kind, Attenuation { beam, fade: None }, 0.0), 0.0);
+        assert_eq!(lit(kind, Attenuation { beam, fade: None, fog: false }, 0.0), 0.0);
     }
 
     #[test]

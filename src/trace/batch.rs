@@ -9,6 +9,7 @@
 use std::ops::ControlFlow;
 
 use super::Walk;
+use super::fog::Veil;
 use super::reflection;
 use super::tracer::Tracer;
 use super::way::Way;
@@ -85,6 +86,8 @@ struct Generation {
 #[derive(Debug, Default)]
 pub(super) struct Batch {
     returns: Vec<Return>,
+    /// What fog does to each; empty without fog.
+    veils: Vec<Veil>,
     ways: Vec<Way>,
     hits: Vec<Hit>,
     generations: Vec<Generation>,
@@ -112,6 +115,7 @@ impl Batch {
     /// Makes the first generation of the rays that are there.
     fn begin(&mut self) {
         self.returns.clear();
+        self.veils.clear();
         self.hits.clear();
         self.generations.clear();
         let back = Back { to: 0, factor: Rgb::WHITE, exponent: 1.0 };
@@ -160,6 +164,12 @@ impl Batch {
         let Generation { first, solids, .. } = self.generations.pop()?;
         let (before, last) = self.returns.split_at_mut(first);
         last.iter_mut().filter(|one| one.clamped).for_each(|one| one.seen = one.seen.at_most_one());
+        if !self.veils.is_empty() {
+            for (one, Veil { through, added }) in last.iter_mut().zip(&self.veils[first..]) {
+                one.seen = *added + reflection::passed_on(*through, one.seen);
+            }
+            self.veils.truncate(first);
+        }
         let to = self.generations.last()?.first;
         for Return { seen, back: Back { to: place, factor, exponent }, .. } in last {
             let adapted = reflection::adapted(*seen, *exponent);
@@ -216,10 +226,10 @@ impl<'a> Tracer<'a> {
     /// Follows the rays of a batch from generation to generation, and folds what comes back.
     #[inline(never)]
     fn follow(&self, walk: &mut Walk, batch: &mut Batch) {
-        if self.bends {
+        if self.follows_media {
             walk.media.start(&batch.ways);
         }
-        self.intersect(walk, batch);
+        self.advance(walk, batch);
         loop {
             while let Some(surfaces) = batch.next() {
                 self.shade(walk, surfaces);
@@ -240,13 +250,23 @@ impl<'a> Tracer<'a> {
                 batch.add(count, onward().map(|onward| onward.back), walk.media.known());
                 walk.onward.clear();
                 walk.behind.clear();
-                self.intersect(walk, batch);
+                self.advance(walk, batch);
                 continue;
             }
             match batch.fold() {
                 Some(solids) => walk.media.forget(solids),
                 None => return,
             }
+        }
+    }
+
+    /// Takes the rays of the last generation to what they meet, through what lies between.
+    fn advance(&self, walk: &mut Walk, batch: &mut Batch) {
+        self.intersect(walk, batch);
+        if self.has_fog {
+            let Some(&Generation { rays: first, .. }) = batch.generations.last() else { return };
+            let rays = batch.ways[first..].iter().zip(&batch.hits[first..]);
+            batch.veils.extend(rays.map(|(way, hit)| self.veil(walk, way, hit)));
         }
     }
 

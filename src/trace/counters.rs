@@ -71,6 +71,8 @@ pub struct Evaluations {
     pub hiding: u64,
     /// Pigments of the sky.
     pub sky: u64,
+    /// Fogs on the ways of rays.
+    pub fog: u64,
 }
 
 impl Evaluations {
@@ -106,5 +108,6 @@ impl AddAssign for Evaluations {
         self.patterns += other.patterns;
         self.hiding += other.hiding;
         self.sky += other.sky;
+        self.fog += other.fog;
     }
 }

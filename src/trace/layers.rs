@@ -242,8 +242,8 @@ impl<'a> Tracer<'a> {
         if self.counts && !ends {
             walk.counters.evaluations.refraction += u64::from(self.bends);
         }
-        let border = match self.bends && !ends {
-            true => walk.media.border(world, way, hit, &walk.coinciding),
+        let border = match self.follows_media && !ends {
+            true => walk.media.border(self.solids(), way, hit, &walk.coinciding),
             false => Border::none(way.within),
         };
         let Border { from, to: after, within: [within, within_behind], .. } = border;

@@ -10,9 +10,10 @@
 use super::dispersion;
 use super::way::Way;
 use crate::color::Rgb;
-use crate::geometry::Hit;
+use crate::geometry::{self, Hit};
 use crate::math::Vector;
-use crate::world::{Dispersion, Interior, World};
+use crate::math::bounds::Bounds;
+use crate::world::{CameraKind, Dispersion, Interior, World};
 
 /// The index of refraction of the air.
 const AIR: f64 = 1.0;
@@ -38,6 +39,38 @@ pub(super) struct Media {
     at_last_start: Vec<u32>,
     /// The list at hand.
     list: Vec<u32>,
+}
+
+/// The solids that the camera may be in, each with its bounds.
+///
+/// A solid contains the camera only within its bounds: none is below a disc, nor outside an inverse sphere.
+///
+/// **Source:** POV-Ray 3.7's behaviour, measured.
+#[derive(Debug, Default)]
+pub(super) struct Around(Vec<(u32, Bounds)>);
+
+impl Around {
+    pub fn of(world: &World) -> Self {
+        let camera = &world.camera;
+        let half = match camera.kind {
+            CameraKind::Perspective => Vector::ZERO,
+            CameraKind::Orthographic => (camera.right.abs() + camera.up.abs()) * 0.5,
+        };
+        // Room for the rounding of a start.
+        let half = half + (half + camera.location.abs()) * (8.0 * f64::EPSILON);
+        let starts = Bounds { low: camera.location - half, high: camera.location + half };
+        let bounds = |solid| geometry::bounds(world, solid).unwrap_or(Bounds::EVERYWHERE);
+        let solids = world.solids().map(|solid| (solid, bounds(solid)));
+        Self(solids.filter(|(_, bounds)| !bounds.intersection(&starts).is_empty()).collect())
+    }
+
+    /// Returns the solids that `start` is in, in the order of declaration.
+    fn at(&self, world: &World, start: Vector) -> impl Iterator<Item = u32> {
+        let contains = move |&&(solid, bounds): &&(u32, Bounds)| {
+            bounds.contains(start) && world.csg_contains(&world.objects[solid as usize], start)
+        };
+        self.0.iter().filter(contains).map(|(solid, _)| *solid)
+    }
 }
 
 /// The media before a surface and behind it.
@@ -106,7 +139,7 @@ impl Media {
     }
 
     /// Puts what a ray is in at hand; of a camera's ray in the order of declaration.
-    fn know(&mut self, world: &World, within: Within) {
+    fn know(&mut self, (world, around): (&World, &Around), within: Within) {
         self.list.clear();
         match within {
             Within::Known { first, count } => {
@@ -117,9 +150,8 @@ impl Media {
                 let start = self.starts[root as usize];
                 if self.last_start != Some(start) {
                     self.last_start = Some(start);
-                    let contains = |&i: &u32| world.csg_contains(&world.objects[i as usize], start);
                     self.at_last_start.clear();
-                    self.at_last_start.extend(world.solids().filter(contains));
+                    self.at_last_start.extend(around.at(world, start));
                 }
                 self.list.extend_from_slice(&self.at_last_start);
             }
@@ -134,8 +166,14 @@ impl Media {
     }
 
     /// The border at `hit`, where the ray `way` crosses `others`, too, that coincide with it.
-    pub fn border(&mut self, world: &World, way: &Way, hit: &Hit, others: &[Hit]) -> Border {
-        self.know(world, way.within);
+    pub fn border(
+        &mut self,
+        (world, around): (&World, &Around),
+        way: &Way,
+        hit: &Hit,
+        others: &[Hit],
+    ) -> Border {
+        self.know((world, around), way.within);
         let here = match way.within {
             Within::Start(_) => self.keep(),
             Within::Known { .. } => way.within,
@@ -157,12 +195,49 @@ impl Media {
         Border { from, to, sides: [before, behind], left, is_outer, within }
     }
 
+    /// Returns whether fog is where a ray starts `within` solids: whether they are all hollow.
+    ///
+    /// **Source:** POV-Ray 3.7's behaviour, measured.
+    pub fn is_in_fog(&mut self, (world, around): (&World, &Around), within: Within) -> bool {
+        self.know((world, around), within);
+        self.list.iter().all(|&object| world.objects[object as usize].hollow)
+    }
+
+    /// Returns the part of light that fog leaves along a ray of `length` that starts `within` solids and crosses
+    /// `hits` on its way; `left` is that between two distances.
+    pub fn fog_to_light(
+        &mut self,
+        (world, around): (&World, &Around),
+        within: Within,
+        hits: &mut [Hit],
+        length: f64,
+        left: impl Fn(f64, f64) -> Rgb,
+    ) -> Rgb {
+        self.know((world, around), within);
+        hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.object.cmp(&b.object)));
+        let ends = hits.iter().map(|hit| (hit.t, Some(hit))).chain([(length, None)]);
+        let (mut light, mut start) = (Rgb::WHITE, 0.0);
+        for (end, hit) in ends {
+            if self.list.iter().all(|&object| world.objects[object as usize].hollow) {
+                light = light * left(start, end);
+            }
+            hit.map(|hit| cross(world, &mut self.list, hit));
+            start = end;
+        }
+        light
+    }
+
     /// Returns the part of light that is left of what comes along a ray that starts `within` solids and crosses
     /// `hits` on its way.
     ///
     /// **Source:** POV-Ray 3.7's behaviour, measured.
-    pub fn left_of_light(&mut self, world: &World, within: Within, hits: &mut [Hit]) -> Rgb {
-        self.know(world, within);
+    pub fn left_of_light(
+        &mut self,
+        (world, around): (&World, &Around),
+        within: Within,
+        hits: &mut [Hit],
+    ) -> Rgb {
+        self.know((world, around), within);
         hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.object.cmp(&b.object)));
         let (mut light, mut start) = (Rgb::WHITE, 0.0);
         for hit in hits {

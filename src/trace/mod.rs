@@ -16,6 +16,7 @@ mod camera;
 mod counters;
 mod dispersion;
 mod extras;
+mod fog;
 mod grain;
 mod highlight;
 mod irid;
@@ -35,6 +36,7 @@ mod texture;
 mod tiles;
 mod tracer;
 mod transmission;
+mod veil;
 mod watch;
 mod way;
 

@@ -174,7 +174,8 @@ impl Tracer<'_> {
                     continue;
                 }
                 let Some(toward) = toward(place, light) else { continue };
-                let color = self.emitted(walk, light, toward.origin, &toward.aim);
+                let from = (toward.origin, &toward.aim);
+                let color = self.emitted(walk, light, place.within, from.0, from.1);
                 let Some(color) = color else { continue };
                 let Toward { origin, aim: Aim { to_light, reach }, cosine, .. } = toward;
                 let ray = Ray { origin, direction: to_light };
@@ -231,12 +232,23 @@ impl Tracer<'_> {
 
     /// What of a light's colour goes to a point; `None` where none does.
     #[inline(always)]
-    fn emitted(&self, walk: &mut Walk, light: &Light, point: Vector, aim: &Aim) -> Option<Rgb> {
+    fn emitted(
+        &self,
+        walk: &mut Walk,
+        light: &Light,
+        within: Within,
+        point: Vector,
+        aim: &Aim,
+    ) -> Option<Rgb> {
         let Some(attenuation) = &light.attenuation else { return Some(light.color) };
         if self.counts {
             walk.counters.evaluations.attenuation += 1;
         }
-        attenuated(light.color, attenuation, &light.kind, point, *aim)
+        let color = attenuated(light.color, attenuation, &light.kind, point, *aim)?;
+        Some(match attenuation.fog {
+            true => color * self.light_through_fog(walk, within, point, aim),
+            false => color,
+        })
     }
 
     /// What the clear surfaces between a point and a light let through.
@@ -344,7 +356,7 @@ fn searched(
     origin: Vector,
     aim: &Aim,
 ) -> Option<Rgb> {
-    let mut color = tracer.emitted(walk, light, origin, aim)?;
+    let mut color = tracer.emitted(walk, light, within, origin, aim)?;
     if tracer.shadows && light.casts_shadows {
         if shadow::shadowed(tracer, walk, number, origin, aim) {
             return None;

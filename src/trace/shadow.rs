@@ -133,7 +133,7 @@ pub(super) fn filtered(
     if !tracer.absorbs || light.is_black() {
         return light;
     }
-    light * walk.media.left_of_light(tracer.world, within, hits)
+    light * walk.media.left_of_light(tracer.solids(), within, hits)
 }
 
 /// Room for the surfaces between a point and a light.

@@ -1,6 +1,7 @@
 //! What the stages of a frame share: the World, what rays meet, and which stages run.
 
 use super::Watch;
+use super::media::Around;
 use super::sharpness::Sharpness;
 use super::way::Way;
 use crate::geometry::Geometry;
@@ -29,6 +30,12 @@ pub(super) struct Tracer<'a> {
     pub clear_composites: Vec<bool>,
     /// Rays change in interiors: they are bent, split or dimmed.
     pub bends: bool,
+    /// What rays are in is followed: interiors change them, or fog does not fill all solids.
+    pub follows_media: bool,
+    /// What the camera may be in, if that is followed.
+    around: Around,
+    /// Fog veils what rays meet.
+    pub has_fog: bool,
     /// Interiors dim light.
     pub absorbs: bool,
     /// Light comes through clear surfaces.
@@ -48,6 +55,13 @@ impl<'a> Tracer<'a> {
         plan: &Plan,
         watch: &'a dyn Watch,
     ) -> Self {
+        let bends = (plan.runs(Stage::Shadow) || plan.runs(Stage::Scatter))
+            && [Effect::Refraction, Effect::Absorption, Effect::Dispersion]
+                .into_iter()
+                .any(|effect| plan.simulates(effect));
+        let has_fog = plan.runs(Stage::Medium);
+        let fills_all = world.objects.iter().all(|object| object.hollow);
+        let follows_media = bends || (has_fog && !fills_all);
         Self {
             world,
             geometry,
@@ -63,10 +77,10 @@ impl<'a> Tracer<'a> {
                 .iter()
                 .map(|texture| !matches!(texture, Texture::Plain(_)) && texture.is_clear())
                 .collect(),
-            bends: (plan.runs(Stage::Shadow) || plan.runs(Stage::Scatter))
-                && [Effect::Refraction, Effect::Absorption, Effect::Dispersion]
-                    .into_iter()
-                    .any(|effect| plan.simulates(effect)),
+            bends,
+            follows_media,
+            around: if follows_media { Around::of(world) } else { Around::default() },
+            has_fog,
             absorbs: plan.simulates(Effect::Absorption),
             filters_shadows: plan.runs(Stage::Shadow) && plan.simulates(Effect::ColoredShadows),
             counts: geometry.counts(),
@@ -74,6 +88,11 @@ impl<'a> Tracer<'a> {
             adc_bailout: plan.adc_bailout,
             watch,
         }
+    }
+
+    /// The World, and what the camera may be in.
+    pub fn solids(&self) -> (&'a World, &Around) {
+        (self.world, &self.around)
     }
 
     /// What a ray under way can meet.

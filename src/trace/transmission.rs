@@ -88,8 +88,8 @@ impl Tracer<'_> {
         if self.counts {
             walk.counters.evaluations.refraction += u64::from(self.bends);
         }
-        let border = match self.bends {
-            true => walk.media.border(self.world, way, hit, &walk.coinciding),
+        let border = match self.follows_media {
+            true => walk.media.border(self.solids(), way, hit, &walk.coinciding),
             false => Border::none(way.within),
         };
         let Border { from, to: after, .. } = border;

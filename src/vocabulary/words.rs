@@ -129,7 +129,7 @@ vocabulary! {
         ClippedBy "clipped_by" statement built "a shape; the parts of the object outside it are cut away";
         CutawayTextures "cutaway_textures" statement built "in a `difference` or an `intersection`: parts without a texture show those of the parts that they cut";
         DoubleIlluminate "double_illuminate" statement built "light on one side of the surface also illuminates the other side";
-        Hollow "hollow" statement built "the atmosphere also fills the object; without fog and media it has no effect";
+        Hollow "hollow" statement built "fog fills the object, too; of the parts of a union or operation without an interior of their own, the last decides for all";
         Inverse "inverse" statement built "swaps inside and outside";
         NoImage "no_image" statement built "hides the object from the camera, directly or through others; mirrors and lights still see it";
         NoRadiosity "no_radiosity" statement inert until [Radiosity] "excludes the object from `radiosity`, which is not built yet";
@@ -248,7 +248,6 @@ vocabulary! {
         Tile2 "tile2" statement built "between the two textures of `tiles`";
         Toroidal "toroidal" statement built "`warp { toroidal [major_radius n] }`: wraps a pattern around a ring";
         TriangleWave "triangle_wave" statement built "values rise from 0 to 1 and fall again, evenly";
-        TurbDepth "turb_depth" statement later "how deep the turbulence of waves is";
         Turbulence "turbulence" statement built "`turbulence n` or `turbulence <x, y, z>`: stirs a pattern; also a warp";
         UseAlpha "use_alpha" statement built "the values of an `image_pattern` or `bump_map` are the transparency of its picture";
         UseColor "use_color" | "use_colour" statement built "the values of an `image_pattern` or `bump_map` are the brightness of its picture's colours, the default";
@@ -333,8 +332,8 @@ vocabulary! {
         LightGroup "light_group" statement later "objects with lights of their own";
         LightSource "light_source" statement built "`light_source { <place>, color … }`: a point light";
         LooksLike "looks_like" statement later "the object that represents a light";
-        MediaAttenuation "media_attenuation" statement inert until [Media] "`media`, which are not built yet, attenuate this light";
-        MediaInteraction "media_interaction" statement inert until [Media] "this light illuminates `media`, which are not built yet";
+        MediaAttenuation "media_attenuation" statement built "fog dims this light on its way; default off";
+        MediaInteraction "media_interaction" statement built "with `off`, `media_attenuation` has no effect; default on";
         Parallel "parallel" statement built "all rays run parallel, from the light's location toward `point_at`";
         PointAt "point_at" statement built "the target of a parallel light or a spotlight; default <0, 0, 0>, in a `.pov` z";
         ProjectedThrough "projected_through" statement later "only light through this object counts";
@@ -371,14 +370,15 @@ vocabulary! {
     Atmosphere {
         ArcAngle "arc_angle" statement later "the visible part of a rainbow";
         Background "background" statement built "`background { color }`: the colour behind all objects, darkened by its `transmit`; default black";
-        Distance "distance" statement later "the distance at which fog has covered two thirds";
-        Fog "fog" statement later "`fog { distance 50 rgb 0.8 }`: haze; `distance` sets how far one can see";
-        FogAlt "fog_alt" statement later "the height over which ground fog thins";
-        FogOffset "fog_offset" statement later "the height below which ground fog is uniform";
-        FogType "fog_type" statement later "1: uniform, 2: ground fog";
+        Distance "distance" statement built "how far one can see in a `fog`: after this distance e⁻¹, 37 %, of the light is left; 0: no fog";
+        Fog "fog" statement built "`fog { distance 50 rgb 0.8 }`: haze that covers what is far away; of its colour, `transmit` is the least light that comes through, and `filter` how much of that it tints. A scene may have several. Solids without `hollow` contain none";
+        FogAlt "fog_alt" statement built "the height above `fog_offset` at which ground fog is half as dense; 0, the default: it ends there; negative: it is dense above and thins below";
+        FogOffset "fog_offset" statement built "the height below which ground fog is uniform; default 0";
+        FogType "fog_type" statement built "1, the default: uniform fog; 2: ground fog, which thins with the height along `up`";
         FalloffAngle "falloff_angle" statement later "the angle at which a rainbow has faded";
         Rainbow "rainbow" statement later "a rainbow";
         SkySphere "sky_sphere" statement built "`sky_sphere { pigment … }`: pigments at infinite distance";
+        TurbDepth "turb_depth" statement built "how much `turbulence` thins a fog; default 0.5";
         Width "width" statement later "the width of a rainbow's band";
     }
     Setting {

@@ -8,8 +8,8 @@ mod texture;
 use std::fmt::{self, Write};
 
 use super::{
-    Absorption, Attenuation, Beam, CameraKind, Coat, CsgSolid, Cutaway, Dispersion, Fade,
-    LightKind, Object, Origins, World,
+    Absorption, Attenuation, Beam, CameraKind, Churn, Coat, CsgSolid, Cutaway, Dispersion, Fade,
+    Ground, LightKind, Object, Origins, World,
 };
 use crate::color::Clearness;
 use crate::math::placement::{Map, Placement};
@@ -56,6 +56,7 @@ impl Printer<'_> {
                 texture::pigment(out, layer, "  ")?;
             }
         }
+        self.fogs(out)?;
         self.lights(out)?;
         writeln!(out, "objects {}", self.world.objects.len())?;
         for (i, object) in self.world.objects.iter().enumerate() {
@@ -120,6 +121,22 @@ impl Printer<'_> {
         writeln!(out, "  forward {}", vector(camera.forward))?;
         writeln!(out, "  right {}", vector(camera.right))?;
         writeln!(out, "  up {}", vector(camera.up))
+    }
+
+    fn fogs(&self, out: &mut String) -> fmt::Result {
+        for (i, fog) in self.world.fogs.iter().enumerate() {
+            let site = self.at(self.origins.fogs.get(i).copied());
+            write!(out, "fog distance {} color {}", fog.distance, fog.color)?;
+            writeln!(out, " tint {} least {}{site}", fog.tint, fog.least)?;
+            if let Some(Ground { up, offset, alt }) = fog.ground {
+                writeln!(out, "  ground up {} fog_offset {offset} fog_alt {alt}", unit(up))?;
+            }
+            if let Some(Churn { scale, depth, turbulence, noise }) = fog.churn {
+                write!(out, "  turbulence {} turb_depth {depth}", vector(scale))?;
+                writeln!(out, " {turbulence:?} {noise:?}")?;
+            }
+        }
+        Ok(())
     }
 
     fn lights(&self, out: &mut String) -> fmt::Result {
@@ -196,6 +213,9 @@ impl Printer<'_> {
         }
         if object.double_illuminate {
             write!(out, " double_illuminate")?;
+        }
+        if object.hollow {
+            write!(out, " hollow")?;
         }
         if object.inverse {
             write!(out, " inverse")?;
@@ -300,7 +320,7 @@ fn attenuation(attenuation: &Attenuation) -> String {
     let fade = attenuation.fade.map_or(String::new(), |Fade { distance, power }| {
         format!(" fade distance {distance} power {power}")
     });
-    beam + &fade
+    beam + &fade + if attenuation.fog { " dimmed by fog" } else { "" }
 }
 
 fn unit(v: UnitVector) -> String {

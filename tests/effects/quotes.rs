@@ -18,7 +18,7 @@ fn words(effect: Effect) -> &'static [&'static str] {
     match effect {
         Effect::Diffuse | Effect::Shadows => &["light_source", "object"],
         Effect::Highlights => &["phong", "specular", "ks"],
-        Effect::Attenuation => &["spotlight", "cylinder", "fade_distance"],
+        Effect::Attenuation => &["spotlight", "cylinder", "fade_distance", "media_attenuation"],
         Effect::DoubleIllumination => &["double_illuminate", "diffuse"],
         Effect::Reflection => &["reflection", "ks"],
         // Also every colour's word.
@@ -28,6 +28,7 @@ fn words(effect: Effect) -> &'static [&'static str] {
         Effect::Dispersion => &["dispersion"],
         Effect::Hiding => &["no_image", "no_reflection"],
         Effect::Sky => &["pigment"],
+        Effect::Fog => &["fog"],
         // Also every pattern's word.
         Effect::Patterns => &["object", "material_map"],
         Effect::Antialiasing => &[],
@@ -340,6 +341,20 @@ fn of_a_sky_its_pigments_are_quoted() {
                 "sky_sphere { pigment { rgb 1 } } sky_sphere { pigment { rgb 0.5 } }",
                 &["pigment { rgb 0.5 }"],
             ),
+        ],
+    );
+}
+
+#[test]
+fn each_fog_is_quoted_that_veils_something() {
+    assert_quotes(
+        Effect::Fog,
+        &[
+            (
+                "#declare F = fog { distance 9 rgb 1 }; fog { F } fog { F fog_type 2 }",
+                &["fog { F }", "fog { F fog_type 2 }"],
+            ),
+            ("fog { distance 9 rgb 1 } fog { distance 9 rgbt 1 }", &["fog { distance 9 rgb 1 }"]),
         ],
     );
 }

@@ -62,9 +62,7 @@ impl Evaluator<'_> {
             | Word::SplitUnion
             | Word::Sturm
             | Word::NoRadiosity
-            | Word::HfGray16
-            | Word::MediaAttenuation
-            | Word::MediaInteraction => self.optional_flag(token).map(drop),
+            | Word::HfGray16 => self.optional_flag(token).map(drop),
             _ => {
                 let given = self.number_after(token, "a number")?;
                 self.within_bounds(&given, word);

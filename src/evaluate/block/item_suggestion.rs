@@ -148,6 +148,7 @@ fn begins_with_name(word: Word) -> bool {
             | W::Interior
             | W::Material
             | W::SkySphere
+            | W::Fog
             | W::ColorMap
     )
 }

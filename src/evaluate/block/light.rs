@@ -203,6 +203,17 @@ impl Evaluator<'_> {
                     }
                     Ok(())
                 }
+                TokenKind::Word(word @ (Word::MediaAttenuation | Word::MediaInteraction)) => {
+                    self.optional_flag(&token).map(|on| {
+                        let site = self.whole(&token);
+                        if let Some(light) = &mut light {
+                            match word {
+                                Word::MediaAttenuation => light.media_site = on.then_some(site),
+                                _ => light.media_interaction = on,
+                            }
+                        }
+                    })
+                }
                 _ => match self.transform_from(&token) {
                     Some(transform) => transform.map(|id| {
                         modifiers.push(Modifier {

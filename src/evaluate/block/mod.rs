@@ -14,6 +14,7 @@ mod colored;
 mod confused_solid;
 mod counted;
 mod finish;
+mod fog;
 mod foreign_keyword;
 mod foreign_value;
 mod height_field;
@@ -63,7 +64,7 @@ pub(super) use foreign_value::color_of_string;
 pub(super) use mesh::MeshFiles;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{ObjectId, Root};
+use crate::scene::{Fog, ObjectId, Root};
 use crate::source::Span;
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Dialect, Family, Role, Word};
@@ -105,6 +106,14 @@ impl Evaluator<'_> {
             TokenKind::Word(Word::SkySphere) => {
                 if let Value::SkySphere(sky) = self.sky_sphere(token)? {
                     self.place_sky(sky.as_ref().clone());
+                    return Ok(());
+                }
+                self.needs_poison()
+            }
+            TokenKind::Word(Word::Fog) => {
+                if let Value::Fog(fog) = self.fog(token)? {
+                    let item = self.whole(token);
+                    self.scene.fogs.push(Fog { item, ..fog.as_ref().clone() });
                     return Ok(());
                 }
                 self.needs_poison()
@@ -258,6 +267,7 @@ impl Evaluator<'_> {
             Word::Spline => self.spline(token),
             Word::Function => self.function(token),
             Word::SkySphere => self.sky_sphere(token),
+            Word::Fog => self.fog(token),
             _ if word.family() == Family::Color => self.color_from(token).map(Value::Color),
             _ if opens_object(word) => self.object(token, word),
             _ if !word.is_built() || word == Word::Background => {
@@ -414,5 +424,6 @@ fn opens_value(word: Word) -> bool {
                 | Word::TransformWord
                 | Word::Camera
                 | Word::SkySphere
+                | Word::Fog
         )
 }

@@ -300,8 +300,7 @@ impl Evaluator<'_> {
             Word::DoubleIlluminate => {
                 self.optional_flag(token).map(|on| Some(ModifierKind::DoubleIlluminate(on)))
             }
-            // It affects fog and media, which are unsupported.
-            Word::Hollow => self.optional_flag(token).map(|_| None),
+            Word::Hollow => self.optional_flag(token).map(|on| Some(ModifierKind::Hollow(on))),
             Word::Inverse => {
                 self.optional_flag(token).map(|on| on.then_some(ModifierKind::Inverse))
             }

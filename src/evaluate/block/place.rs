@@ -321,7 +321,7 @@ pub(super) fn home(word: Word) -> Option<Word> {
         W::LowErrorFactor | W::MaxSample | W::MaximumReuse | W::MinimumReuse => W::Radiosity,
         W::NearestCount | W::PretraceEnd | W::PretraceStart | W::RecursionLimit => W::Radiosity,
         W::Importance => W::Radiosity,
-        W::FogAlt | W::FogOffset | W::FogType | W::Distance => W::Fog,
+        W::FogAlt | W::FogOffset | W::FogType | W::Distance | W::TurbDepth => W::Fog,
         W::ArcAngle | W::FalloffAngle | W::Width => W::Rainbow,
         W::GlobalLights => W::LightGroup,
         W::FaceIndices | W::NormalIndices | W::NormalVectors | W::TextureList => W::Mesh2,

@@ -252,6 +252,7 @@ impl Evaluator<'_> {
             Value::Object(_) if place.families.contains(&Family::Shape) => Some("object"),
             Value::Camera(_) if place.word.is_none() => Some("camera"),
             Value::SkySphere(_) if place.word.is_none() => Some("sky_sphere"),
+            Value::Fog(_) if place.word.is_none() => Some("fog"),
             Value::Color(_) if of_texture => Some("pigment"),
             _ => None,
         };

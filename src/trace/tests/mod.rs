@@ -1,6 +1,7 @@
 //! Small worlds to trace, built by hand.
 
 mod film;
+mod fog;
 mod glass;
 mod light;
 mod single;

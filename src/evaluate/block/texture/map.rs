@@ -31,7 +31,8 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Reads `tiles { texture { … } tile2 texture { … } }`, the old form of a `checker` of textures.
+    /// Reads `tiles { texture { … } tile2 texture { … } }`, the old form of a `checker` of textures: the second is
+    /// where that has its first (measured on POV-Ray 3.7).
     pub(super) fn tiles(
         &mut self,
         token: &Token,
@@ -58,6 +59,7 @@ impl Evaluator<'_> {
         })?;
         let mut textures = textures;
         textures.resize(2, self.default_texture);
+        textures.reverse();
         let entries = textures.into_iter().enumerate();
         written.entries = Some(entries.map(|(at, id)| (at as f64, id)).collect());
         written.parts = true;

@@ -33,25 +33,9 @@ fn numbers(item: Word, block: Word) -> Option<(usize, usize)> {
         (W::Media, W::Jitter | W::AaLevel | W::AaThreshold) => (1, 1),
         (W::Media, W::Samples) => (1, 2),
         (W::Scattering, W::Eccentricity | W::Extinction) => (1, 1),
-        (W::Fog, W::Distance | W::FogType | W::FogOffset | W::FogAlt) => (1, 1),
         (W::Rainbow, W::ArcAngle | W::FalloffAngle | W::Width | W::Angle | W::Distance) => (1, 1),
         _ => return None,
     })
-}
-
-/// Returns whether an item is valid in a `fog`.
-fn is_of_fog(item: Word) -> bool {
-    matches!(item.family(), Family::Color | Family::Transform)
-        || numbers(item, Word::Fog).is_some()
-        || matches!(
-            item,
-            Word::Up
-                | Word::Turbulence
-                | Word::TurbDepth
-                | Word::Octaves
-                | Word::Omega
-                | Word::Lambda
-        )
 }
 
 /// Returns whether an item that is not specific to a block is valid in it.
@@ -61,7 +45,6 @@ fn is_also_of(item: Word, block: Word) -> bool {
         Word::ImageMap => Place::IMAGE.holds(item),
         Word::Media => item == Word::Density || item.family() == Family::Transform,
         Word::Radiosity => item == Word::Normal || item == Word::Media,
-        Word::Fog => is_of_fog(item),
         Word::Rainbow => item == Word::ColorMap,
         _ => false,
     }
@@ -77,12 +60,7 @@ impl Evaluator<'_> {
     pub(in crate::evaluate::block) fn knows_items(block: Word) -> bool {
         matches!(
             block,
-            Word::Radiosity
-                | Word::Photons
-                | Word::Media
-                | Word::Scattering
-                | Word::Fog
-                | Word::Rainbow
+            Word::Radiosity | Word::Photons | Word::Media | Word::Scattering | Word::Rainbow
         )
     }
 
@@ -124,14 +102,8 @@ impl Evaluator<'_> {
             self.poison = outer;
             return read.unwrap_or(());
         }
-        let is_foreign = match block {
-            Word::Fog => !is_of_fog(item),
-            Word::Radiosity => item == Word::Samples,
-            _ => false,
-        };
-        if is_foreign {
-            let others: &[Word] = if block == Word::Radiosity { &[Word::Count] } else { &[] };
-            let place = Place { word: Some(block), families: &[], others };
+        if block == Word::Radiosity && item == Word::Samples {
+            let place = Place { word: Some(block), families: &[], others: &[Word::Count] };
             self.unexpected_word(token, item, place);
             return;
         }

@@ -48,10 +48,6 @@ pub(super) fn of_item(item: Word, block: Word) -> Option<Range> {
             Range { holds: |n| (0.0..1.0).contains(&n), wanted: "0 or more, and less than 1" }
         }
         (W::Photons, W::Target | W::Media) => NOT_NEGATIVE,
-        (W::Fog, W::FogType) => Range {
-            holds: |n| n == 1.0 || n == 2.0,
-            wanted: "1, the same everywhere, or 2, on the ground",
-        },
         _ => return None,
     })
 }
@@ -89,8 +85,7 @@ impl Evaluator<'_> {
         let is_whole =
             behind.next() != Some(',') || !behind.next().is_some_and(|c| c.is_ascii_digit());
         // Those POV-Ray 3.7 warns of (measured).
-        let is_rendered =
-            self.options.dialect == Dialect::Pov && matches!(word, Word::FogType | Word::Target);
+        let is_rendered = self.options.dialect == Dialect::Pov && word == Word::Target;
         if is_whole && !is_rendered && !(range.holds)(given.value) {
             self.out_of_range(given, word, range.wanted);
         }
