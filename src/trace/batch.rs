@@ -4,7 +4,8 @@
 //! **In:** the camera's rays. **Out:** the radiance that comes back along each. **Invariant:** what comes back along a
 //! ray depends on no other ray. Radiance is folded from the last generation to the first and never accumulated into a
 //! throughput, so a clamp at each surface is possible. Nothing grows on the call stack, and memory is bounded by the
-//! depth, not by the number of paths: of a generation only so many rays go on at once, and the rest waits.
+//! depth, not by the number of paths: of a generation only so many rays go on at once, far down only one, and the rest
+//! waits.
 
 use std::ops::ControlFlow;
 
@@ -22,6 +23,8 @@ use smallvec::SmallVec;
 const MOST: usize = 64;
 /// Surfaces that are shaded together.
 pub(super) const SLICE: usize = 16;
+/// So many generations have all their rays in memory; deeper ones follow one ray at a time.
+const SIDE_BY_SIDE: usize = 64;
 
 /// A ray that goes on from a surface.
 #[derive(Debug, Clone, Copy)]
@@ -112,6 +115,12 @@ impl Surfaces<'_> {
 }
 
 impl Batch {
+    /// Surfaces for whose radiance there is room.
+    #[cfg(test)]
+    pub fn room(&self) -> usize {
+        self.returns.capacity()
+    }
+
     /// Makes the first generation of the rays that are there.
     fn begin(&mut self) {
         self.returns.clear();
@@ -131,10 +140,10 @@ impl Batch {
         self.generations.push(Generation { first, count, shaded: 0, rays, solids });
     }
 
-    /// The surfaces that are shaded next.
-    fn next(&mut self) -> Option<Surfaces<'_>> {
+    /// The surfaces that are shaded next, at most `slice`.
+    fn next(&mut self, slice: usize) -> Option<Surfaces<'_>> {
         let Generation { first, count, shaded, rays, .. } = *self.generations.last()?;
-        let next = shaded..count.min(shaded + SLICE);
+        let next = shaded..count.min(shaded + slice);
         if next.is_empty() {
             return None;
         }
@@ -231,9 +240,13 @@ impl<'a> Tracer<'a> {
         }
         self.advance(walk, batch);
         loop {
-            while let Some(surfaces) = batch.next() {
+            let (slice, most) = match batch.generations.len() <= SIDE_BY_SIDE {
+                true => (self.slice, MOST),
+                false => (1, 1),
+            };
+            while let Some(surfaces) = batch.next(slice) {
                 self.shade(walk, surfaces);
-                if walk.pending() >= MOST {
+                if walk.pending() >= most {
                     break;
                 }
             }

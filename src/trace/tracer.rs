@@ -1,6 +1,7 @@
 //! What the stages of a frame share: the World, what rays meet, and which stages run.
 
 use super::Watch;
+use super::batch::SLICE;
 use super::media::Around;
 use super::sharpness::Sharpness;
 use super::way::Way;
@@ -40,6 +41,8 @@ pub(super) struct Tracer<'a> {
     pub absorbs: bool,
     /// Light comes through clear surfaces.
     pub filters_shadows: bool,
+    /// Surfaces that are shaded together: fewer where each may send on many rays.
+    pub slice: usize,
     /// Evaluations are counted.
     pub counts: bool,
     pub max_trace_level: u32,
@@ -83,6 +86,7 @@ impl<'a> Tracer<'a> {
             has_fog,
             absorbs: plan.simulates(Effect::Absorption),
             filters_shadows: plan.runs(Stage::Shadow) && plan.simulates(Effect::ColoredShadows),
+            slice: slice(world),
             counts: geometry.counts(),
             max_trace_level: plan.max_trace_level,
             adc_bailout: plan.adc_bailout,
@@ -116,4 +120,11 @@ impl<'a> Tracer<'a> {
         let cut = weight < self.adc_bailout;
         (!cut).then_some(weight)
     }
+}
+
+/// How many surfaces are shaded together, where dispersion may split a ray at each of them.
+fn slice(world: &World) -> usize {
+    let samples = world.interiors.iter().filter_map(|interior| interior.dispersion);
+    let most = samples.map(|dispersion| dispersion.samples as usize).max().unwrap_or(1);
+    (4 * SLICE / most.max(1)).clamp(1, SLICE)
 }

@@ -50,6 +50,21 @@ impl Built {
     }
 }
 
+/// Balls of glass, mirrors among them, over a chequered floor.
+pub(super) fn heap() -> World {
+    let ball = |built: Built, i: u32| {
+        let place =
+            [f64::from(i % 3) - 1.0, 0.4 * f64::from(i / 3) - 0.6, -4.0 - 0.3 * f64::from(i % 2)];
+        built.sphere(place, 0.55, glass()).filled(1.5)
+    };
+    let mut floor = matte(1.0, 1.0, 1.0);
+    let squares = vec![(0.0, Color::WHITE), (1.0, Color::opaque(Rgb::new(0.2, 0.3, 0.4)))];
+    floor.pigment = ramp(Kind::Checker(Checker {}), vec![], squares);
+    let floor = Built::default().plane(UnitVector::Y, -1.2, floor);
+    let heap = (0..6).fold(floor, ball).sphere([0.0, 1.0, -6.0], 0.8, mirror(0.6, 0.1));
+    heap.light([3.0, 5.0, 0.0], 0.8).world(|world| world.settings.max_trace_level = 12)
+}
+
 /// A direction 30° off the camera's sight, out of the panes and toward the camera.
 const TILT: Vector = Vector::new(0.0, 0.5, 0.866_025_403_784_438_6);
 

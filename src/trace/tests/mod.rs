@@ -1,5 +1,6 @@
 //! Small worlds to trace, built by hand.
 
+mod batch;
 mod film;
 mod fog;
 mod glass;

@@ -1,0 +1,42 @@
+//! Rays see the same alone and in a batch, and a batch takes no more memory than it says.
+
+use super::*;
+
+/// What the camera sees along the rays of a picture, each by itself or all together.
+fn seen(world: &World, plan: &Plan, together: bool) -> (Vec<Rgb>, usize) {
+    let geometry = Geometry::build(world);
+    let tracer = Tracer::new(world, &geometry, plan, &Unwatched);
+    let Frame { width, height, .. } = plan.frame;
+    let lens = Lens::new(&world.camera, width, height);
+    let places = (0..width * height).map(|i| (i % width, i / width));
+    let rays: Vec<_> = places.map(|place| lens.ray(place, (0, 0), 1)).collect();
+    let (mut walk, mut all) = (Walk::default(), Vec::new());
+    for part in rays.chunks(if together { rays.len() } else { 1 }) {
+        tracer.each_seen(&mut walk, part.iter().copied(), |seen| all.push(seen));
+    }
+    (all, walk.batch.room())
+}
+
+#[test]
+fn a_ray_sees_the_same_alone_and_in_a_batch() {
+    for world in [varied(), glass::heap()] {
+        let plan = plan(&world, &Origins::default(), &options(24, 18, Antialias::Off));
+        let (together, _) = seen(&world, &plan, true);
+        assert_eq!(together.len(), 24 * 18);
+        assert_eq!(together, seen(&world, &plan, false).0);
+    }
+}
+
+#[test]
+fn far_down_one_ray_is_followed_at_a_time() {
+    let deep = 5000;
+    let world = corridor(&mirror(1.0, 1e-6)).world(|world| {
+        (world.settings.max_trace_level, world.settings.adc_bailout) = (deep, 0.0);
+    });
+    let plan = plan(&world, &Origins::default(), &options(8, 8, Antialias::Off));
+    let (alone, room) = (seen(&world, &plan, false), seen(&world, &plan, true));
+    assert_eq!(alone.0, room.0);
+    // All of them together would be 64 times as many.
+    assert!(room.1 < 4 * deep as usize, "{} for {}", room.1, alone.1);
+    assert!(alone.1 >= deep as usize);
+}
