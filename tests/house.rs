@@ -138,7 +138,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "math/roots/",
             "shape/",
             "texture/",
-            "trace/layers.rs",
+            "trace/",
         ],
     ),
     ("strsim", &["diagnostic/suggest.rs"]),

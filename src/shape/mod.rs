@@ -81,17 +81,6 @@ pub enum Shape {
     Placed(u32),
 }
 
-impl Shape {
-    /// Returns whether this is a sphere, a plane or a box.
-    #[inline(always)]
-    pub fn is_plain(self) -> bool {
-        match self {
-            Self::Sphere(_) | Self::Plane(_) | Self::Box(_) => true,
-            Self::Ellipsoid(_) | Self::Placed(_) => false,
-        }
-    }
-}
-
 pub use crate::texture::space::Paint;
 
 /// A point where a ray passes through a surface.
