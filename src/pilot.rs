@@ -124,6 +124,8 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         | Effect::ColoredShadows
         | Effect::Patterns
         | Effect::Sky
+        | Effect::FocalBlur
+        | Effect::CameraNormal
         | Effect::Fog
         | Effect::Antialiasing => None,
     }

@@ -4,6 +4,7 @@
 //! invertible; every number is finite. One flat list per kind; an object is (kind, index, texture).
 //! Specified in `docs/world.md`.
 
+mod camera;
 mod csg_solid;
 mod fog;
 pub mod print;
@@ -15,6 +16,7 @@ use crate::math::{UnitVector, Vector};
 use crate::shape::uv::Mapping;
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
 use crate::source::{Expansions, Site, Span};
+pub use camera::{Camera, CameraKind, Focus};
 pub use csg_solid::{CsgSolid, Cutaway};
 pub use fog::{Churn, Fog, Ground};
 
@@ -77,6 +79,9 @@ pub struct Origins {
     /// Each `double_illuminate` that applies to a solid.
     pub double_illuminate: Vec<Site>,
     pub camera: Option<Site>,
+    /// The `aperture` and the `normal` of the camera, if it has them.
+    pub aperture: Option<Site>,
+    pub camera_normal: Option<Site>,
     pub sky: Option<SkyOrigin>,
     /// The whole item of each fog.
     pub fogs: Vec<Site>,
@@ -355,36 +360,6 @@ pub enum LightKind {
 pub struct Sky {
     /// Layers, the last on top.
     pub pigments: Vec<Pigment>,
-}
-
-/// The camera. The point (u, v) of the screen, −½ … ½ from left to right and from bottom to top, is seen
-/// along `forward + u·right + v·up` from `location` (perspective), or along `forward` from `location +
-/// u·right + v·up` (orthographic). A lens shift is part of `forward` or `location`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Camera {
-    pub kind: CameraKind,
-    pub location: Vector,
-    pub forward: Vector,
-    pub right: Vector,
-    pub up: Vector,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CameraKind {
-    Perspective,
-    Orthographic,
-}
-
-impl Default for Camera {
-    fn default() -> Self {
-        Self {
-            kind: CameraKind::Perspective,
-            location: Vector::ZERO,
-            forward: -Vector::Z,
-            right: Vector::X * (4.0 / 3.0),
-            up: Vector::Y,
-        }
-    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -131,6 +131,8 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         patterns,
         hiding,
         sky,
+        focal_blur,
+        camera_normal,
         fog,
     } = counters.evaluations;
     match effect {
@@ -148,10 +150,12 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         Effect::Patterns => patterns,
         Effect::Hiding => hiding,
         Effect::Sky => sky,
+        Effect::FocalBlur => focal_blur,
+        Effect::CameraNormal => camera_normal,
         Effect::Fog => fog,
         Effect::Antialiasing => {
             let pixels = OPTIONS.frame.width * OPTIONS.frame.height;
-            counters.camera.saturating_sub(u64::from(pixels))
+            counters.camera.saturating_sub(u64::from(pixels).max(focal_blur))
         }
     }
 }

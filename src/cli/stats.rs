@@ -66,6 +66,8 @@ pub struct Evaluations {
     pub patterns: u64,
     pub hiding: u64,
     pub sky: u64,
+    pub focal_blur: u64,
+    pub camera_normal: u64,
     pub fog: u64,
 }
 
@@ -83,6 +85,8 @@ impl From<trace::Evaluations> for Evaluations {
             patterns,
             hiding,
             sky,
+            focal_blur,
+            camera_normal,
             fog,
         } = counted;
         Self {
@@ -97,6 +101,8 @@ impl From<trace::Evaluations> for Evaluations {
             patterns,
             hiding,
             sky,
+            focal_blur,
+            camera_normal,
             fog,
         }
     }
@@ -167,6 +173,8 @@ impl Stats {
             count("patterns", self.evaluations.patterns),
             count("hidden objects", self.evaluations.hiding),
             count("sky", self.evaluations.sky),
+            count("through a lens", self.evaluations.focal_blur),
+            count("camera normal", self.evaluations.camera_normal),
             count("fog", self.evaluations.fog),
         ]
         .concat()

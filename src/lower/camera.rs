@@ -8,6 +8,7 @@
 //! **Invariant:** forward, right and up span space, or there is a diagnostic.
 //! **Source:** POV-Ray manual, section 3.4.2 "Camera"; formulas in `docs/world.md`.
 
+use super::focus::Lens;
 use super::transform::{Affine, exact};
 use super::{Fault, Lowering};
 use crate::diagnostic::Code;
@@ -35,6 +36,8 @@ struct Words {
     sky: DoubleVector,
     look_at: Option<(DoubleVector, Site)>,
     angle: Option<(f64, Site)>,
+    vertical_angle: Option<f64>,
+    lens: Lens,
     shift: (f64, f64),
     transforms: Vec<(TransformId, Site)>,
     /// One of the three vectors was zero.
@@ -59,7 +62,9 @@ impl Lowering<'_, '_> {
         let spent = self.spend_camera(camera);
         let camera = self.reporter.made_there(spent);
         self.is_blind = camera.is_none();
-        self.world.camera = camera.unwrap_or(self.world.camera);
+        if let Some(camera) = camera {
+            self.world.camera = camera;
+        }
     }
 
     fn spend_camera(&mut self, camera: &scene::Camera) -> Result<Camera, (Fault, Site)> {
@@ -72,9 +77,11 @@ impl Lowering<'_, '_> {
         for &(id, site) in &words.transforms {
             map = self.transforms.get(id).map_err(|fault| (fault, site))?.after(&map);
         }
-        words.check(camera.site, dialect)?;
+        words.check(camera, dialect)?;
         if !camera.is_in_order {
-            words.widen()?;
+            if camera.kind.is_flat() {
+                words.widen()?;
+            }
             if camera.kind == CameraKind::Orthographic && !words.is_sized() {
                 words.fit_to_look_at(dialect);
             }
@@ -96,17 +103,23 @@ impl Lowering<'_, '_> {
             }
         }
         let shift = right * Double::from(words.shift.0) + up * Double::from(words.shift.1);
-        let (kind, location, forward) = match camera.kind {
-            CameraKind::Perspective => (world::CameraKind::Perspective, location, forward + shift),
-            CameraKind::Orthographic => {
-                (world::CameraKind::Orthographic, location + shift, forward)
-            }
+        let kind = words.projection(camera.kind);
+        let (location, forward) = match kind {
+            world::CameraKind::Orthographic => (location + shift, forward),
+            _ => (location, forward + shift),
         };
+        // A spherical camera turns about its vectors: away from `forward`, a left-handed one shows what a right-handed
+        // one does, upside down (measured). In a `.scene`, `right` is on the right.
+        let handed = up.cross(forward).dot(right).round();
+        let is_turned =
+            camera.kind == CameraKind::Spherical && dialect == Dialect::Scene && handed < 0.0;
+        let (right, up) = if is_turned { (-right, -up) } else { (right, up) };
         if ![location, forward, right, up].iter().all(|v| v.is_finite()) {
             return Err((Fault::not_finite("this camera").refused(), camera.site));
         }
         let [location, forward, right, up] = [location, forward, right, up].map(|v| v.round());
-        Ok(Camera { kind, location, forward, right, up })
+        let (focus, normal) = self.lens(&words.lens, words.location)?;
+        Ok(Camera { kind, location, forward, right, up, focus, normal })
     }
 
     /// Applies the keywords as POV-Ray 3.7 reads a scene of version 3.1 or older (measured): each changes the
@@ -124,7 +137,7 @@ impl Lowering<'_, '_> {
             words.take(item);
             match item.kind {
                 CameraItemKind::Angle(0.0) => self.sees_nothing |= is_perspective,
-                CameraItemKind::Angle(_) => words.widen()?,
+                CameraItemKind::Angle(_) if camera.kind.is_flat() => words.widen()?,
                 CameraItemKind::Direction(_) => self.sees_nothing = false,
                 CameraItemKind::LookAt(_) => {
                     words.fill();
@@ -160,6 +173,8 @@ impl Words {
             sky: exact(Vector::Y),
             look_at: None,
             angle: None,
+            vertical_angle: None,
+            lens: Lens::default(),
             shift: (0.0, 0.0),
             transforms: Vec::new(),
             is_flat: false,
@@ -175,10 +190,38 @@ impl Words {
             CameraItemKind::Up(v) => self.up = word(v),
             CameraItemKind::Right(v) => self.right = word(v),
             CameraItemKind::Direction(v) => self.direction = word(v),
-            CameraItemKind::Angle(degrees) => self.angle = Some((degrees, item.site)),
+            CameraItemKind::Angle(degrees) => {
+                (self.angle, self.vertical_angle) = (Some((degrees, item.site)), None);
+            }
+            CameraItemKind::VerticalAngle(degrees) => self.vertical_angle = Some(degrees),
             CameraItemKind::Shift { x, y } => self.shift = (x, y),
             CameraItemKind::Transform(id) => self.transforms.push((id, item.site)),
             CameraItemKind::Orthographic => {}
+            other => self.lens.take(other, item.site),
+        }
+    }
+
+    /// Returns the kind of camera in the World, with the default angles that POV-Ray 3.7 has (measured).
+    fn projection(&self, kind: CameraKind) -> world::CameraKind {
+        let across = self.angle.map(|(degrees, _)| degrees / 360.0);
+        let angle = across.unwrap_or(0.25);
+        match kind {
+            CameraKind::Perspective => world::CameraKind::Perspective,
+            CameraKind::Orthographic => world::CameraKind::Orthographic,
+            CameraKind::Fisheye => world::CameraKind::Fisheye { angle },
+            CameraKind::UltraWideAngle => world::CameraKind::UltraWideAngle { angle },
+            CameraKind::Omnimax => world::CameraKind::Omnimax,
+            CameraKind::Panoramic => world::CameraKind::Panoramic,
+            CameraKind::Cylinder(form) => world::CameraKind::Cylinder {
+                upright: form.is_upright(),
+                moving: form.is_moving(),
+                angle,
+            },
+            CameraKind::Spherical => {
+                let across = across.unwrap_or(1.0);
+                let down = self.vertical_angle.map_or(0.5 * across, |degrees| degrees / 360.0);
+                world::CameraKind::Spherical { across, down }
+            }
         }
     }
 
@@ -190,7 +233,7 @@ impl Words {
         }
     }
 
-    fn check(&mut self, camera: Site, dialect: Dialect) -> Result<(), (Fault, Site)> {
+    fn check(&mut self, camera: &scene::Camera, dialect: Dialect) -> Result<(), (Fault, Site)> {
         if dialect == Dialect::Pov {
             self.fill();
         }
@@ -199,10 +242,11 @@ impl Words {
             if word.vector.is_zero() {
                 let message = format!("this camera's `{name}` is the zero vector");
                 let fault = degenerate(&message, "expected a vector other than zero");
-                return Err((fault, word.site.unwrap_or(camera)));
+                return Err((fault, word.site.unwrap_or(camera.site)));
             }
         }
         if let Some((degrees, site)) = self.angle
+            && camera.kind.is_flat()
             && !(0.0..180.0).contains(&degrees)
         {
             let message = format!("a camera cannot see an angle of {degrees} degrees");

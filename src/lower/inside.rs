@@ -12,7 +12,7 @@ use crate::math::Vector;
 use crate::shape::csg::Node;
 use crate::shape::{Body, Shape};
 use crate::source::Site;
-use crate::world::{CameraKind, Light, LightKind, Object, Plain};
+use crate::world::{Light, LightKind, Object, Plain};
 
 /// The most lights that are checked.
 const MOST_LIGHTS: usize = 1000;
@@ -176,7 +176,7 @@ impl Lowering<'_, '_> {
     fn may_be_seen_inside(&self, solid: u32) -> bool {
         let camera = &self.world.camera;
         let is_seen = self.world.parts(solid).iter().all(|object| object.in_reflections);
-        !is_seen || camera.kind == CameraKind::Orthographic || self.holds(solid, camera.location)
+        !is_seen || !camera.has_one_origin() || self.holds(solid, camera.location)
     }
 
     fn holds(&self, solid: u32, place: Vector) -> bool {

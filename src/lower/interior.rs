@@ -10,9 +10,7 @@ use crate::color::Rgb;
 use crate::scene::{self, ClassicFinish, Finish, FinishId, InteriorId};
 use crate::source::Site;
 use crate::vocabulary::Word;
-use crate::world::{
-    Absorption, CameraKind, Dispersion, Interior, InteriorOrigin, Object, Plain, World,
-};
+use crate::world::{Absorption, Dispersion, Interior, InteriorOrigin, Object, Plain, World};
 
 /// The origins of an object's interior: its `interior` block, and its finish.
 pub type Filling = (Option<InteriorId>, FinishId);
@@ -172,6 +170,6 @@ fn asks(world: &World, object: &Object) -> bool {
 /// orthographic camera are not checked.
 fn is_entered(world: &World, object: &Object) -> bool {
     asks(world, object)
-        || world.camera.kind == CameraKind::Orthographic
+        || !world.camera.has_one_origin()
         || world.contains(object, world.camera.location)
 }

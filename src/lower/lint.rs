@@ -13,7 +13,7 @@ use crate::scene::{CameraItemKind, Object, ObjectKind, Root};
 use crate::shape::Body;
 use crate::shape::isosurface::Nowhere;
 use crate::source::{Site, Span};
-use crate::world::Plain;
+use crate::world::{CameraKind, Plain};
 
 /// The default ambient of a white surface: enough to distinguish shapes from black, and no more.
 pub(super) const DEFAULT_AMBIENT: f64 = 0.1;
@@ -254,6 +254,11 @@ impl Lowering<'_, '_> {
         else {
             return;
         };
+        use CameraKind::{Cylinder, Panoramic, Spherical};
+        // Their screens have no proportion: sides are angles, or an angle and a length.
+        if matches!(self.world.camera.kind, Panoramic | Cylinder { .. } | Spherical { .. }) {
+            return;
+        }
         let (width, height) = (f64::from(width), f64::from(height));
         let seen = self.world.camera.right.length() / self.world.camera.up.length();
         // Rounding to whole pixels is off by half a pixel at most.

@@ -16,6 +16,7 @@ mod doubled;
 mod empty;
 mod faces;
 mod finish;
+mod focus;
 mod fog;
 mod hollow;
 mod inherited;

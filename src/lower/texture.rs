@@ -186,7 +186,7 @@ impl<'s> Lowering<'s, '_> {
         Ok(self.branches.textures.add(id, depth, texture))
     }
 
-    fn nodes(&mut self) -> Nodes<'_, 's> {
+    pub(super) fn nodes(&mut self) -> Nodes<'_, 's> {
         Nodes { scene: self.scene, transforms: &mut self.transforms, branches: &mut self.branches }
     }
 

@@ -11,7 +11,7 @@
 use super::Lowering;
 use crate::scene::{Finish, Interior, ObjectId, ObjectKind, Scene};
 use crate::shape::Shape;
-use crate::world::{CameraKind, Object};
+use crate::world::Object;
 
 impl Lowering<'_, '_> {
     /// Removes the object made last, and records that, unless the camera may be inside. `by` is the object on
@@ -19,8 +19,8 @@ impl Lowering<'_, '_> {
     pub(super) fn drop_unseen(&mut self, object: &Object, by: ObjectId) -> bool {
         let world = &self.world;
         // The ray origins of an orthographic camera are not checked.
-        let may_hold_camera = world.camera.kind == CameraKind::Orthographic
-            || world.contains(object, world.camera.location);
+        let may_hold_camera =
+            !world.camera.has_one_origin() || world.contains(object, world.camera.location);
         if may_hold_camera && self.bends_light() {
             return false;
         }

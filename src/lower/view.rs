@@ -31,6 +31,9 @@ impl Lowering<'_, '_> {
     /// Lints an angle that may be meant in radians, if every bounded object in view is far larger than the
     /// picture. Returns whether it was reported.
     pub(super) fn lint_angle(&mut self) -> bool {
+        if !self.world.camera.kind.is_flat() {
+            return false;
+        }
         let items = self.scene.cameras.last().map_or(&[][..], |camera| &camera.items);
         let angle = items.iter().rev().find_map(|item| match item.kind {
             CameraItemKind::Angle(degrees) => Some((degrees, item.site)),
@@ -149,14 +152,18 @@ impl Lowering<'_, '_> {
 /// distance.
 struct View {
     kind: CameraKind,
+    /// What is seen is a pyramid or a prism: no bent screen, which may show all directions, nor bent rays.
+    is_pyramid: bool,
     location: Vector,
     view_from_world: Matrix,
 }
 
 impl View {
     fn of(camera: &Camera) -> Self {
-        let &Camera { kind, location, forward, right, up } = camera;
-        Self { kind, location, view_from_world: Matrix::from_cols(right, up, forward).inverse() }
+        let &Camera { kind, location, forward, right, up, .. } = camera;
+        let is_pyramid = kind.is_flat() && camera.focus.is_none() && camera.normal.is_none();
+        let view_from_world = Matrix::from_cols(right, up, forward).inverse();
+        Self { kind, is_pyramid, location, view_from_world }
     }
 
     /// Returns the corners of a box in the camera's coordinates.
@@ -172,10 +179,13 @@ impl View {
     /// Returns the apparent size of a box in picture widths or heights; infinite if part of it lies beside or
     /// behind the camera.
     fn pictures(&self, bounds: &Bounds) -> f64 {
+        if !self.is_pyramid {
+            return f64::INFINITY;
+        }
         let corners = self.corners(bounds).map(|at| match self.kind {
             CameraKind::Perspective if at.z <= 0.0 => None,
             CameraKind::Perspective => Some([at.x / at.z, at.y / at.z]),
-            CameraKind::Orthographic => Some([at.x, at.y]),
+            _ => Some([at.x, at.y]),
         });
         let wide = |axis: usize| {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -190,6 +200,9 @@ impl View {
 
     /// Returns where a box is, if certainly no part of it is in view.
     fn outside(&self, bounds: &Bounds) -> Option<Outside> {
+        if !self.is_pyramid {
+            return None;
+        }
         let corners = self.corners(bounds);
         // Numbers too large to compare are not beyond anything.
         let all = |beyond: fn(Vector, f64) -> f64| {

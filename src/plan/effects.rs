@@ -23,7 +23,10 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
     let census = Census { world, origins, options, max_trace_level };
     let mut plan = Plan {
         frame: options.frame,
-        antialias: options.antialias,
+        antialias: match world.camera.focus {
+            Some(_) => Antialias::Off,
+            None => options.antialias,
+        },
         max_trace_level,
         adc_bailout: options.adc_bailout.unwrap_or(world.settings.adc_bailout),
         root_tolerance: options.root_tolerance,
@@ -94,6 +97,11 @@ impl Census<'_> {
             Effect::Patterns => self.patterns(),
             Effect::Hiding => self.hiding(),
             Effect::Sky => self.sky(),
+            Effect::FocalBlur => self.focal_blur(),
+            Effect::CameraNormal => self.camera_normal(),
+            Effect::Antialiasing if self.world.camera.focus.is_some() => {
+                because("the rays of focal blur are spread over the pixel", self.origins.aperture)
+            }
             Effect::Fog => self.fog(),
             Effect::Antialiasing => antialiasing(self.options.antialias),
         }
@@ -286,6 +294,24 @@ impl Census<'_> {
                 None => because("no `sky_sphere`", None),
             },
         }
+    }
+
+    fn focal_blur(&self) -> Decision {
+        let Some(focus) = &self.world.camera.focus else {
+            return because("everything is in focus", None);
+        };
+        let cost = match (focus.least, focus.most) {
+            (least, most) if least == most => format!("{most} rays a pixel"),
+            (least, most) => format!("{least} to {most} rays a pixel"),
+        };
+        Ok((self.origins.aperture.into_iter().collect(), cost))
+    }
+
+    fn camera_normal(&self) -> Decision {
+        if self.world.camera.normal.is_none() {
+            return because("the camera has no `normal`", None);
+        }
+        Ok((self.origins.camera_normal.into_iter().collect(), "one normal a camera ray".to_owned()))
     }
 
     fn fog(&self) -> Decision {

@@ -133,6 +133,10 @@ pub enum Effect {
     /// Objects that are invisible to the camera or in reflections.
     Hiding,
     Sky,
+    /// A lens that blurs what is not in focus.
+    FocalBlur,
+    /// Rays of the camera that its normal bends.
+    CameraNormal,
     /// Fog between surfaces.
     Fog,
     Antialiasing,
@@ -140,7 +144,7 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order in which the plan lists them.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Diffuse,
         Self::Highlights,
         Self::Shadows,
@@ -155,6 +159,8 @@ impl Effect {
         Self::Patterns,
         Self::Hiding,
         Self::Sky,
+        Self::FocalBlur,
+        Self::CameraNormal,
         Self::Fog,
         Self::Antialiasing,
     ];
@@ -176,6 +182,8 @@ impl Effect {
             Self::Patterns => "patterns",
             Self::Hiding => "hidden objects",
             Self::Sky => "sky",
+            Self::FocalBlur => "focal blur",
+            Self::CameraNormal => "camera normal",
             Self::Fog => "fog",
             Self::Antialiasing => "antialiasing",
         }

@@ -1,6 +1,6 @@
 //! Cameras as written: the keywords in order, without defaults.
 
-use super::TransformId;
+use super::{NormalId, PigmentId, TransformId};
 use crate::math::Vector;
 use crate::source::Site;
 
@@ -33,6 +33,49 @@ pub enum CameraKind {
     #[default]
     Perspective,
     Orthographic,
+    Fisheye,
+    UltraWideAngle,
+    Omnimax,
+    Panoramic,
+    Cylinder(CylinderForm),
+    Spherical,
+}
+
+impl CameraKind {
+    /// Returns whether `angle` is the angle of a flat screen, and sets the length of `direction`.
+    pub fn is_flat(self) -> bool {
+        matches!(self, Self::Perspective | Self::Orthographic)
+    }
+}
+
+/// How the screen of a cylindrical camera is bent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CylinderForm {
+    /// From left to right; all rays start at one point.
+    Upright,
+    /// From bottom to top.
+    Level,
+    /// As `Upright`, with rays that start along the cylinder's axis, at right angles to it.
+    UprightMoving,
+    /// Likewise as `Level`.
+    LevelMoving,
+}
+
+impl CylinderForm {
+    const ALL: [Self; 4] = [Self::Upright, Self::Level, Self::UprightMoving, Self::LevelMoving];
+
+    /// Returns the form that the language calls by this number, 1 to 4.
+    pub fn from_number(number: u32) -> Option<Self> {
+        Self::ALL.get(number.checked_sub(1)? as usize).copied()
+    }
+
+    pub fn is_upright(self) -> bool {
+        matches!(self, Self::Upright | Self::UprightMoving)
+    }
+
+    pub fn is_moving(self) -> bool {
+        matches!(self, Self::UprightMoving | Self::LevelMoving)
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -51,11 +94,22 @@ pub enum CameraItemKind {
     Direction(Vector),
     /// Horizontal field of view in degrees.
     Angle(f64),
+    /// Vertical field of view of a spherical camera in degrees; behind its `Angle`.
+    VerticalAngle(f64),
     /// The native lens shift, in widths and heights of the screen.
     Shift {
         x: f64,
         y: f64,
     },
+    /// The width of the opening through which a blurring lens sees: twice its diameter.
+    Aperture(f64),
+    /// The least number of rays of a pixel, if it is written, and the most.
+    BlurSamples(Option<u32>, u32),
+    FocalPoint(Vector),
+    Confidence(f64),
+    Variance(f64),
+    Bokeh(PigmentId),
+    Normal(NormalId),
     Transform(TransformId),
     /// The point where a camera with keywords in order becomes orthographic: it then keeps the view that it
     /// has of `look_at` there.

@@ -9,9 +9,9 @@ mod texture;
 use std::fmt::{self, Write};
 
 use super::{
-    Beam, CameraItemKind, CameraKind, Fade, Finish, FogTurbulence, Interior, Irid, LightKind,
-    LightSource, Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings, TextureId,
-    TransformId,
+    Beam, CameraItemKind, CameraKind, CylinderForm, Fade, Finish, FogTurbulence, Interior, Irid,
+    LightKind, LightSource, Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings,
+    TextureId, TransformId,
 };
 use crate::color::Clearness;
 use crate::math::transform::Step as TransformStep;
@@ -112,6 +112,15 @@ impl Printer<'_> {
             let kind = match camera.kind {
                 CameraKind::Perspective => "perspective",
                 CameraKind::Orthographic => "orthographic",
+                CameraKind::Fisheye => "fisheye",
+                CameraKind::UltraWideAngle => "ultra_wide_angle",
+                CameraKind::Omnimax => "omnimax",
+                CameraKind::Panoramic => "panoramic",
+                CameraKind::Cylinder(CylinderForm::Upright) => "cylinder 1",
+                CameraKind::Cylinder(CylinderForm::Level) => "cylinder 2",
+                CameraKind::Cylinder(CylinderForm::UprightMoving) => "cylinder 3",
+                CameraKind::Cylinder(CylinderForm::LevelMoving) => "cylinder 4",
+                CameraKind::Spherical => "spherical",
             };
             writeln!(out, "camera {kind}  ({})", self.sources.place(camera.site.span))?;
             for item in &camera.items {
@@ -123,7 +132,25 @@ impl Printer<'_> {
                     CameraItemKind::Right(v) => writeln!(out, "  right {}", vector(v))?,
                     CameraItemKind::Direction(v) => writeln!(out, "  direction {}", vector(v))?,
                     CameraItemKind::Angle(degrees) => writeln!(out, "  angle {degrees}")?,
+                    CameraItemKind::VerticalAngle(degrees) => {
+                        writeln!(out, "  angle {degrees} from bottom to top")?
+                    }
                     CameraItemKind::Shift { x, y } => writeln!(out, "  shift <{x}, {y}>")?,
+                    CameraItemKind::Aperture(width) => writeln!(out, "  aperture {width}")?,
+                    CameraItemKind::BlurSamples(None, most) => {
+                        writeln!(out, "  blur_samples {most}")?
+                    }
+                    CameraItemKind::BlurSamples(Some(least), most) => {
+                        writeln!(out, "  blur_samples {least}, {most}")?
+                    }
+                    CameraItemKind::FocalPoint(v) => writeln!(out, "  focal_point {}", vector(v))?,
+                    CameraItemKind::Confidence(n) => writeln!(out, "  confidence {n}")?,
+                    CameraItemKind::Variance(n) => writeln!(out, "  variance {n}")?,
+                    CameraItemKind::Bokeh(id) => {
+                        writeln!(out, "  bokeh")?;
+                        self.pigment(out, id, "    ")?;
+                    }
+                    CameraItemKind::Normal(id) => self.normal(out, id, "  ")?,
                     CameraItemKind::Orthographic => writeln!(out, "  orthographic, by `look_at`")?,
                     CameraItemKind::Transform(id) => self.transform(out, id, "  ")?,
                 }

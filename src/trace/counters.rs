@@ -71,6 +71,10 @@ pub struct Evaluations {
     pub hiding: u64,
     /// Pigments of the sky.
     pub sky: u64,
+    /// Rays through a lens that blurs.
+    pub focal_blur: u64,
+    /// Rays through a camera's normal.
+    pub camera_normal: u64,
     /// Fogs on the ways of rays.
     pub fog: u64,
 }
@@ -108,6 +112,8 @@ impl AddAssign for Evaluations {
         self.patterns += other.patterns;
         self.hiding += other.hiding;
         self.sky += other.sky;
+        self.focal_blur += other.focal_blur;
+        self.camera_normal += other.camera_normal;
         self.fog += other.fog;
     }
 }

@@ -13,7 +13,7 @@ use crate::color::Rgb;
 use crate::geometry::{self, Hit};
 use crate::math::Vector;
 use crate::math::bounds::Bounds;
-use crate::world::{CameraKind, Dispersion, Interior, World};
+use crate::world::{Dispersion, Interior, World};
 
 /// The index of refraction of the air.
 const AIR: f64 = 1.0;
@@ -52,9 +52,10 @@ pub(super) struct Around(Vec<(u32, Bounds)>);
 impl Around {
     pub fn of(world: &World) -> Self {
         let camera = &world.camera;
-        let half = match camera.kind {
-            CameraKind::Perspective => Vector::ZERO,
-            CameraKind::Orthographic => (camera.right.abs() + camera.up.abs()) * 0.5,
+        let lens = camera.focus.as_ref().map_or(0.0, |focus| focus.radius.abs());
+        let half = match camera.has_one_origin() {
+            true => Vector::ZERO,
+            false => (camera.right.abs() + camera.up.abs()) * 0.5 + Vector::splat(lens),
         };
         // Room for the rounding of a start.
         let half = half + (half + camera.location.abs()) * (8.0 * f64::EPSILON);

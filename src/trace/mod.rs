@@ -11,6 +11,7 @@ mod absorption;
 mod antialias;
 mod attenuation;
 mod batch;
+mod blur;
 mod bumpy;
 mod camera;
 mod counters;
@@ -26,6 +27,7 @@ mod metal;
 mod pixels;
 mod reflection;
 mod refraction;
+mod samples;
 mod shade;
 mod shadow;
 mod sharpness;
@@ -177,6 +179,11 @@ fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew) -> Traced {
             sampled(tracer, &lens, walk, places, |_| grid, pixels);
         })
     };
+    if let Some(focus) = lens.focus() {
+        return crew.pass(empty(region), (0, 1), |walk, places, pixels| {
+            pixels.extend(tracer.blurred(walk, &lens, focus, places));
+        });
+    }
     match plan.antialias {
         Antialias::Off => uniform(empty(region), (0, 1), 1),
         Antialias::Grid(grid) => uniform(empty(region), (0, 1), grid.max(1)),
@@ -213,11 +220,11 @@ fn sampled(
     pixels: &mut Vec<Option<Sampled>>,
 ) {
     let grids: Vec<u32> = places.iter().map(|&place| grid(place)).collect();
-    let rays = places.iter().zip(&grids).flat_map(|(&place, &grid)| {
-        (0..grid).flat_map(move |j| (0..grid).map(move |i| lens.ray(place, (i, j), grid)))
+    let points = places.iter().zip(&grids).flat_map(|(&place, &grid)| {
+        (0..grid).flat_map(move |j| (0..grid).map(move |i| lens.point(place, (i, j), grid)))
     });
     let mut sum = (Rgb::BLACK, 0);
-    tracer.each_seen(walk, rays, |seen| {
+    tracer.each_sample(walk, lens, points, |seen| {
         while grids[pixels.len()] == 0 {
             pixels.push(None);
         }

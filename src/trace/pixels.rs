@@ -4,7 +4,7 @@
 //! on the number of threads; a planned pixel has the bits that [`super::trace`] puts there.
 
 use super::antialias::{self, Shown};
-use super::camera::Lens;
+use super::camera::{Lens, Point};
 use super::tiles::Crew;
 use super::tracer::Tracer;
 use super::{Counters, TraceOptions, Walk, Watch, grown};
@@ -13,7 +13,6 @@ use crate::film::Film;
 use crate::geometry::Geometry;
 use crate::math::random::Random;
 use crate::plan::{Antialias, Frame, Plan, Region};
-use crate::shape::Ray;
 use crate::world::World;
 
 /// Where a pixel's samples lie.
@@ -114,6 +113,10 @@ impl<'a> Pixel<'a> {
     }
 
     fn planned(&self, walk: &mut Walk, place: (u32, u32)) -> Rgb {
+        if let Some(focus) = self.lens.focus() {
+            let seen = self.tracer.blurred(walk, &self.lens, focus, &[place]);
+            return seen[0].map_or(Rgb::BLACK, |(mean, _)| mean);
+        }
         match self.plan.antialias {
             Antialias::Off => self.grid(walk, place, 1),
             Antialias::Grid(n) => self.grid(walk, place, n.max(1)),
@@ -159,19 +162,23 @@ impl<'a> Pixel<'a> {
         grid: u32,
         also: impl FnMut(Rgb),
     ) -> Rgb {
-        let rays = (0..grid * grid).map(|k| self.lens.ray(place, (k % grid, k / grid), grid));
-        self.mean(walk, grid, rays, also)
+        if self.lens.focus().is_some() {
+            let points = (0..grid * grid).map(|k| self.lens.blurred(place, k));
+            return self.mean(walk, grid, points, also);
+        }
+        let points = (0..grid * grid).map(|k| self.lens.point(place, (k % grid, k / grid), grid));
+        self.mean(walk, grid, points, also)
     }
 
     fn mean(
         &self,
         walk: &mut Walk,
         grid: u32,
-        rays: impl Iterator<Item = Ray>,
+        points: impl Iterator<Item = Point>,
         mut also: impl FnMut(Rgb),
     ) -> Rgb {
         let mut sum = Rgb::BLACK;
-        self.tracer.each_seen(walk, rays, |seen| {
+        self.tracer.each_sample(walk, &self.lens, points, |seen| {
             also(seen);
             sum += seen;
         });
@@ -210,7 +217,12 @@ impl<'a> Pixel<'a> {
             let right = within(k % side, &mut random);
             (right, within(k / side, &mut random))
         });
-        let rays = places.map(|place| self.lens.ray_within((x, y), place));
-        self.mean(walk, side, rays, |_| ())
+        let mut over_lens = Random::of(!seed, u64::from(x) << 32 | u64::from(y));
+        let mut lens = || match self.lens.focus() {
+            Some(_) => [over_lens.number(0.0, 1.0), over_lens.number(0.0, 1.0)],
+            None => [0.0; 2],
+        };
+        let points = places.map(|place| self.lens.point_within((x, y), place, lens()));
+        self.mean(walk, side, points, |_| ())
     }
 }

@@ -42,7 +42,7 @@ vocabulary! {
         Box "box" statement built "`box { <corner>, <opposite corner> }`: a box aligned with the axes";
         Cone "cone" statement built "`cone { <base>, radius, <cap>, radius }`: a cone or truncated cone";
         Cubic "cubic" statement built "`cubic { <20 numbers> }`: a polynomial surface of degree 3; also a spline, a wave and a pattern";
-        Cylinder "cylinder" statement built "`cylinder { <base>, <cap>, radius }`: a round cylinder";
+        Cylinder "cylinder" statement built "`cylinder { <base>, <cap>, radius }`: a round cylinder; `cylinder n` in a camera: a screen bent around it (1, 3) or over it (2, 4), with rays from one point (1, 2) or along the axis";
         Disc "disc" statement built "`disc { <centre>, <normal>, radius [, hole] }`: a flat ring; in CSG, the half-space behind it";
         HeightField "height_field" statement built "`height_field { png \"file\" }` or `height_field { function W, H { … } }`: a landscape over the unit square, with heights from a picture's brightness or a function";
         Isosurface "isosurface" statement built "`isosurface { function { … } [contained_by { … }] [threshold …] }`: the solid where a function of x, y and z is below the threshold";
@@ -193,7 +193,7 @@ vocabulary! {
         Radial "radial" statement built "the angle around the y axis, 0 to 1 in a turn";
         Ripples "ripples" statement built "`ripples amount` in a normal: rings of one width around several centres; also in a pigment";
         Slope "slope" statement built "`slope <direction>` or `slope { <direction>, low, high [altitude <up>, low, high] }`: how far the surface turns toward a direction, 0 to 1";
-        Spherical "spherical" statement built "1 at the origin, falling to 0 at radius 1; also a warp";
+        Spherical "spherical" statement built "1 at the origin, falling to 0 at radius 1; also a warp, and a camera that shows longitudes and latitudes";
         Spiral1 "spiral1" statement built "`spiral1 arms`: a spiral around the z axis";
         Spiral2 "spiral2" statement built "`spiral2 arms`: a spiral around the z axis, crossed with rings";
         Spotted "spotted" statement built "the same as `bozo`";
@@ -299,28 +299,28 @@ vocabulary! {
         Transmit "transmit" statement built "transmitted light that is not tinted, 0 to 1; also a component, `.transmit`";
     }
     Camera {
-        Angle "angle" statement built "the horizontal field of view in degrees, more than 0";
-        Aperture "aperture" statement later "the width of the lens, which blurs";
-        BlurSamples "blur_samples" statement inert until [Aperture] "`blur_samples [least,] most`: the number of rays for an `aperture`, which is not built yet";
-        Bokeh "bokeh" statement later "the shape and colour of blur";
+        Angle "angle" statement built "the horizontal field of view in degrees, more than 0; of a `spherical` camera also `angle across, down`";
+        Aperture "aperture" statement built "`aperture n`: blurs what is not near `focal_point`, by a lens of diameter n/2; needs `blur_samples`";
+        BlurSamples "blur_samples" statement built "`blur_samples [least,] most`: the number of rays of a pixel that an `aperture` blurs";
+        Bokeh "bokeh" statement built "`bokeh { pigment { … } }`: the shape of blur, by the brightness of the pigment from <0, 0> to <1, 1>";
         Camera "camera" statement built "`camera { … }`: the viewpoint of the picture";
-        Confidence "confidence" statement inert until [Aperture] "the required confidence for the blur of an `aperture`, which is not built yet";
+        Confidence "confidence" statement built "with which probability a blurred pixel has the `variance`: 0 or more, and less than 1; default 0.9";
         Direction "direction" statement built "camera: the axis and length of the lens; light: the direction to the light";
-        Fisheye "fisheye" statement later "a camera with equal angles from the middle";
-        FocalPoint "focal_point" statement inert until [Aperture] "the point in focus; without an `aperture`, which is not built yet, everything is in focus";
+        Fisheye "fisheye" statement built "a camera with a round picture, whose `angle` grows evenly from the middle";
+        FocalPoint "focal_point" statement built "a point whose distance from the camera is in focus under an `aperture`; default <0, 0, 0>";
         Location "location" statement built "the position of the camera; default <0, 0, 0>";
         LookAt "look_at" statement built "the point in the centre of the picture";
         MeshCamera "mesh_camera" statement later "a camera whose rays start on a mesh";
-        Omnimax "omnimax" statement later "a camera for dome screens";
+        Omnimax "omnimax" statement built "a camera for dome screens: a fisheye of 180 degrees without its lower part";
         Orthographic "orthographic" statement built "a camera with parallel rays; `right` and `up` are the picture's sides";
-        Panoramic "panoramic" statement later "a cylindrical camera with a wide view";
+        Panoramic "panoramic" statement built "a camera that sees 180 degrees from left to right and from bottom to top";
         Perspective "perspective" statement built "the usual camera";
         Right "right" statement built "the width of the picture plane; default 4/3 x";
         Shift "shift" statement built in Camera "`shift <x, y>`: shifts the lens, in widths and heights of the picture";
         Sky "sky" statement built "the upward direction; default y";
-        UltraWideAngle "ultra_wide_angle" statement later "a camera that squeezes a wide view";
+        UltraWideAngle "ultra_wide_angle" statement built "a camera like a fisheye, with a rectangular picture";
         Up "up" statement built "the height of the picture plane; default y";
-        Variance "variance" statement inert until [Aperture] "the allowed variance for the blur of an `aperture`, which is not built yet";
+        Variance "variance" statement built "the variance at which a blurred pixel gets no more rays; default 1/128";
     }
     Light {
         Adaptive "adaptive" statement later "how finely an area light is sampled";

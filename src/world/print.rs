@@ -9,7 +9,7 @@ use std::fmt::{self, Write};
 
 use super::{
     Absorption, Attenuation, Beam, CameraKind, Churn, Coat, CsgSolid, Cutaway, Dispersion, Fade,
-    Ground, LightKind, Object, Origins, World,
+    Focus, Ground, LightKind, Object, Origins, World,
 };
 use crate::color::Clearness;
 use crate::math::placement::{Map, Placement};
@@ -113,14 +113,38 @@ impl Printer<'_> {
     fn camera(&self, out: &mut String) -> fmt::Result {
         let camera = &self.world.camera;
         let kind = match camera.kind {
-            CameraKind::Perspective => "perspective",
-            CameraKind::Orthographic => "orthographic",
+            CameraKind::Perspective => "perspective".to_owned(),
+            CameraKind::Orthographic => "orthographic".to_owned(),
+            CameraKind::Fisheye { angle } => format!("fisheye, {angle} turns"),
+            CameraKind::UltraWideAngle { angle } => format!("ultra_wide_angle, {angle} turns"),
+            CameraKind::Omnimax => "omnimax".to_owned(),
+            CameraKind::Panoramic => "panoramic".to_owned(),
+            CameraKind::Cylinder { upright, moving, angle } => {
+                let number = 1 + u32::from(!upright) + 2 * u32::from(moving);
+                format!("cylinder {number}, {angle} turns")
+            }
+            CameraKind::Spherical { across, down } => {
+                format!("spherical, {across} by {down} turns")
+            }
         };
         writeln!(out, "camera {kind}{}", self.at(self.origins.camera))?;
         writeln!(out, "  location {}", vector(camera.location))?;
         writeln!(out, "  forward {}", vector(camera.forward))?;
         writeln!(out, "  right {}", vector(camera.right))?;
-        writeln!(out, "  up {}", vector(camera.up))
+        writeln!(out, "  up {}", vector(camera.up))?;
+        if let Some(Focus { radius, distance, least, most, confidence, variance, bokeh }) =
+            &camera.focus
+        {
+            writeln!(out, "  lens of radius {radius}, in focus at {distance}")?;
+            writeln!(out, "  {least} to {most} rays, variance {variance} by {confidence}")?;
+            if let Some(pigment) = bokeh {
+                writeln!(out, "  bokeh {pigment:?}")?;
+            }
+        }
+        if let Some(normal) = &camera.normal {
+            writeln!(out, "  normal {normal:?}")?;
+        }
+        Ok(())
     }
 
     fn fogs(&self, out: &mut String) -> fmt::Result {

@@ -28,6 +28,8 @@ fn words(effect: Effect) -> &'static [&'static str] {
         Effect::Dispersion => &["dispersion"],
         Effect::Hiding => &["no_image", "no_reflection"],
         Effect::Sky => &["pigment"],
+        Effect::FocalBlur => &["aperture"],
+        Effect::CameraNormal => &["normal"],
         Effect::Fog => &["fog"],
         // Also every pattern's word.
         Effect::Patterns => &["object", "material_map"],

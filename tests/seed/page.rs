@@ -229,10 +229,10 @@ impl Eye {
                 // Only the defaults: the page's camera looks down −z with y up.
                 CameraItemKind::Sky(v) => assert_eq!(v, Vector::Y, "the page's sky is y"),
                 CameraItemKind::Direction(v) => assert_eq!(v, -Vector::Z, "it looks down −z"),
-                CameraItemKind::Orthographic => panic!("not of the page"),
                 CameraItemKind::Transform(id) => {
                     panic!("not of the page: {:?}", scene.transforms[id.index()])
                 }
+                other => panic!("not of the page: {other:?}"),
             }
         }
         let alpha = angle.expect("the page's camera has an angle") * std::f64::consts::PI / 180.0;

@@ -29,12 +29,6 @@ impl Evaluator<'_> {
         match word {
             Word::BoundedBy => self.bounds(token),
             Word::QuickColor => self.color_after(token, "a colour").map(drop),
-            Word::FocalPoint => self.vector_after(token, "a point").map(drop),
-            Word::BlurSamples => {
-                self.number_after(token, "a number of samples")?;
-                self.skip_commas();
-                self.optional_number(token, 0.0).map(drop)
-            }
             Word::Charset => {
                 let known = [Word::Ascii, Word::Utf8, Word::Sys];
                 let given = known.into_iter().find(|word| self.take_word(*word).is_some());

@@ -96,6 +96,8 @@ impl Place {
         families: &[],
         others: &[Word::Thickness, Word::Turbulence],
     };
+    pub const BOKEH: Self =
+        Self { word: Some(Word::Bokeh), families: &[], others: &[Word::Pigment] };
     /// The `radiosity` block of an object.
     pub const RADIOSITY: Self =
         Self { word: Some(Word::Radiosity), families: &[], others: &[Word::Importance] };

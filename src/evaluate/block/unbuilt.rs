@@ -25,7 +25,7 @@ fn values_not_built(word: Word) -> &'static [&'static str] {
             "a number of lights along the first side",
             "a number of lights along the second side",
         ],
-        Word::Adaptive | Word::Aperture => &["a number"],
+        Word::Adaptive => &["a number"],
         _ => &[],
     }
 }

@@ -61,6 +61,7 @@ fn seen(camera: &world::Camera, u: f64, v: f64) -> Vector {
     let (origin, direction) = match camera.kind {
         world::CameraKind::Perspective => (camera.location, camera.forward + across),
         world::CameraKind::Orthographic => (camera.location + across, camera.forward),
+        other => panic!("no flat screen: {other:?}"),
     };
     let direction = direction.normalize();
     let b = origin.dot(direction);

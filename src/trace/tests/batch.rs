@@ -9,7 +9,8 @@ fn seen(world: &World, plan: &Plan, together: bool) -> (Vec<Rgb>, usize) {
     let Frame { width, height, .. } = plan.frame;
     let lens = Lens::new(&world.camera, width, height);
     let places = (0..width * height).map(|i| (i % width, i / width));
-    let rays: Vec<_> = places.map(|place| lens.ray(place, (0, 0), 1)).collect();
+    let points: Vec<_> = places.map(|place| lens.point(place, (0, 0), 1)).collect();
+    let rays: Vec<_> = lens.rays(&points).into_iter().flatten().collect();
     let (mut walk, mut all) = (Walk::default(), Vec::new());
     for part in rays.chunks(if together { rays.len() } else { 1 }) {
         tracer.each_seen(&mut walk, part.iter().copied(), |seen| all.push(seen));

@@ -209,7 +209,7 @@ fn the_sky_is_seen_directly_and_in_mirrors() {
 fn an_empty_world_shows_its_background_from_any_camera() {
     let world = Built::default().world(|world| {
         world.background = Rgb::gray(0.5);
-        world.camera = Camera { forward: Vector::new(1.0, 2.0, 3.0) * 1e-200, ..world.camera };
+        world.camera.forward = Vector::new(1.0, 2.0, 3.0) * 1e-200;
     });
     assert!(traced(&world, 7, 3, Antialias::Grid(2)).film.radiance.iter().all(|c| c.red == 0.5));
 }

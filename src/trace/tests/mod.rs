@@ -18,7 +18,7 @@ use crate::shape::{Box_, Plane, Shape, Sphere};
 use crate::texture::space::Start;
 use crate::texture::{Blend, Pattern, Source, Space, Step};
 use crate::world::{
-    Camera, CameraKind, FaceCoordinates, Finish, Light, LightKind, Lobe, LobeKind, Object, Origins,
+    CameraKind, FaceCoordinates, Finish, Light, LightKind, Lobe, LobeKind, Object, Origins,
     Pigment, Plain, Reflection, Settings, Sky, Texture,
 };
 

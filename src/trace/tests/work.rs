@@ -36,7 +36,8 @@ fn one_sphere_and_one_plane_are_solved_for_just_the_rays_that_may_meet_them() {
     let lens = Lens::new(&world.camera, width, height);
     let mut solves = 0;
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-        let ray = lens.ray((x, y), (0, 0), 1);
+        let point = lens.point((x, y), (0, 0), 1);
+        let ray = lens.rays(&[point])[0].expect("a ray through each point");
         let way = centre - ray.origin;
         let beside = way - ray.direction * way.dot(ray.direction);
         // The camera is above the plane and before the sphere.

@@ -1,0 +1,84 @@
+//! Pixels that a lens blurs: as many samples as each needs.
+//!
+//! **In:** pixels. **Out:** the mean of each one's samples. **Invariant:** a sample depends on its pixel and its number,
+//! and how many a pixel has on these samples.
+
+use super::camera::{Focus, Lens};
+use super::tracer::Tracer;
+use super::{Sampled, Walk};
+use crate::color::Rgb;
+
+/// Samples that a pixel gets at once after the first.
+const ROUND: u32 = 6;
+
+/// The samples of a pixel so far.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    count: u32,
+    radiance: Rgb,
+    /// Of each component as a display shows it, 0 to 1, and of its square.
+    shown: [f64; 3],
+    squares: [f64; 3],
+}
+
+impl Sums {
+    fn add(&mut self, seen: Rgb) {
+        self.count += 1;
+        self.radiance += seen;
+        for (i, c) in seen.components().into_iter().enumerate() {
+            let c = c.clamp(0.0, 1.0);
+            self.shown[i] += c;
+            self.squares[i] += c * c;
+        }
+    }
+
+    /// Returns the largest variance of a component.
+    fn variance(&self) -> f64 {
+        let n = f64::from(self.count);
+        let of = |i: usize| (self.squares[i] - self.shown[i] * self.shown[i] / n) / (n - 1.0);
+        (0..3).map(of).fold(0.0, f64::max)
+    }
+
+    fn is_enough(&self, focus: &Focus) -> bool {
+        focus.is_enough(self.count, self.variance())
+    }
+
+    fn mean(&self) -> Sampled {
+        let n = f64::from(self.count);
+        (self.radiance.map(|c| c / n), self.count)
+    }
+}
+
+impl Tracer<'_> {
+    /// Samples pixels side by side; `None` where the watch wanted no more.
+    pub fn blurred(
+        &self,
+        walk: &mut Walk,
+        lens: &Lens,
+        focus: &Focus,
+        places: &[(u32, u32)],
+    ) -> Vec<Option<Sampled>> {
+        let mut pixels = vec![Sums::default(); places.len()];
+        let mut open: Vec<usize> = (0..places.len()).collect();
+        let mut samples = 0..focus.least;
+        while !open.is_empty() && !samples.is_empty() {
+            let numbers = || open.iter().flat_map(|&i| samples.clone().map(move |k| (i, k)));
+            let points = numbers().map(|(i, k)| lens.blurred(places[i], k));
+            let mut taken = numbers();
+            self.each_sample(walk, lens, points, |seen| {
+                if let Some((i, _)) = taken.next() {
+                    pixels[i].add(seen);
+                }
+            });
+            // Stopped by the watch.
+            if taken.next().is_some() {
+                break;
+            }
+            open.retain(|&i| !pixels[i].is_enough(focus));
+            samples = samples.end..focus.most.min(samples.end.saturating_add(ROUND));
+        }
+        let mut done = vec![true; places.len()];
+        open.iter().for_each(|&i| done[i] = false);
+        pixels.iter().zip(done).map(|(sums, done)| done.then(|| sums.mean())).collect()
+    }
+}

@@ -1,0 +1,173 @@
+//! Rays of each kind of camera, with POV-Ray 3.7's.
+
+use super::*;
+use crate::world;
+
+/// Rays of POV-Ray 3.7 from cameras at the origin, each line with: the kind and its angles in degrees (0 for none);
+/// `direction`, `right` and `up`; u and v; the point of the ball of radius 100 about the origin, over 100, that is
+/// seen, or `none` for black.
+const MEASURED: &str = include_str!("measured.txt");
+
+fn kind(words: &[&str]) -> CameraKind {
+    let turns = |i: usize| words[i].parse::<f64>().expect("an angle") / 360.0;
+    let angle = turns(1);
+    match words[0] {
+        "fisheye" => CameraKind::Fisheye { angle },
+        "ultra_wide_angle" => CameraKind::UltraWideAngle { angle },
+        "omnimax" => CameraKind::Omnimax,
+        "panoramic" => CameraKind::Panoramic,
+        "spherical" => CameraKind::Spherical { across: angle, down: turns(2) },
+        number => CameraKind::Cylinder {
+            upright: matches!(number, "cylinder_1" | "cylinder_3"),
+            moving: matches!(number, "cylinder_3" | "cylinder_4"),
+            angle,
+        },
+    }
+}
+
+#[test]
+fn every_kind_has_the_rays_of_povray() {
+    let mut kinds = std::collections::BTreeSet::new();
+    for line in MEASURED.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let number = |i: usize| words[i].parse::<f64>().expect("a number");
+        let vector = |i: usize| Vector::new(number(i), number(i + 1), number(i + 2));
+        let [forward, right, up] = [3, 6, 9].map(vector);
+        let camera = Camera {
+            kind: kind(&words),
+            location: Vector::ZERO,
+            forward,
+            right,
+            up,
+            ..Camera::default()
+        };
+        let lens = Lens::new(&camera, 16, 12);
+        let point = Point { u: number(12), v: number(13), lens: [0.0; 2] };
+        let ray = lens.rays(&[point])[0];
+        assert_eq!(ray.is_some(), words[14] != "none", "{line}");
+        kinds.insert(words[0]);
+        let Some(Ray { origin, direction }) = ray else { continue };
+        assert!((direction.length() - 1.0).abs() < 1e-15, "{line}");
+        let b = origin.dot(direction);
+        let seen = origin + direction * ((b * b - origin.length_squared() + 1e4).sqrt() - b);
+        let off = (seen * 0.01 - vector(14)).abs().max_element();
+        assert!(off < 3e-7, "{line}: {off}");
+    }
+    assert_eq!(kinds.len(), 9);
+}
+
+fn rays(kind: CameraKind, points: &[(f64, f64)]) -> Vec<Option<Vector>> {
+    let camera = Camera { kind, forward: Vector::Z, right: Vector::X, ..Camera::default() };
+    let points: Vec<Point> = points.iter().map(|&(u, v)| Point { u, v, lens: [0.0; 2] }).collect();
+    let rays = Lens::new(&camera, 4, 3).rays(&points);
+    rays.into_iter().map(|ray| ray.map(|ray| ray.direction)).collect()
+}
+
+#[test]
+fn poles_and_edges_of_panoramas_are_exact() {
+    let spherical = CameraKind::Spherical { across: 1.0, down: 0.5 };
+    let seen = rays(spherical, &[(0.0, 0.0), (0.25, 0.0), (-0.25, 0.0), (0.5, 0.0), (0.3, 0.5)]);
+    let expected = [Vector::Z, Vector::X, -Vector::X, -Vector::Z, Vector::Y];
+    assert_eq!(seen, expected.map(Some));
+    let seen = rays(CameraKind::Panoramic, &[(0.0, 0.5), (0.5, 0.0), (0.1, -0.5)]);
+    assert_eq!(seen, [Vector::Y, Vector::X, -Vector::Y].map(Some));
+    let half = CameraKind::Fisheye { angle: 0.5 };
+    assert_eq!(
+        rays(half, &[(0.5, 0.0), (0.0, 0.0), (0.0, -0.5), (0.4, 0.4)]),
+        [Some(Vector::X), Some(Vector::Z), Some(-Vector::Y), None]
+    );
+}
+
+#[test]
+fn any_angle_and_any_size_gives_directions_of_length_one() {
+    use CameraKind::{Cylinder, Fisheye, Omnimax, Panoramic, Spherical, UltraWideAngle};
+    for angle in [0.0, 1e-300, 0.5, 1.0, 7.3, 1e15, 1e300] {
+        for size in [1e-300, 1e-9, 1.0, 1e9, 1e300] {
+            for kind in [
+                Fisheye { angle },
+                UltraWideAngle { angle },
+                Omnimax,
+                Panoramic,
+                Cylinder { upright: true, moving: false, angle },
+                Cylinder { upright: false, moving: true, angle },
+                Spherical { across: angle, down: angle },
+            ] {
+                let camera = Camera { kind, up: Vector::Y * size, ..Camera::default() };
+                let lens = Lens::new(&camera, 4, 3);
+                let points = [(-0.5, 0.5), (0.0, 0.0), (0.1, -0.2), (0.5, 0.5)];
+                let points = points.map(|(u, v)| Point { u, v, lens: [0.0; 2] });
+                for ray in lens.rays(&points).into_iter().flatten() {
+                    let long = ray.direction.length();
+                    assert!((long - 1.0).abs() < 1e-15, "{kind:?} {size}: {ray:?}");
+                }
+            }
+        }
+    }
+}
+
+fn blurred(kind: CameraKind, distance: f64, radius: f64) -> Lens {
+    let (least, most, confidence, variance, bokeh) = (7, 50, 0.9, 1.0 / 128.0, None);
+    let focus = world::Focus { radius, distance, least, most, confidence, variance, bokeh };
+    Lens::new(&Camera { kind, focus: Some(focus), ..Camera::default() }, 4, 3)
+}
+
+#[test]
+fn rays_of_a_lens_meet_where_it_is_in_focus() {
+    for kind in [CameraKind::Perspective, CameraKind::Fisheye { angle: 0.3 }] {
+        let lens = blurred(kind, 10.0, 2.0);
+        let lenses = [[0.1, 0.2], [0.9, 0.4], [0.5, 0.7]];
+        let rays = lens.rays(&lenses.map(|lens| Point { u: 0.2, v: 0.3, lens }));
+        let middle = lens.rays(&[Point { u: 0.2, v: 0.3, lens: [0.0; 2] }])[0].expect("a ray");
+        // A flat screen is in focus in a plane, others in a ball.
+        let far = if kind.is_flat() { 10.0 / -middle.direction.z } else { 10.0 };
+        let meets = middle.direction * far;
+        for ray in rays.into_iter().flatten() {
+            assert!(ray.origin.length() > 0.1 && ray.origin.length() <= 2.0);
+            let aside = (meets - ray.origin).cross(ray.direction).length();
+            assert!(aside < 1e-13, "{kind:?}: {aside}");
+        }
+    }
+}
+
+#[test]
+fn any_lens_gives_directions_of_length_one() {
+    for distance in [0.0, 1e-300, 1.0, 1e300] {
+        for radius in [1e-300, 1e-5, 1.0, 1e300] {
+            let lens = blurred(CameraKind::Perspective, distance, radius);
+            let points: Vec<Point> = (0..20).map(|k| lens.blurred((1, 2), k)).collect();
+            for ray in lens.rays(&points).into_iter().flatten() {
+                let long = ray.direction.length();
+                assert!((long - 1.0).abs() < 1e-15, "{distance} {radius}: {ray:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn samples_of_a_pixel_cover_it_and_the_lens_evenly() {
+    let count = 1000;
+    let samples = (0..count).map(|k| focus::numbered((3, 5), k));
+    let mut means = [[0.0; 2]; 4];
+    for sample in samples {
+        for (mean, x) in means.iter_mut().zip(sample) {
+            assert!((0.0..1.0).contains(&x));
+            *mean = [mean[0] + x, mean[1] + x * x];
+        }
+    }
+    for [mean, square] in means.map(|mean| mean.map(|sum| sum / f64::from(count))) {
+        assert!((mean - 0.5).abs() < 0.01 && (square - 1.0 / 3.0).abs() < 0.01, "{mean} {square}");
+    }
+}
+
+#[test]
+fn mirrored_samples_have_exactly_mirrored_coordinates() {
+    for (pixels, grid) in [(1, 1), (3, 1), (640, 3), (1919, 7)] {
+        for pixel in 0..pixels {
+            for sample in 0..grid {
+                let here = centre(pixel, sample, pixels, grid);
+                let there = centre(pixels - 1 - pixel, grid - 1 - sample, pixels, grid);
+                assert_eq!(here, -there);
+            }
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! The camera in canonical form: a point and three vectors, a lens, and how space is shown on the screen.
+
+use std::sync::Arc;
+
+use crate::math::Vector;
+use crate::texture::{Normal, Pigment};
+
+/// The camera. The point (u, v) of the screen, −½ … ½ from left to right and from bottom to top, is seen
+/// along `forward + u·right + v·up` from `location` (perspective), or along `forward` from `location +
+/// u·right + v·up` (orthographic). A lens shift is part of `forward` or `location`. `docs/world.md` has the other
+/// kinds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Camera {
+    pub kind: CameraKind,
+    pub location: Vector,
+    pub forward: Vector,
+    pub right: Vector,
+    pub up: Vector,
+    pub focus: Option<Focus>,
+    /// Bends the rays.
+    pub normal: Option<Arc<Normal>>,
+}
+
+impl Camera {
+    /// Returns whether all rays start at the camera's `location`.
+    pub fn has_one_origin(&self) -> bool {
+        self.kind.has_one_origin() && self.focus.is_none()
+    }
+}
+
+/// A lens that blurs what is not in focus.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Focus {
+    /// More than 0.
+    pub radius: f64,
+    /// The distance of what is in focus: along `forward` for flat screens, otherwise along each ray.
+    pub distance: f64,
+    /// The rays of a pixel, at least and at most: 1 ≤ `least` ≤ `most`.
+    pub least: u32,
+    pub most: u32,
+    /// The probability with which the variance of a pixel is below `variance`, 0 ≤ `confidence` < 1.
+    pub confidence: f64,
+    pub variance: f64,
+    /// How bright the lens is, over the square <0, 0> … <1, 1>; `None` for a disc that is bright everywhere.
+    pub bokeh: Option<Arc<Pigment>>,
+}
+
+/// How a camera shows space on the screen. Angles are in turns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CameraKind {
+    Perspective,
+    Orthographic,
+    Fisheye {
+        angle: f64,
+    },
+    UltraWideAngle {
+        angle: f64,
+    },
+    Omnimax,
+    Panoramic,
+    /// The screen is bent from left to right (`upright`) or from bottom to top by `angle`. Rays start at one point, or
+    /// along the axis of the cylinder (`moving`).
+    Cylinder {
+        upright: bool,
+        moving: bool,
+        angle: f64,
+    },
+    Spherical {
+        across: f64,
+        down: f64,
+    },
+}
+
+impl CameraKind {
+    /// Returns whether all rays start at one point, without a lens that blurs.
+    fn has_one_origin(self) -> bool {
+        match self {
+            Self::Orthographic => false,
+            Self::Cylinder { moving, .. } => !moving,
+            _ => true,
+        }
+    }
+
+    /// Returns whether the screen is a plane.
+    pub fn is_flat(self) -> bool {
+        matches!(self, Self::Perspective | Self::Orthographic)
+    }
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            kind: CameraKind::Perspective,
+            location: Vector::ZERO,
+            forward: -Vector::Z,
+            right: Vector::X * (4.0 / 3.0),
+            up: Vector::Y,
+            focus: None,
+            normal: None,
+        }
+    }
+}
