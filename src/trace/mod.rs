@@ -3,9 +3,9 @@
 //! **In:** [`World`], [`Plan`]. **Out:** [`Traced`]. **Invariant:** the film's bits do not depend
 //! on the number of threads, on their timing, on the tiles or on what is traced together.
 //!
-//! Rays are traced in batches that pass through stages: the camera makes rays, [`batch`] follows them from generation
-//! to generation, `batch::intersect` finds what they meet, [`surface`] tells what is there, [`shade`] adds the lights,
-//! [`transmission`] and [`layers`] send rays on, and what comes back is folded.
+//! Rays are traced in batches that pass through stages: the camera makes rays, `batch` follows them from generation
+//! to generation, `batch::intersect` finds what they meet, `surface` tells what is there, `shade` adds the lights,
+//! `transmission` and `layers` send rays on, and what comes back is folded.
 
 mod absorption;
 mod antialias;
