@@ -117,6 +117,7 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         Effect::Diffuse
         | Effect::Highlights
         | Effect::Attenuation
+        | Effect::AreaLights
         | Effect::DoubleIllumination
         | Effect::Hiding
         | Effect::Absorption

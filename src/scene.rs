@@ -30,7 +30,7 @@ pub use camera::{Camera, CameraItem, CameraItemKind, CameraKind, CylinderForm};
 pub use finish::{ClassicFinish, Finish, FinishOrigin, Irid, Reflection};
 pub use fog::{Fog, FogTurbulence};
 pub use julia_fractal::JuliaFractal;
-pub use light::{Beam, Fade, LightKind, LightSource};
+pub use light::{Area, Beam, Fade, LightKind, LightSource, LooksLike};
 pub use solid::{Container, Solid};
 pub use texture::{
     ColorMap, Colors, Normal, NormalKind, Pattern, Pigment, PigmentKind, Source, Step, Texture,
@@ -185,6 +185,8 @@ pub enum ModifierKind {
     /// Likewise, fog is inside as well.
     Hollow(bool),
     Inverse,
+    /// Lights and objects of a group: its lights light its objects alone. `true`: other lights do, too.
+    LightGroup(bool),
     /// The parts of the operation without a texture show those of the parts around their points.
     CutawayTextures,
     /// Keeps only the part of the surface inside this object.

@@ -7,18 +7,19 @@
 mod camera;
 mod csg_solid;
 mod fog;
+mod light;
 pub mod print;
 mod solid;
 
 use crate::color::{Clearness, Gamma, Rgb};
 use crate::math::placement::Map;
-use crate::math::{UnitVector, Vector};
 use crate::shape::uv::Mapping;
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
 use crate::source::{Expansions, Site, Span};
 pub use camera::{Camera, CameraKind, Focus};
 pub use csg_solid::{CsgSolid, Cutaway};
 pub use fog::{Churn, Fog, Ground};
+pub use light::{Area, Attenuation, Beam, Fade, Light, LightKind};
 
 pub use crate::texture::{
     Extras, Finish, Irid, Lobe, LobeKind, Pigment, Plain, Reflection, Texture,
@@ -34,6 +35,8 @@ pub struct World {
     /// In written order; each changes the picture.
     pub fogs: Vec<Fog>,
     pub lights: Vec<Light>,
+    /// The lights that light an object, in order; see `Object::lights`. Empty if all light every object.
+    pub light_sets: Vec<Vec<u32>>,
     /// In written order.
     pub objects: Vec<Object>,
     pub spheres: Vec<Sphere>,
@@ -70,6 +73,8 @@ pub struct Origins {
     pub lights: Vec<Site>,
     /// The keywords that attenuate the lights, with their values.
     pub attenuation: Vec<Site>,
+    /// Each `area_light`, with its values.
+    pub area_lights: Vec<Site>,
     pub textures: Vec<TextureOrigin>,
     /// What all textures and the sky consist of, each place once.
     pub surfaces: Vec<SurfaceOrigin>,
@@ -220,6 +225,8 @@ pub struct Object {
     pub double_illuminate: bool,
     /// Fog is inside as well. False where the World has no fog.
     pub hollow: bool,
+    /// Index into `World::light_sets`, if there are any.
+    pub lights: u32,
     /// Inside and outside are exchanged.
     pub inverse: bool,
     /// Index into `World::csg_solids` of the CSG solid that it is part of; it is not an object by itself then.
@@ -242,6 +249,7 @@ impl Object {
             in_reflections: true,
             double_illuminate: false,
             hollow: false,
+            lights: 0,
             inverse: false,
             csg_solid: None,
         }
@@ -301,59 +309,6 @@ pub struct Dispersion {
 /// tracer uses these numbers, so that a pattern never flickers on its own lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FaceCoordinates(pub [Option<f64>; 3]);
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Light {
-    pub kind: LightKind,
-    pub color: Rgb,
-    pub casts_shadows: bool,
-    /// `None`: its full colour everywhere.
-    pub attenuation: Option<Attenuation>,
-}
-
-/// Attenuation of a light: the product of all factors.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Attenuation {
-    pub beam: Option<Beam>,
-    pub fade: Option<Fade>,
-    /// Fog dims it on its way.
-    pub fog: bool,
-}
-
-/// A beam, in terms of s(a, b; v) = t²(3 − 2t), where t = (v − a)/(b − a) is clamped to 0 … 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Beam {
-    /// For a point light: c^tightness · s(edge, core; c), where c is the cosine of the angle between `axis`
-    /// and the light ray; 0 where c ≤ 0.
-    Cone { axis: UnitVector, edge: f64, core: f64, tightness: f64 },
-    /// For a parallel light, in front of its plane: d^tightness · s(0, core; d), where d = 1 − r/radius and r
-    /// is the distance from its axis; 0 where d ≤ 0.
-    Cylinder { radius: f64, core: f64, tightness: f64 },
-}
-
-/// Multiplies by 2/(1 + (d/distance)^power) at the distance d from the light; for a parallel light, from its
-/// plane, on both sides.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fade {
-    pub distance: f64,
-    pub power: f64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LightKind {
-    Point {
-        position: Vector,
-    },
-    /// From infinitely far away.
-    Directional {
-        to_light: UnitVector,
-    },
-    /// Parallel rays from the plane through `position` across `to_light`.
-    Parallel {
-        position: Vector,
-        to_light: UnitVector,
-    },
-}
 
 /// The sky, at infinity: patterns are evaluated at the ray's direction, of length 1.
 #[derive(Debug, Clone, PartialEq)]

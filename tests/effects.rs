@@ -123,6 +123,7 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         diffuse,
         highlights,
         attenuation,
+        area_lights,
         from_behind,
         refraction,
         absorption,
@@ -140,6 +141,7 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         Effect::Highlights => highlights,
         Effect::Shadows => counters.shadow,
         Effect::Attenuation => attenuation,
+        Effect::AreaLights => area_lights,
         Effect::DoubleIllumination => from_behind,
         Effect::Reflection => counters.reflection,
         Effect::Transparency => counters.transmission,
@@ -273,7 +275,9 @@ box { -1, <1, -0.9, 1> texture { Window } no_shadow }
 ";
 
 /// A lamp written once, and placed: its piece of text calls for its light already.
-const LAMPS: &str = "#macro Lamp(Beam) light_source { 9, rgb 1 #if (Beam) spotlight #end } #end
+const LAMPS: &str = "#macro Lamp(Beam)
+  light_source { 9, rgb 1 #if (Beam = 1) spotlight #end #if (Beam = 2) area_light x, y, 3, 3 #end }
+#end
 sphere { 0, 1 pigment { rgb 1 } }
 Lamp(0)
 ";
@@ -299,7 +303,7 @@ sphere { 0, 1 no_shadow }";
     let filter = format!("sphere {{ x, 1 pigment {{ rgbf <1, 0, 0, 1> }} {dull} }}");
     // Of the same window, so that no other piece of text calls for transparency.
     let filled = "sphere { 3*x, 0.5 texture { Window } interior { ior 1.5 } no_shadow }";
-    let cases: [(&str, &str, Effect, &str); 20] = [
+    let cases: [(&str, &str, Effect, &str); 21] = [
         (
             unlit,
             "light_source { 9, rgb 1 shadowless }",
@@ -308,6 +312,7 @@ sphere { 0, 1 no_shadow }";
         ),
         (unshadowed, "sphere { x, 1 }", Effect::Shadows, "light_source { 9, rgb 1 }"),
         (LAMPS, "Lamp(1)", Effect::Attenuation, "spotlight"),
+        (LAMPS, "Lamp(2)", Effect::AreaLights, "area_light x, y, 3, 3"),
         (
             LIT,
             "sphere { x, 1 double_illuminate on }",

@@ -12,7 +12,8 @@ use crate::lower::{self, LowerOptions};
 use crate::math::transform::Step;
 use crate::math::{UnitVector, Vector};
 use crate::scene::{
-    ModifierKind, Object, ObjectId, ObjectKind, Root, Scene, Solid, TextureId, TransformId,
+    LightSource, ModifierKind, Object, ObjectId, ObjectKind, Root, Scene, Solid, TextureId,
+    TransformId,
 };
 use crate::shape::{Bounds, Ray, Rounding, Shape};
 use crate::source::Span;
@@ -296,7 +297,11 @@ fn alone(scene: &Scene, object: ObjectId) -> Scene {
                 bare.faces.iter_mut().for_each(|face| face.paint = None);
                 *triangles = bare.into();
             }
-            ObjectKind::Solid(_) | ObjectKind::LightSource(_) => {}
+            // Where it is does not matter.
+            ObjectKind::LightSource(light) => {
+                **light = LightSource::new(light.kind.clone(), light.color);
+            }
+            ObjectKind::Solid(_) => {}
         }
         small.objects.push(copy);
     }

@@ -28,6 +28,8 @@ pub(super) struct Inherited {
     /// No ray hits the CSG solid that this object belongs to.
     pub unseen: bool,
     pub cut: CutFaces,
+    /// The innermost light group.
+    pub light_group: Option<u32>,
     /// Of an object inside of another: what fills it.
     pub filling: Option<Filling>,
 }
@@ -46,6 +48,7 @@ impl Inherited {
             strained: false,
             unseen: false,
             cut: CutFaces::default(),
+            light_group: None,
             filling: None,
         }
     }

@@ -1,17 +1,39 @@
 //! Lowers lights: applies transforms to positions and directions.
 
+use super::object::Inherited;
 use super::transform::{Affine, exact};
 use super::{Fault, Lowering};
-use crate::math::UnitVector;
 use crate::math::double::DoubleVector;
 use crate::math::elementary::cos;
-use crate::scene::{LightKind, LightSource};
+use crate::math::{UnitVector, Vector};
+use crate::scene::{LightKind, LightSource, LooksLike, ObjectId, TransformId};
 use crate::source::Site;
-use crate::world::{self, Attenuation, Beam, Fade, Light};
+use crate::world::{self, Area, Attenuation, Beam, Fade, Light};
 
-impl Lowering<'_, '_> {
-    /// Places a light; a black one is dropped. `item` is the whole source item that contains it.
-    pub(super) fn light(&mut self, light: &LightSource, map: &Affine, site: Site, item: Site) {
+impl<'s> Lowering<'s, '_> {
+    /// Places a light; a black one is dropped. `item` is the whole source item that contains it. Returns the object
+    /// that it looks like, which is `here` then.
+    pub(super) fn light(
+        &mut self,
+        light: &'s LightSource,
+        here: &mut Inherited,
+        site: Site,
+        item: Site,
+    ) -> Option<&'s [ObjectId]> {
+        self.shining(light, here, site, item);
+        let like = light.looks_like.as_ref()?;
+        if self.building.is_some() {
+            self.drop_part(site, "looks_like", "its light is in a solid");
+            return None;
+        }
+        let place = self.place_of_like(light, like, &here.world_from_here);
+        here.world_from_here = self.reporter.made(place, site)?;
+        here.flags.no_shadow = true;
+        Some(std::slice::from_ref(&like.object))
+    }
+
+    fn shining(&mut self, light: &LightSource, here: &Inherited, site: Site, item: Site) {
+        let map = &here.world_from_here;
         if light.color.is_black() {
             self.black.get_or_insert(light.color_site.unwrap_or(site));
             return self.drop_part(site, "light_source", "its colour is black");
@@ -20,8 +42,13 @@ impl Lowering<'_, '_> {
             return self.drop_part(site, "light_source", "its cylinder has no width");
         }
         let LightSource { beam_site, fade_site, .. } = *light;
-        let spent = self.aim(light).and_then(|aim| spend(light, map, &aim));
+        let area_site = light.area.site;
+        let spent = self.undone(&light.aimed_after).and_then(|aim| {
+            let sides = self.undone(&light.area.sides_after)?;
+            spend(light, map, &aim, &sides)
+        });
         let Some(mut placed) = self.reporter.made(spent, site) else { return };
+        self.origins.area_lights.extend(area_site.filter(|_| placed.area.is_some()));
         let in_fog = light.media_site.filter(|_| light.media_interaction && placed.casts_shadows);
         let fog = in_fog.filter(|_| !self.world.fogs.is_empty());
         if fog.is_some() {
@@ -34,21 +61,35 @@ impl Lowering<'_, '_> {
             self.origins.attenuation.extend(sites.into_iter().flatten());
         }
         self.world.lights.push(placed);
+        self.light_of_group(here.light_group);
         self.lamps.push(site);
         self.origins.lights.push(item);
     }
 
-    /// Returns the map that takes a light's `point_at` to where all of the light's transforms would have
-    /// moved it.
-    fn aim(&mut self, light: &LightSource) -> Result<Affine, Fault> {
-        match light.aimed_after.as_slice() {
+    /// Returns the map of the object that a light looks like: from around the origin to the World.
+    fn place_of_like(
+        &mut self,
+        light: &LightSource,
+        like: &LooksLike,
+        map: &Affine,
+    ) -> Result<Affine, Fault> {
+        let location = light.kind.location().unwrap_or(Vector::ZERO);
+        let moved = self.transforms.product(&like.after)?.point(exact(location));
+        let axes = [Vector::X, Vector::Y, Vector::Z].map(exact);
+        Ok(map.after(&self.undone(&like.after)?).after(&Affine::from_columns(axes, moved)))
+    }
+
+    /// Returns the map that undoes a light's transforms before one of its words: they do not change what that word
+    /// says.
+    fn undone(&mut self, before: &[TransformId]) -> Result<Affine, Fault> {
+        match before {
             [] => Ok(Affine::IDENTITY),
             before => self.transforms.product(before)?.checked(),
         }
     }
 }
 
-fn spend(light: &LightSource, map: &Affine, aim: &Affine) -> Result<Light, Fault> {
+fn spend(light: &LightSource, map: &Affine, aim: &Affine, sides: &Affine) -> Result<Light, Fault> {
     let kind = match light.kind {
         LightKind::Point { location } | LightKind::Spotlight { location, .. } => {
             world::LightKind::Point { position: map.point(exact(location)).round() }
@@ -73,7 +114,53 @@ fn spend(light: &LightSource, map: &Affine, aim: &Affine) -> Result<Light, Fault
         return Err(Fault::not_finite("this light"));
     }
     let attenuation = attenuation(light, map, aim)?;
-    Ok(Light { kind, color, casts_shadows: !light.shadowless, attenuation })
+    let area = area(light, map, aim, sides)?;
+    Ok(Light { kind, color, casts_shadows: !light.shadowless, attenuation, area })
+}
+
+/// Returns the area of a light if it has an effect.
+fn area(
+    light: &LightSource,
+    map: &Affine,
+    aim: &Affine,
+    sides: &Affine,
+) -> Result<Option<Area>, Fault> {
+    let from = &light.area;
+    let is_point =
+        from.nodes.into_iter().zip(from.sides).all(|(n, side)| n == 1 || side == Vector::ZERO);
+    if is_point || (light.shadowless && !from.illuminates) {
+        return Ok(None);
+    }
+    let target = match light.kind {
+        LightKind::Direction { .. } => return Ok(None),
+        LightKind::Point { .. } | LightKind::Spotlight { .. } => None,
+        LightKind::Parallel { point_at, .. } | LightKind::Cylinder { point_at, .. } => {
+            Some(map.point(aim.point(exact(point_at))).round())
+        }
+    };
+    let moved = |side: Vector| map.direction(sides.direction(exact(side))).round();
+    let mut moved = from.sides.map(moved);
+    // A side of one light has no length.
+    for (side, nodes) in moved.iter_mut().zip(from.nodes) {
+        if nodes == 1 {
+            *side = Vector::ZERO;
+        }
+    }
+    if !moved.iter().copied().chain(target).all(Vector::is_finite) {
+        return Err(Fault::not_finite("this light"));
+    }
+    let depth = from.nodes.into_iter().map(|n| u32::BITS - (n - 1).leading_zeros()).max();
+    let adaptive = from.adaptive.filter(|adaptive| depth.is_some_and(|depth| *adaptive < depth));
+    Ok(Some(Area {
+        sides: moved,
+        nodes: from.nodes,
+        least_divisions: adaptive.unwrap_or(Area::ALL_NODES),
+        jitter: from.jitter,
+        circular: from.circular || from.orient,
+        orient: from.orient,
+        illuminates: from.illuminates,
+        target,
+    }))
 }
 
 fn unit(direction: DoubleVector) -> Result<UnitVector, Fault> {

@@ -23,6 +23,7 @@ mod inherited;
 mod inside;
 mod interior;
 mod light;
+mod light_group;
 mod lining;
 mod lint;
 mod modifier;
@@ -97,6 +98,7 @@ pub fn lower(
         unpainted: Vec::new(),
         lamps: Vec::new(),
         black: None,
+        light_groups: Vec::new(),
         emptied: BTreeMap::new(),
         idle: BTreeMap::new(),
         building: None,
@@ -111,6 +113,7 @@ pub fn lower(
     lowering.sky();
     lowering.fogs();
     lowering.objects();
+    lowering.light_sets();
     if lowering.sees_nothing {
         lowering.world.objects.iter_mut().for_each(|object| object.in_image = false);
     }
@@ -156,6 +159,8 @@ struct Lowering<'s, 'd> {
     unpainted: Vec<Site>,
     /// The site of each light's keyword.
     lamps: Vec<Site>,
+    /// The light groups visited so far.
+    light_groups: Vec<light_group::LightGroup>,
     /// The colour of the first black light.
     black: Option<Site>,
     /// Pending `nothing-left` diagnostics, keyed by operation span; `None` where something is left of one of

@@ -29,6 +29,8 @@ pub(super) struct Modified {
     pub clips: Vec<(ObjectId, Affine)>,
     /// `cutaway_textures`.
     pub cuts_away: bool,
+    /// A light group, and whether other lights light it, too.
+    pub light_group: Option<bool>,
 }
 
 impl Modified {
@@ -166,6 +168,7 @@ impl Lowering<'_, '_> {
                 }
                 ModifierKind::Hollow(on) => flags.hollow = on,
                 ModifierKind::Inverse => flags.inverse = !flags.inverse,
+                ModifierKind::LightGroup(global) => modified.light_group = Some(global),
                 ModifierKind::CutawayTextures => modified.cuts_away = true,
                 ModifierKind::ClippedBy(region) => modified.clips.push((region, Affine::IDENTITY)),
             }

@@ -4,9 +4,10 @@
 
 use std::sync::Arc;
 
+pub(super) use super::inherited::Inherited;
+
 use super::csg::{Making, Open};
 use super::cutaway::CutFaces;
-use super::inherited::Inherited;
 use super::modifier::{Calls, Flags, Modified};
 use super::place::next;
 use super::shape::{Round, no_size};
@@ -150,6 +151,10 @@ impl<'s> Lowering<'s, '_> {
             strained: inherited.strained || modified.strained,
             unseen: inherited.unseen,
             cut,
+            light_group: match modified.light_group {
+                Some(global) => Some(self.begin_light_group(inherited, global)),
+                None => inherited.light_group,
+            },
             filling: Some(filling),
         };
         let is_whole = !modified.clips.is_empty() || matches!(object.kind, ObjectKind::Csg { .. });
@@ -198,7 +203,15 @@ impl<'s> Lowering<'s, '_> {
             }
             ObjectKind::LightSource(light) => {
                 let item = here.item.unwrap_or(object.site);
-                self.light(light, &here.world_from_here, object.site, item);
+                if let Some(like) = self.light(light, &mut here, object.site, item) {
+                    stack.push(frame(
+                        None,
+                        false,
+                        Children::Listed(like.iter()),
+                        here,
+                        modified.calls,
+                    ));
+                }
             }
             ObjectKind::Solid(solid) => {
                 self.spend(target, solid, &here, object.site);

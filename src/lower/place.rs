@@ -114,6 +114,8 @@ impl Lowering<'_, '_> {
             double_illuminate,
             hollow,
             inverse,
+            // Until it has a set of lights.
+            lights: here.light_group.map_or(0, |group| group + 1),
             ..Object::plain(shape)
         };
         if let Some(by) = here.hidden_by

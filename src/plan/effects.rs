@@ -12,7 +12,8 @@ use super::surfaces::surfaces;
 use super::{Antialias, Called, Effect, LeftOut, Plan, PlanOptions, Stage};
 use crate::source::Site;
 use crate::world::{
-    Interior, InteriorOrigin, Light, Object, Origins, Pigment, Plain, Texture, TextureOrigin, World,
+    Area, Interior, InteriorOrigin, Light, Object, Origins, Pigment, Plain, Texture, TextureOrigin,
+    World,
 };
 
 /// Lists every effect the picture needs with what requires it, and every effect it does not need with the
@@ -87,6 +88,7 @@ impl Census<'_> {
             Effect::Highlights => self.highlights(),
             Effect::Shadows => self.shadows(),
             Effect::Attenuation => self.attenuation(),
+            Effect::AreaLights => self.area_lights(),
             Effect::DoubleIllumination => self.double_illumination(),
             Effect::Reflection => self.reflection(),
             Effect::Transparency => self.transparency(),
@@ -156,6 +158,27 @@ impl Census<'_> {
             return because("no surface answers a light", None);
         }
         Ok((self.origins.attenuation.clone(), "up to three powers a light and hit".to_owned()))
+    }
+
+    fn area_lights(&self) -> Decision {
+        let areas = || self.world.lights.iter().filter_map(|light| light.area.as_ref());
+        if areas().next().is_none() {
+            return because("every light is a point or a direction", None);
+        }
+        if !self.any(|plain| scatters(plain) || shines(plain)) {
+            return because("no surface answers a light", None);
+        }
+        let all = |area: &Area| area.nodes.into_iter().map(u64::from).product::<u64>();
+        let least = |area: &Area| {
+            let divided = |count: u32| u64::from(count).min((1 << area.least_divisions) + 1);
+            area.nodes.into_iter().map(divided).product::<u64>()
+        };
+        let most = areas().map(all).max().unwrap_or(1);
+        let cost = match areas().map(least).min().unwrap_or(1) {
+            least if least < most => format!("{least} to {most} rays a light and lit hit"),
+            _ => format!("{most} rays a light and lit hit"),
+        };
+        Ok((self.origins.area_lights.clone(), cost))
     }
 
     fn double_illumination(&self) -> Decision {

@@ -116,6 +116,8 @@ pub enum Effect {
     Shadows,
     /// Lights dimmer than their color in some places: spotlight beams, and light that fades with distance.
     Attenuation,
+    /// Soft shadows from lights that are a grid of lights.
+    AreaLights,
     /// Light on one side of a surface that also illuminates the other side.
     DoubleIllumination,
     Reflection,
@@ -144,11 +146,12 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order in which the plan lists them.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Diffuse,
         Self::Highlights,
         Self::Shadows,
         Self::Attenuation,
+        Self::AreaLights,
         Self::DoubleIllumination,
         Self::Reflection,
         Self::Transparency,
@@ -172,6 +175,7 @@ impl Effect {
             Self::Highlights => "highlights",
             Self::Shadows => "shadows",
             Self::Attenuation => "beams and fading",
+            Self::AreaLights => "area lights",
             Self::DoubleIllumination => "light from behind",
             Self::Reflection => "reflection",
             Self::Transparency => "transparency",

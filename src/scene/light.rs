@@ -1,6 +1,6 @@
 //! Lights as written.
 
-use super::TransformId;
+use super::{ObjectId, TransformId};
 use crate::color::Rgb;
 use crate::math::Vector;
 use crate::source::Site;
@@ -18,6 +18,8 @@ pub struct LightSource {
     pub shadowless: bool,
     /// `None`: equally bright at any distance.
     pub fade: Option<Fade>,
+    pub area: Area,
+    pub looks_like: Option<LooksLike>,
     /// The last `spotlight` or `cylinder`.
     pub beam_site: Option<Site>,
     /// The last `fade_distance`, with its value.
@@ -38,10 +40,58 @@ impl LightSource {
             aimed_after: Vec::new(),
             shadowless: false,
             fade: None,
+            area: Area::default(),
+            looks_like: None,
             beam_site: None,
             fade_site: None,
             media_site: None,
             media_interaction: true,
+        }
+    }
+}
+
+/// The object that is seen where a light is. It casts no shadow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LooksLike {
+    /// Around the origin, which comes to the light's location.
+    pub object: ObjectId,
+    /// The transforms before it: they move the location, and do not change the object (measured on POV-Ray 3.7).
+    pub after: Vec<TransformId>,
+}
+
+/// A grid of lights instead of one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Area {
+    /// From one edge of the grid to the other.
+    pub sides: [Vector; 2],
+    /// The numbers of lights along the sides: at least 1; both 1 if there is no `area_light`.
+    pub nodes: [u32; 2],
+    /// The transforms before its `area_light`: they move the light, and do not change the sides (measured on POV-Ray
+    /// 3.7).
+    pub sides_after: Vec<TransformId>,
+    /// `None`: every light casts shadows of its own.
+    pub adaptive: Option<u32>,
+    pub jitter: bool,
+    pub circular: bool,
+    pub orient: bool,
+    /// `area_illumination`: not only shadows come from all lights.
+    pub illuminates: bool,
+    /// The last `area_light`, with its values.
+    pub site: Option<Site>,
+}
+
+impl Default for Area {
+    fn default() -> Self {
+        Self {
+            sides: [Vector::ZERO; 2],
+            nodes: [1; 2],
+            sides_after: Vec::new(),
+            adaptive: None,
+            jitter: false,
+            circular: false,
+            orient: false,
+            illuminates: false,
+            site: None,
         }
     }
 }
@@ -53,6 +103,19 @@ pub struct Fade {
     pub distance: f64,
     /// More than 0.
     pub power: f64,
+}
+
+impl LightKind {
+    /// Returns where the light is; `None` for one at infinity.
+    pub fn location(&self) -> Option<Vector> {
+        match *self {
+            Self::Point { location }
+            | Self::Parallel { location, .. }
+            | Self::Spotlight { location, .. }
+            | Self::Cylinder { location, .. } => Some(location),
+            Self::Direction { .. } => None,
+        }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]

@@ -9,8 +9,8 @@ mod texture;
 use std::fmt::{self, Write};
 
 use super::{
-    Beam, CameraItemKind, CameraKind, CylinderForm, Fade, Finish, FogTurbulence, Interior, Irid,
-    LightKind, LightSource, Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings,
+    Area, Beam, CameraItemKind, CameraKind, CylinderForm, Fade, Finish, FogTurbulence, Interior,
+    Irid, LightKind, LightSource, Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings,
     TextureId, TransformId,
 };
 use crate::color::Clearness;
@@ -194,7 +194,11 @@ impl Printer<'_> {
                             write!(out, "object")?;
                             stack.push(Task::Open(*child, depth + 1));
                         }
-                        ObjectKind::LightSource(source) => light(out, source)?,
+                        ObjectKind::LightSource(source) => {
+                            light(out, source)?;
+                            let looks_like = source.looks_like.iter();
+                            stack.extend(looks_like.map(|one| Task::Open(one.object, depth + 1)));
+                        }
                     }
                     writeln!(out, "  ({place})")?;
                 }
@@ -248,6 +252,9 @@ impl Printer<'_> {
             ModifierKind::NoReflection(on) => writeln!(out, "{indent}no_reflection{}", off(on)),
             ModifierKind::DoubleIlluminate(on) => {
                 writeln!(out, "{indent}double_illuminate{}", off(on))
+            }
+            ModifierKind::LightGroup(global) => {
+                writeln!(out, "{indent}light_group{}", if global { " global_lights" } else { "" })
             }
             ModifierKind::Hollow(on) => writeln!(out, "{indent}hollow{}", off(on)),
             ModifierKind::CutawayTextures => writeln!(out, "{indent}cutaway_textures"),
@@ -377,6 +384,7 @@ fn light(out: &mut String, source: &LightSource) -> fmt::Result {
     if let Some(Fade { distance, power }) = source.fade {
         write!(out, " fade_distance {distance} fade_power {power}")?;
     }
+    area(out, &source.area)?;
     write!(out, " color {}", source.color)?;
     if source.shadowless {
         write!(out, " shadowless")?;
@@ -386,6 +394,26 @@ fn light(out: &mut String, source: &LightSource) -> fmt::Result {
     }
     if !source.media_interaction {
         write!(out, " media_interaction off")?;
+    }
+    Ok(())
+}
+
+fn area(out: &mut String, area: &Area) -> fmt::Result {
+    let Area { sides: [a, b], nodes: [m, n], .. } = *area;
+    if [m, n] != [1, 1] {
+        write!(out, " area_light {} {} {m} {n}", vector(a), vector(b))?;
+    }
+    if let Some(adaptive) = area.adaptive {
+        write!(out, " adaptive {adaptive}")?;
+    }
+    let words = [
+        (area.jitter, "jitter"),
+        (area.circular, "circular"),
+        (area.orient, "orient"),
+        (area.illuminates, "area_illumination"),
+    ];
+    for (_, word) in words.into_iter().filter(|(is, _)| *is) {
+        write!(out, " {word}")?;
     }
     Ok(())
 }

@@ -55,6 +55,8 @@ pub struct Evaluations {
     pub highlights: u64,
     /// Lights that are less than their colour somewhere, asked what of it comes to a place.
     pub attenuation: u64,
+    /// Area lights, asked what of their shadows falls on a place.
+    pub area_lights: u64,
     /// Surfaces asked what the lights on their other side add.
     pub from_behind: u64,
     /// Borders between media, asked where a ray goes on.
@@ -104,6 +106,7 @@ impl AddAssign for Evaluations {
         self.diffuse += other.diffuse;
         self.highlights += other.highlights;
         self.attenuation += other.attenuation;
+        self.area_lights += other.area_lights;
         self.from_behind += other.from_behind;
         self.refraction += other.refraction;
         self.absorption += other.absorption;

@@ -8,13 +8,14 @@
 //!
 //! **Source:** POV-Ray 3.7's behaviour, measured with random stacks of layers to 2/65,535.
 
+use super::area::Ground;
 use super::batch::{Back, Onward};
 use super::media::Border;
 use super::shade::{self, Flat, Place};
 use super::texture::SurfaceInteraction;
 use super::tracer::Tracer;
 use super::way::{Inside, Way};
-use super::{Walk, bumpy, dispersion, extras, reflection, refraction};
+use super::{Walk, behind, bumpy, dispersion, extras, reflection, refraction};
 use crate::color::{Clearness, Color, Rgb};
 use crate::geometry::{self, Hit};
 use crate::math::Vector;
@@ -313,12 +314,14 @@ impl<'a> Tracer<'a> {
                     within: way.within,
                 };
                 walk.part += 1;
-                let mut own = shade::local(self, walk, &place);
-                if shade::is_lit_behind(place.finish, object.double_illuminate) {
+                let lights = self.lights_of(hit.object);
+                let ground = Ground { place: &place, behind, lights };
+                let mut own = shade::local(self, walk, &ground);
+                if behind::is_lit_behind(place.finish, object.double_illuminate) {
                     if self.counts {
                         walk.counters.evaluations.from_behind += 1;
                     }
-                    own += shade::from_behind(self, walk, &place, behind, object.double_illuminate);
+                    own += behind::from_behind(self, walk, &ground, object.double_illuminate);
                 }
                 if part.plain.finish.seed {
                     own = own.at_most_one();

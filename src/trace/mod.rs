@@ -9,8 +9,10 @@
 
 mod absorption;
 mod antialias;
+mod area;
 mod attenuation;
 mod batch;
+mod behind;
 mod blur;
 mod bumpy;
 mod camera;
@@ -49,6 +51,7 @@ use crate::plan::{Antialias, Frame, Plan, Region};
 use crate::world::World;
 
 use antialias::Shown;
+use area::Nodes;
 use batch::{Batch, Onward};
 use camera::Lens;
 use media::Media;
@@ -105,6 +108,8 @@ pub(crate) struct Walk {
     /// Surfaces that coincide with the one at hand.
     coinciding: Vec<Hit>,
     filters: Filters,
+    /// The nodes of the area light at hand.
+    nodes: Nodes,
     /// The place, in its texture, of the finish at hand; 0 if it is the only one.
     part: u32,
     /// What each light sends to the parts of the texture at hand, before the surface and behind it, once it is

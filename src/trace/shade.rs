@@ -2,6 +2,7 @@
 //! it mirrors and lets through.
 
 use super::Walk;
+use super::area::{self, AreaLight, Ground};
 use super::attenuation::attenuated;
 use super::batch::SLICE;
 use super::extras::{self, Lit};
@@ -14,7 +15,7 @@ use crate::color::Rgb;
 use crate::math::Vector;
 use crate::math::power::power;
 use crate::shape::Ray;
-use crate::world::{Finish, Light};
+use crate::world::{Finish, Light, LightKind};
 use smallvec::SmallVec;
 
 /// A place on a surface, ready to be lit.
@@ -70,56 +71,79 @@ impl Place<'_> {
 ///
 /// Whether the surface faces a light is asked of its point; rays are aimed from where they start,
 /// or what they pass near the light would not be where the light is.
-pub(super) fn local(tracer: &Tracer, walk: &mut Walk, place: &Place) -> Rgb {
+pub(super) fn local(tracer: &Tracer, walk: &mut Walk, ground: &Ground) -> Rgb {
+    let place = ground.place;
     let mut sum = place.body * place.finish.emission;
     if !answers(place.finish) {
         return sum;
     }
-    for (number, light) in tracer.world.lights.iter().enumerate() {
-        let Some(lit) = toward(place, light) else { continue };
-        let from = (lit.origin, lit.side);
-        let arriving = arriving(tracer, walk, (number, light), place.within, from, &lit.aim);
-        let Some(color) = arriving else { continue };
-        if tracer.counts {
-            count(walk, place.finish, light);
+    for light in tracer.world.lights.iter().enumerate() {
+        if ground.is_lit_by(light.0)
+            && let Some(lit) = before(tracer, walk, ground, light)
+        {
+            sum += lit;
         }
-        let answer = answered(place, (number, light), lit.aim.to_light, lit.cosine, walk.part);
-        sum += color * answer;
     }
     sum
 }
 
+/// What a surface sends to the viewer of a light before it; `None` where the light does not come there.
+#[inline(always)]
+pub(super) fn before(
+    tracer: &Tracer,
+    walk: &mut Walk,
+    ground: &Ground,
+    (number, light): (usize, &Light),
+) -> Option<Rgb> {
+    let place = ground.place;
+    if let Some(of) = AreaLight::illuminating(number, light) {
+        return area::mean(tracer, walk, of, ground, |walk, kind| {
+            let Toward { origin, aim, cosine, .. } = toward(place, kind)?;
+            let color = area::emitted(tracer, walk, of, ground.place.within, (kind, &aim), origin)?;
+            let to_light = aim.to_light;
+            Some(color * answered(place, (number, light), to_light, cosine, walk.part))
+        });
+    }
+    let lit = toward(place, &light.kind)?;
+    let color = arriving(tracer, walk, (number, light), ground, (lit.origin, lit.side), &lit.aim)?;
+    if tracer.counts {
+        count(walk, place.finish, light);
+    }
+    let answer = answered(place, (number, light), lit.aim.to_light, lit.cosine, walk.part);
+    Some(color * answer)
+}
+
 /// Whether a finish answers lights before the surface.
 #[inline(always)]
-fn answers(finish: &Finish) -> bool {
+pub(super) fn answers(finish: &Finish) -> bool {
     finish.diffuse != 0.0 || !finish.lobes.is_empty()
 }
 
 /// A light as seen from a surface that it may light.
 #[derive(Clone, Copy)]
-struct Toward {
+pub(super) struct Toward {
     /// Where rays toward the light start.
-    origin: Vector,
-    side: Side,
-    aim: Aim,
+    pub origin: Vector,
+    pub side: Side,
+    pub aim: Aim,
     /// Of the angle to the normal.
-    cosine: f64,
+    pub cosine: f64,
 }
 
 /// How a surface lies toward a light; `None` where that is behind it.
 #[inline(always)]
-fn toward(place: &Place, light: &Light) -> Option<Toward> {
-    let height = shadow::height(&light.kind, place.point, place.normal);
+fn toward(place: &Place, light: &LightKind) -> Option<Toward> {
+    let height = shadow::height(light, place.point, place.normal);
     if !(height > 0.0 || (place.finish.seed && height == 0.0)) {
         return None;
     }
     let (origin, side) = match &place.flat {
-        Some(flat) if shadow::height(&light.kind, place.point, flat.normal) < 0.0 => {
+        Some(flat) if shadow::height(light, place.point, flat.normal) < 0.0 => {
             (flat.behind, Side::Back)
         }
         _ => (place.origin, Side::Front),
     };
-    let aim = shadow::aim(&light.kind, origin)?;
+    let aim = shadow::aim(light, origin)?;
     let cosine = place.normal.dot(aim.to_light).max(0.0);
     Some(Toward { origin, side, aim, cosine })
 }
@@ -162,6 +186,10 @@ impl Tracer<'_> {
     pub(super) fn light(&self, walk: &mut Walk, stands: &mut [Stand]) {
         let mut rays: SmallVec<[Arriving; SLICE]> = SmallVec::new();
         for (number, light) in self.world.lights.iter().enumerate() {
+            if light.area.is_some() || !self.world.light_sets.is_empty() {
+                self.light_one_by_one(walk, stands, (number, light));
+                continue;
+            }
             let mut object = u32::MAX;
             for stand in 0..stands.len() {
                 // Rays from one object are close together.
@@ -173,9 +201,9 @@ impl Tracer<'_> {
                 if !answers(place.finish) {
                     continue;
                 }
-                let Some(toward) = toward(place, light) else { continue };
+                let Some(toward) = toward(place, &light.kind) else { continue };
                 let from = (toward.origin, &toward.aim);
-                let color = self.emitted(walk, light, place.within, from.0, from.1);
+                let color = self.emitted(walk, (light, &light.kind), place.within, from.0, from.1);
                 let Some(color) = color else { continue };
                 let Toward { origin, aim: Aim { to_light, reach }, cosine, .. } = toward;
                 let ray = Ray { origin, direction: to_light };
@@ -232,10 +260,10 @@ impl Tracer<'_> {
 
     /// What of a light's colour goes to a point; `None` where none does.
     #[inline(always)]
-    fn emitted(
+    pub(super) fn emitted(
         &self,
         walk: &mut Walk,
-        light: &Light,
+        (light, kind): (&Light, &LightKind),
         within: Within,
         point: Vector,
         aim: &Aim,
@@ -244,7 +272,7 @@ impl Tracer<'_> {
         if self.counts {
             walk.counters.evaluations.attenuation += 1;
         }
-        let color = attenuated(light.color, attenuation, &light.kind, point, *aim)?;
+        let color = attenuated(light.color, attenuation, kind, point, *aim)?;
         Some(match attenuation.fog {
             true => color * self.light_through_fog(walk, within, point, aim),
             false => color,
@@ -252,7 +280,13 @@ impl Tracer<'_> {
     }
 
     /// What the clear surfaces between a point and a light let through.
-    fn filtered(&self, walk: &mut Walk, within: Within, origin: Vector, aim: &Aim) -> Rgb {
+    pub(super) fn filtered(
+        &self,
+        walk: &mut Walk,
+        within: Within,
+        origin: Vector,
+        aim: &Aim,
+    ) -> Rgb {
         if self.counts {
             walk.counters.evaluations.colored_shadows += 1;
         }
@@ -260,88 +294,40 @@ impl Tracer<'_> {
     }
 }
 
-/// Whether a surface answers the lights behind it: if it is lit on both sides, or scatters their light.
-#[inline(always)]
-pub(super) fn is_lit_behind(finish: &Finish, both: bool) -> bool {
-    both || finish.extras.as_ref().is_some_and(|extras| extras.behind != 0.0)
-}
-
-/// What the lights behind a surface add. If it is lit on `both` sides, it answers them as those before it,
-/// but for its highlights, which know where the light is. `behind` is where rays start on that side.
-///
-/// **Source:** POV-Ray 3.7's behaviour, measured to 1/10,000.
-pub(super) fn from_behind(
-    tracer: &Tracer,
-    walk: &mut Walk,
-    place: &Place,
-    behind: Vector,
-    both: bool,
-) -> Rgb {
-    let mut sum = Rgb::BLACK;
-    let finish = place.finish;
-    let diffuse = match &finish.extras {
-        Some(extras) if !both => extras.behind,
-        _ => finish.diffuse,
-    };
-    for (number, light) in tracer.world.lights.iter().enumerate() {
-        let is_behind = shadow::height(&light.kind, place.point, place.normal) < 0.0;
-        if !is_behind || (diffuse == 0.0 && finish.lobes.is_empty()) {
-            continue;
-        }
-        // By a perturbed normal it may be behind a surface that faces it.
-        let (origin, side) = match &place.flat {
-            Some(flat) if shadow::height(&light.kind, place.point, flat.normal) > 0.0 => {
-                (place.origin, Side::Front)
-            }
-            _ => (behind, Side::Back),
-        };
-        let Some(aim) = shadow::aim(&light.kind, origin) else { continue };
-        let cosine = place.normal.dot(aim.to_light).min(0.0);
-        let from = (origin, side);
-        let arriving = arriving(tracer, walk, (number, light), place.within, from, &aim);
-        let Some(color) = arriving else { continue };
-        if tracer.counts {
-            match both {
-                true => count(walk, finish, light),
-                false => walk.counters.evaluations.diffuse += 1,
-            }
-        }
-        let answer = match &finish.extras {
-            None => answer(place, light, aim.to_light, cosine),
-            Some(extras) => {
-                let (to_light, part) = (aim.to_light, walk.part);
-                let lit = Lit { light, number, to_light, cosine, part };
-                extras::answer(place, extras, diffuse, both, &lit)
-            }
-        };
-        sum += color * answer;
-    }
-    sum
-}
-
 /// The side of a surface, as the viewer sees it, on which a ray toward a light starts.
 #[derive(Clone, Copy)]
-enum Side {
+pub(super) enum Side {
     Front,
     Back,
 }
 
 /// What of a light, the `number`th, comes to `origin`; `None` where nothing does. The parts of a texture share
 /// one search on each side.
-fn arriving(
+pub(super) fn arriving(
     tracer: &Tracer,
     walk: &mut Walk,
     (number, light): (usize, &Light),
-    within: Within,
+    ground: &Ground,
     (origin, side): (Vector, Side),
     aim: &Aim,
+) -> Option<Rgb> {
+    shared(walk, (number, side), |walk| {
+        searched(tracer, walk, (number, light), ground, origin, aim)
+    })
+}
+
+/// Returns what is found of a light on a side of the surface: once for all parts of a texture.
+pub(super) fn shared(
+    walk: &mut Walk,
+    (number, side): (usize, Side),
+    find: impl FnOnce(&mut Walk) -> Option<Rgb>,
 ) -> Option<Rgb> {
     let is_part = walk.part > 0;
     let known = walk.arrived.get(number).filter(|_| is_part).and_then(|sides| sides[side as usize]);
     if let Some(known) = known {
         return known;
     }
-    let found = searched(tracer, walk, (number, light), within, origin, aim);
+    let found = find(walk);
     if let Some(sides) = walk.arrived.get_mut(number).filter(|_| is_part) {
         sides[side as usize] = Some(found);
     }
@@ -352,11 +338,16 @@ fn searched(
     tracer: &Tracer,
     walk: &mut Walk,
     (number, light): (usize, &Light),
-    within: Within,
+    ground: &Ground,
     origin: Vector,
     aim: &Aim,
 ) -> Option<Rgb> {
-    let mut color = tracer.emitted(walk, light, within, origin, aim)?;
+    let within = ground.place.within;
+    let mut color = tracer.emitted(walk, (light, &light.kind), within, origin, aim)?;
+    if let Some(of) = AreaLight::of(number, light) {
+        let color = color * area::visible(tracer, walk, of, ground, color);
+        return (!color.is_black()).then_some(color);
+    }
     if tracer.shadows && light.casts_shadows {
         if shadow::shadowed(tracer, walk, number, origin, aim) {
             return None;
@@ -374,7 +365,7 @@ fn searched(
 /// What part of the light's intensity goes to the viewer. A shadowless light makes no highlight
 /// on a classic finish. **Source:** POV-Ray manual, section "Shadowless Lights".
 #[inline(always)]
-fn answer(place: &Place, light: &Light, to_light: Vector, cosine: f64) -> Rgb {
+pub(super) fn answer(place: &Place, light: &Light, to_light: Vector, cosine: f64) -> Rgb {
     let Place { finish, color, body, normal, to_viewer, .. } = *place;
     let mut sum = Rgb::BLACK;
     if finish.diffuse != 0.0 {
@@ -400,7 +391,7 @@ pub(super) fn shines(finish: &Finish, light: &Light) -> bool {
 }
 
 /// What [`answer`] evaluates.
-fn count(walk: &mut Walk, finish: &Finish, light: &Light) {
+pub(super) fn count(walk: &mut Walk, finish: &Finish, light: &Light) {
     let evaluations = &mut walk.counters.evaluations;
     evaluations.diffuse += u64::from(finish.diffuse != 0.0);
     let lobes = if shines(finish, light) { finish.lobes.len() } else { 0 };

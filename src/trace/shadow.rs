@@ -91,13 +91,25 @@ pub(super) fn shadowed_together(
     light: usize,
     arriving: &[Arriving],
 ) -> u32 {
-    walk.counters.shadow += arriving.len() as u64;
     let rays: SmallVec<[&Ray; SLICE]> = arriving.iter().map(|one| &one.ray).collect();
     let reaches: SmallVec<[f64; SLICE]> = arriving.iter().map(|one| one.reach).collect();
+    occluded(tracer, walk, light, &rays, &reaches)
+}
+
+/// As [`shadowed_together`], for rays and how far they go.
+#[inline(always)]
+pub(super) fn occluded(
+    tracer: &Tracer,
+    walk: &mut Walk,
+    light: usize,
+    rays: &[&Ray],
+    reaches: &[f64],
+) -> u32 {
+    walk.counters.shadow += rays.len() as u64;
     let guess = walk.occluders.get(light).copied().unwrap_or(Occluder::NONE);
     let mut occluder = guess;
     let work = &mut walk.counters.work;
-    let shadowed = tracer.geometry.occluded_together(&rays, &reaches, &mut occluder, work);
+    let shadowed = tracer.geometry.occluded_together(rays, reaches, &mut occluder, work);
     if occluder != guess {
         walk.remember(light, occluder);
     }

@@ -2,11 +2,12 @@
 //!
 //! **In:** rays and their hits, side by side. **Out:** what each surface shows by itself, and the rays that go on.
 
+use super::area::Ground;
 use super::batch::{SLICE, Surfaces};
-use super::shade::{self, Flat, Place};
+use super::shade::{Flat, Place};
 use super::tracer::Tracer;
 use super::way::Way;
-use super::{Walk, sky, texture};
+use super::{Walk, behind, sky, texture};
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, Hit};
 use crate::shape::SurfacePoint;
@@ -133,13 +134,15 @@ impl<'a> Tracer<'a> {
     #[inline(never)]
     fn lit_behind(&self, walk: &mut Walk, stand: &Stand, both: bool) -> Rgb {
         let Stand { place, surface, .. } = stand;
-        if !shade::is_lit_behind(place.finish, both) {
+        if !behind::is_lit_behind(place.finish, both) {
             return Rgb::BLACK;
         }
         if self.counts {
             walk.counters.evaluations.from_behind += 1;
         }
         let normal = place.flat.map_or(place.normal, |Flat { normal, .. }| normal);
-        shade::from_behind(self, walk, place, surface.spawn(-normal), both)
+        let lights = self.lights_of(stand.hit.object);
+        let ground = Ground { place, behind: surface.spawn(-normal), lights };
+        behind::from_behind(self, walk, &ground, both)
     }
 }

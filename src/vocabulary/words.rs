@@ -234,7 +234,7 @@ vocabulary! {
         Offset "offset" statement built "`offset n` in `crackle`: a distance along a fourth axis; `offset <x, y, z>` in a `repeat` warp: the shift of each copy";
         Omega "omega" statement built "`omega n`: how strong each octave of turbulence is, relative to the one before; default 0.5";
         Once "once" statement built "shows a picture once instead of repeating it";
-        Orient "orient" statement later "turns an area light toward each point";
+        Orient "orient" statement built "turns an area light toward each point";
         Phase "phase" statement built "`phase n`: where in its map a pattern begins";
         PolyWave "poly_wave" statement built "`poly_wave [n]`: values are raised to the power of n; default 2";
         Premultiplied "premultiplied" statement built "`premultiplied [on|off]`: whether a picture's colours are multiplied by its alpha";
@@ -323,15 +323,15 @@ vocabulary! {
         Variance "variance" statement built "the variance at which a blurred pixel gets no more rays; default 1/128";
     }
     Light {
-        Adaptive "adaptive" statement later "how finely an area light is sampled";
-        AreaIllumination "area_illumination" statement later "an area light illuminates from all its points";
-        AreaLight "area_light" statement later "`area_light <a>, <b>, m, n`: m × n lights in a rectangle";
-        Circular "circular" statement later "an area light in the shape of a disc";
-        GlobalLights "global_lights" statement later "a light_group is lit by all lights too";
-        Jitter "jitter" statement later "moves samples at random";
-        LightGroup "light_group" statement later "objects with lights of their own";
+        Adaptive "adaptive" statement built "`adaptive n`: how often an area light is divided everywhere, 0 or more; beyond that it is divided only where shadows are";
+        AreaIllumination "area_illumination" statement built "an area light illuminates from all its points, and not only casts shadows from them";
+        AreaLight "area_light" statement built "`area_light <a>, <b>, m, n`: m × n lights in a rectangle";
+        Circular "circular" statement built "an area light in the shape of a disc";
+        GlobalLights "global_lights" statement built "the objects of a `light_group` are lit by the lights of no group, too";
+        Jitter "jitter" statement built "moves the lights of an area light at random";
+        LightGroup "light_group" statement built "`light_group { … }`: lights, and the objects that they light; no other objects are lit by them";
         LightSource "light_source" statement built "`light_source { <place>, color … }`: a point light";
-        LooksLike "looks_like" statement later "the object that represents a light";
+        LooksLike "looks_like" statement built "`looks_like { … }`: the object that is seen where the light is; it casts no shadow";
         MediaAttenuation "media_attenuation" statement built "fog dims this light on its way; default off";
         MediaInteraction "media_interaction" statement built "with `off`, `media_attenuation` has no effect; default on";
         Parallel "parallel" statement built "all rays run parallel, from the light's location toward `point_at`";

@@ -8,8 +8,8 @@ mod texture;
 use std::fmt::{self, Write};
 
 use super::{
-    Absorption, Attenuation, Beam, CameraKind, Churn, Coat, CsgSolid, Cutaway, Dispersion, Fade,
-    Focus, Ground, LightKind, Object, Origins, World,
+    Absorption, Area, Attenuation, Beam, CameraKind, Churn, Coat, CsgSolid, Cutaway, Dispersion,
+    Fade, Focus, Ground, LightKind, Object, Origins, World,
 };
 use crate::color::Clearness;
 use crate::math::placement::{Map, Placement};
@@ -176,7 +176,9 @@ impl Printer<'_> {
             let shadows = if light.casts_shadows { "" } else { " shadowless" };
             let site = self.at(self.origins.lights.get(i).copied());
             let attenuation = light.attenuation.as_ref().map_or(String::new(), attenuation);
-            writeln!(out, "  {i} {kind} color {}{attenuation}{shadows}{site}", light.color)?;
+            let area = light.area.as_ref().map_or(String::new(), area);
+            let color = light.color;
+            writeln!(out, "  {i} {kind} color {color}{attenuation}{area}{shadows}{site}")?;
         }
         Ok(())
     }
@@ -237,6 +239,9 @@ impl Printer<'_> {
         }
         if object.double_illuminate {
             write!(out, " double_illuminate")?;
+        }
+        if let Some(set) = self.world.light_sets.get(object.lights as usize) {
+            write!(out, " lights {set:?}")?;
         }
         if object.hollow {
             write!(out, " hollow")?;
@@ -345,6 +350,25 @@ fn attenuation(attenuation: &Attenuation) -> String {
         format!(" fade distance {distance} power {power}")
     });
     beam + &fade + if attenuation.fog { " dimmed by fog" } else { "" }
+}
+
+fn area(area: &Area) -> String {
+    let Area { sides: [a, b], nodes: [m, n], .. } = *area;
+    let mut text = format!(" area {} {} {m} × {n}", vector(a), vector(b));
+    if area.least_divisions < Area::ALL_NODES {
+        text += &format!(" adaptive {}", area.least_divisions);
+    }
+    let words = [
+        (area.jitter, " jitter"),
+        (area.circular, " circular"),
+        (area.orient, " orient"),
+        (area.illuminates, " area_illumination"),
+    ];
+    text.extend(words.into_iter().filter(|(is, _)| *is).map(|(_, word)| word));
+    if let Some(target) = area.target {
+        text += &format!(" point_at {}", vector(target));
+    }
+    text
 }
 
 fn unit(v: UnitVector) -> String {

@@ -19,6 +19,7 @@ fn words(effect: Effect) -> &'static [&'static str] {
         Effect::Diffuse | Effect::Shadows => &["light_source", "object"],
         Effect::Highlights => &["phong", "specular", "ks"],
         Effect::Attenuation => &["spotlight", "cylinder", "fade_distance", "media_attenuation"],
+        Effect::AreaLights => &["area_light"],
         Effect::DoubleIllumination => &["double_illuminate", "diffuse"],
         Effect::Reflection => &["reflection", "ks"],
         // Also every colour's word.

@@ -1,5 +1,6 @@
 //! `light_source`: a point light, a beam, parallel rays, or the seed's direction.
 
+mod area;
 mod doubt;
 mod form;
 mod order;
@@ -8,8 +9,8 @@ mod written;
 use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{
-    Dialect, LightKind, LightSource, Modifier, ModifierKind, Object, ObjectId, ObjectKind,
-    TransformId,
+    Dialect, LightKind, LightSource, LooksLike, Modifier, ModifierKind, Object, ObjectId,
+    ObjectKind, TransformId,
 };
 use crate::vocabulary::{Family, Word};
 
@@ -151,6 +152,11 @@ impl Evaluator<'_> {
             if is_of_a_place(&token) {
                 written.of_a_place.push(token.clone());
             }
+            if let Some(word) = area::word_of_area(&token) {
+                let light = light.as_deref_mut();
+                failed |= self.area_word(&token, word, light, modifiers, &mut written).is_err();
+                continue;
+            }
             let outcome = match token.kind {
                 TokenKind::Word(word) if word.family() == Family::Color => {
                     self.take_late_color(&token, late.take(), light.as_deref_mut())
@@ -197,6 +203,9 @@ impl Evaluator<'_> {
                         self.power_behind_distance(&token);
                     }
                 }),
+                TokenKind::Word(Word::LooksLike) => {
+                    self.looks_like(&token, light.as_deref_mut(), modifiers)
+                }
                 TokenKind::Word(Word::Shadowless) => {
                     if let Some(light) = &mut light {
                         light.shadowless = true;
@@ -232,7 +241,8 @@ impl Evaluator<'_> {
         if let Some(light) = light.as_deref()
             && !failed
         {
-            failed = self.doubt_light(light, &written).is_err();
+            failed = self.doubt_light(light, &written).is_err()
+                || self.doubt_area(light, &written).is_err();
         }
         if let Some(light) = light.as_deref_mut()
             && let Some(token) = written.spend(light)
@@ -254,6 +264,27 @@ impl Evaluator<'_> {
     }
 }
 
+impl Evaluator<'_> {
+    /// Reads the object that is seen where the light is.
+    fn looks_like(
+        &mut self,
+        token: &Token,
+        light: Option<&mut LightSource>,
+        modifiers: &[Modifier],
+    ) -> Outcome<()> {
+        if !self.is_before_block() {
+            self.block_is_missing(token, Word::LooksLike);
+            self.skip_values();
+            return Err(Reported);
+        }
+        let object = self.object_block(token)?;
+        if let Some(light) = light {
+            light.looks_like = Some(LooksLike { object, after: transforms_of(modifiers) });
+        }
+        Ok(())
+    }
+}
+
 /// Returns the transforms among the modifiers of a light.
 fn transforms_of(modifiers: &[Modifier]) -> Vec<TransformId> {
     let transform = |modifier: &Modifier| match modifier.kind {
@@ -265,18 +296,20 @@ fn transforms_of(modifiers: &[Modifier]) -> Vec<TransformId> {
 
 /// Returns whether a word specifies how light leaves a position, or fades with the distance from it.
 fn is_of_a_place(token: &Token) -> bool {
-    matches!(
-        token.kind,
-        TokenKind::Word(
-            Word::Parallel
-                | Word::Spotlight
-                | Word::Cylinder
-                | Word::PointAt
-                | Word::Radius
-                | Word::Falloff
-                | Word::Tightness
-                | Word::FadeDistance
-                | Word::FadePower
+    area::word_of_area(token).is_some()
+        || matches!(
+            token.kind,
+            TokenKind::Word(
+                Word::Parallel
+                    | Word::Spotlight
+                    | Word::Cylinder
+                    | Word::PointAt
+                    | Word::Radius
+                    | Word::Falloff
+                    | Word::Tightness
+                    | Word::FadeDistance
+                    | Word::FadePower
+                    | Word::LooksLike
+            )
         )
-    )
 }

@@ -26,6 +26,7 @@ mod item;
 mod item_suggestion;
 mod julia_fractal;
 mod light;
+mod light_group;
 mod matrix;
 mod mesh;
 mod misplaced;

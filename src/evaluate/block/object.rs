@@ -38,6 +38,7 @@ impl Evaluator<'_> {
             Word::Difference => self.csg(token, word, Operation::Difference),
             Word::Object => self.shape(token, word, Self::object_use),
             Word::LightSource => self.light_source(token),
+            Word::LightGroup => self.light_group(token),
             _ => match Self::parts_of(word) {
                 Some(parts) => self.shape(token, word, |evaluator, token| {
                     parts(evaluator, token).map(ObjectKind::Solid)
@@ -49,6 +50,11 @@ impl Evaluator<'_> {
             (Some(poison), _) => Ok(Value::Poison(poison)),
             (None, built) => built.map(Value::Object),
         }
+    }
+
+    /// Reads the block of a word that contains one object: `looks_like { … }`.
+    pub(super) fn object_block(&mut self, token: &Token) -> Outcome<ObjectId> {
+        self.shape(token, Word::Object, Self::object_use)
     }
 
     pub(super) fn add_object(&mut self, object: Object) -> Outcome<ObjectId> {

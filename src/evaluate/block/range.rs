@@ -81,16 +81,21 @@ impl Evaluator<'_> {
     /// Reads a number in a range.
     pub(super) fn number_in(&mut self, after: &Token, word: Word, range: &Range) -> Outcome<f64> {
         let given = self.number_after(after, "a number")?;
-        let mut number = given.value;
-        if !(range.holds)(number) {
-            let Some(read) = range.read else {
-                return Err(self.out_of_range(&given, word, range.wanted));
-            };
-            self.out_of_range_but_read(&given, word, range.wanted, read)?;
-            number = (range.replaced)(number);
-        }
+        let number = self.ranged(&given, word, range)?;
         self.lint_highlight(&given, word);
         Ok(number)
+    }
+
+    /// Returns the number, or what it becomes if it is not in its range.
+    pub(super) fn ranged(&mut self, given: &Given<f64>, word: Word, range: &Range) -> Outcome<f64> {
+        if (range.holds)(given.value) {
+            return Ok(given.value);
+        }
+        let Some(read) = range.read else {
+            return Err(self.out_of_range(given, word, range.wanted));
+        };
+        self.out_of_range_but_read(given, word, range.wanted, read)?;
+        Ok((range.replaced)(given.value))
     }
 
     /// Reads `srgb`, or an exponent.

@@ -16,31 +16,9 @@ use super::super::value::{Poison, Value};
 use super::super::{Evaluator, Outcome, Reported, Symbol};
 use super::Place;
 
-/// Returns the arguments of an unsupported word, if it has a fixed number of values.
-fn values_not_built(word: Word) -> &'static [&'static str] {
-    match word {
-        Word::AreaLight => &[
-            "a vector for one side",
-            "a vector for the other side",
-            "a number of lights along the first side",
-            "a number of lights along the second side",
-        ],
-        Word::Adaptive => &["a number"],
-        _ => &[],
-    }
-}
-
 impl Evaluator<'_> {
     /// Skips what belongs to an unsupported word, reporting the mistakes in it.
     pub(super) fn pass_not_built(&mut self, token: &Token, word: Word) {
-        let outer = self.poison.take();
-        for wanted in values_not_built(word) {
-            if self.unbuilt_part(token, wanted).is_err() {
-                self.skip_values();
-                break;
-            }
-        }
-        self.poison = outer;
         if Self::knows_items(word)
             && let Some(Token { kind: TokenKind::Block(contents), here, span }) =
                 self.peek().cloned()
@@ -59,7 +37,7 @@ impl Evaluator<'_> {
         }
         self.block_is_missing(token, word);
         // An object, which may have mistakes like any other.
-        if let Word::LooksLike | Word::ProjectedThrough = word
+        if word == Word::ProjectedThrough
             && self.is_before_block()
             && self.judge_block(token, Word::Union)
         {
@@ -69,7 +47,7 @@ impl Evaluator<'_> {
     }
 
     /// Reports an unsupported word without its block: `looks_like sphere { … }`, `radiosity` alone.
-    fn block_is_missing(&mut self, token: &Token, word: Word) {
+    pub(super) fn block_is_missing(&mut self, token: &Token, word: Word) {
         let has_block = matches!(
             word,
             Word::LooksLike
@@ -124,11 +102,6 @@ impl Evaluator<'_> {
             && let Some(reported) = self.bare_points(1, 0)
         {
             return Err(reported);
-        }
-        if wanted.starts_with("a number of lights") {
-            let given = self.number_after(token, wanted)?;
-            self.lights_of_a_side(&given);
-            return Ok(());
         }
         let given = self.given(token, wanted)?;
         match &given.value {

@@ -47,6 +47,7 @@ fn lit_mirror() -> (World, Origins) {
             color: Rgb::WHITE,
             casts_shadows: true,
             attenuation: None,
+            area: None,
         }],
         ..World::default()
     };

@@ -134,6 +134,7 @@ impl Built {
             color: Rgb::gray(intensity),
             casts_shadows: true,
             attenuation: None,
+            area: None,
         });
         self
     }

@@ -28,6 +28,8 @@ pub(super) struct Written {
     pub fade: Fade,
     /// The numbers as written.
     pub numbers: Vec<(Word, Given<f64>)>,
+    /// The last `circular` or `orient`.
+    pub round_area: Option<Token>,
     /// Keywords that are invalid for a light without a position.
     pub of_a_place: Vec<Token>,
 }
@@ -53,6 +55,7 @@ impl Written {
             tightness: 0.0,
             fade: light.and_then(|light| light.fade).unwrap_or(Fade { distance: 0.0, power: 0.0 }),
             numbers: Vec::new(),
+            round_area: None,
             of_a_place: Vec::new(),
         };
         match light.map(|light| &light.kind) {

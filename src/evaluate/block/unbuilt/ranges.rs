@@ -128,9 +128,4 @@ impl Evaluator<'_> {
         self.poison = outer;
         true
     }
-
-    /// Checks the number of lights along a side of an `area_light`.
-    pub(super) fn lights_of_a_side(&mut self, given: &Given<f64>) {
-        self.within(given, Word::AreaLight, &ONE_OR_MORE);
-    }
 }
