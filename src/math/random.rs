@@ -7,6 +7,8 @@ mod draw;
 #[cfg(test)]
 pub(crate) use draw::{long, tries, tries_in};
 
+use super::Vector;
+
 /// A small pseudorandom generator.
 ///
 /// **Source:** G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014
@@ -18,6 +20,14 @@ impl Random {
     /// Returns an independent generator for one of many users of a seed.
     pub fn of(seed: u64, thing: u64) -> Self {
         Self(Self(seed ^ Self(thing).bits()).bits())
+    }
+
+    /// Returns the generator of what happens at a point, for one of many users of a seed, which is numbered by `things`.
+    pub fn at(seed: u64, point: Vector, things: [u64; 2]) -> Self {
+        // Zero has no sign.
+        let place = point.to_array().map(|coordinate| (coordinate + 0.0).to_bits());
+        let things = place.into_iter().chain(things);
+        Self(things.fold(seed, |seed, thing| Self::of(seed, thing).bits()))
     }
 
     pub fn bits(&mut self) -> u64 {

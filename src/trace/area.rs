@@ -369,11 +369,7 @@ fn facing(side: Vector, direction: Vector) -> [Vector; 2] {
 
 /// Returns the random numbers of a node of a light, as it lights a point.
 fn random(point: Vector, light: usize, node: [u32; 2]) -> Random {
-    // Zero has no sign.
-    let bits = |number: f64| (number + 0.0).to_bits();
-    let node = u64::from(node[0]) << 32 | u64::from(node[1]);
-    let things = [bits(point.x), bits(point.y), bits(point.z), light as u64, node];
-    Random(things.into_iter().fold(SEED, |seed, thing| Random::of(seed, thing).bits()))
+    Random::at(SEED, point, [light as u64, u64::from(node[0]) << 32 | u64::from(node[1])])
 }
 
 impl<'a> Tracer<'a> {

@@ -12,11 +12,7 @@ const SEED: u64 = 0x6372_616e_6400_0000;
 /// Returns the random number of a light at a point of a surface, uniform in 0 … 1; `part` is the place of its
 /// finish in the texture.
 pub(super) fn random(point: Vector, light: usize, part: u32) -> f64 {
-    // Zero has no sign.
-    let bits = |number: f64| (number + 0.0).to_bits();
-    let things = [bits(point.x), bits(point.y), bits(point.z), light as u64, u64::from(part)];
-    let seed = things.into_iter().fold(SEED, |seed, thing| Random::of(seed, thing).bits());
-    Random(seed).number(0.0, 1.0)
+    Random::at(SEED, point, [light as u64, u64::from(part)]).number(0.0, 1.0)
 }
 
 #[cfg(test)]

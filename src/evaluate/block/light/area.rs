@@ -7,11 +7,15 @@ use crate::vocabulary::Word;
 
 use super::super::super::stream::{Token, TokenKind};
 use super::super::super::{Evaluator, Outcome, Reported};
+use super::super::Given;
 use super::super::range::Range;
 use super::{Written, transforms_of};
 
 /// The numbers of lights along a side.
 const NODES: Range = Range::new(|n| n >= 1.0, "1 or more");
+
+/// The most lights of a grid: what comes from each of them to a place is kept.
+const MOST_NODES: f64 = 1e6;
 
 impl Evaluator<'_> {
     /// Reads a word of area lights, and what belongs to it.
@@ -58,17 +62,20 @@ impl Evaluator<'_> {
     fn grid(&mut self, token: &Token) -> Outcome<([Vector; 2], [u32; 2])> {
         let first = self.vector_after(token, "a vector for one side")?.value;
         let second = self.vector_after(token, "a vector for the other side")?.value;
-        let nodes = [
-            self.nodes(token, "a number of lights along the first side")?,
-            self.nodes(token, "a number of lights along the second side")?,
-        ];
-        Ok(([first, second], nodes))
+        let (m, _) = self.nodes(token, "a number of lights along the first side")?;
+        let (n, given) = self.nodes(token, "a number of lights along the second side")?;
+        let all = f64::from(m) * f64::from(n);
+        if all > MOST_NODES {
+            let wanted = "a million lights or less, along both sides together";
+            return Err(self.out_of_range(&given.with(all), Word::AreaLight, wanted));
+        }
+        Ok(([first, second], [m, n]))
     }
 
-    fn nodes(&mut self, token: &Token, wanted: &str) -> Outcome<u32> {
+    fn nodes(&mut self, token: &Token, wanted: &str) -> Outcome<(u32, Given<f64>)> {
         let given = self.number_after(token, wanted)?;
         self.ranged(&given, Word::AreaLight, &NODES)?;
-        Ok(self.counted(&given) as u32)
+        Ok((self.counted(&given) as u32, given))
     }
 
     /// Checks the shape of an area light, after all of its words.
