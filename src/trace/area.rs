@@ -190,7 +190,7 @@ pub(super) fn visible(
     let mut sum = Rgb::BLACK;
     let mut blocks = vec![Block::new([0; 2], area.nodes.map(|count| count - 1), 1.0)];
     let mut divisions = 0;
-    while !blocks.is_empty() {
+    while !blocks.is_empty() && !walk.patience.is_over {
         for block in &mut blocks {
             let corners = block.corner_nodes();
             block.corners = corners.map(|node| nodes.place(area, node));
@@ -229,6 +229,11 @@ fn differ(corners: &[Rgb; 4], color: Rgb) -> bool {
 fn search(tracer: &Tracer, walk: &mut Walk, of: AreaLight, ground: &Ground, nodes: &mut Nodes) {
     let Nodes { factors, asked, .. } = nodes;
     for asked in asked.chunks(SLICE) {
+        // Of no meaning any more, as all of the batch.
+        if walk.patience.is_over_after(asked.len() as u32, tracer.watch) {
+            factors.extend(asked.iter().map(|_| Rgb::BLACK));
+            continue;
+        }
         let aimed = asked.iter().map(|&node| {
             let kind = node_kind(of, ground.place.point, node);
             // The side is that of the surface's point, and the aim that of where the ray starts.
