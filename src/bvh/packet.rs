@@ -15,19 +15,22 @@ use smallvec::SmallVec;
 
 use super::{Child, Node, OUTWARD, STACK, Seeker, Space, Tree, starts};
 use crate::math::Lanes;
-use crate::math::ray::Ray;
+use crate::math::wide::{ROW, Rays, Row, numbers};
 
 /// The most rays of a packet.
-pub const MOST: usize = 16;
+pub const MOST: usize = ROW;
 const WIDTH: usize = 4;
 const GROUPS: usize = MOST / WIDTH;
 /// Fewer rays are faster one by one.
-pub const LEAST: usize = 4;
+pub const LEAST: u32 = 4;
 
 /// Looks for something for each ray of a packet among the pieces that it may meet.
 pub trait PacketSeeker {
-    /// Looks at a run of pieces for the ray of this number; returns its limit from then on (−∞ ends its search).
-    fn leaf(&mut self, ray: usize, pieces: Range<usize>, limit: f64) -> f64;
+    /// Looks at a run of pieces for the rays whose bits are set.
+    fn leaf(&mut self, mask: u32, pieces: Range<usize>);
+
+    /// Returns how far each ray goes; −∞ where its search has ended.
+    fn limits(&self) -> &Row;
 
     /// Takes note of a visit to a node.
     fn node(&mut self);
@@ -40,8 +43,9 @@ struct Alone<'a, S> {
 }
 
 impl<S: PacketSeeker> Seeker for Alone<'_, S> {
-    fn leaf(&mut self, pieces: Range<usize>, limit: f64) -> f64 {
-        self.seeker.leaf(self.ray, pieces, limit)
+    fn leaf(&mut self, pieces: Range<usize>, _: f64) -> f64 {
+        self.seeker.leaf(1 << self.ray, pieces);
+        self.seeker.limits()[self.ray]
     }
 
     fn node(&mut self) {
@@ -74,14 +78,14 @@ struct PacketAxis {
 
 impl Packet {
     /// `None` where the rays do not all go the same way along each axis, or one starts too far off.
-    fn new(rays: &[&Ray], limits: &[f64], space: &Space) -> Option<Self> {
+    fn new(rays: &Rays, limits: &Row, space: &Space) -> Option<Self> {
         // The starts and the reciprocals by axis; in lanes without a ray, those of the first.
-        let first = starts(rays.first()?, 0.0, space)?;
+        let first = starts(&rays.at(numbers(rays.mask).next()?), 0.0, space)?;
         let mut all = first.map(|axis| axis.map(|value| [value; MOST]));
         let mut out = [f32::NEG_INFINITY; MOST];
-        for (number, (ray, limit)) in rays.iter().zip(limits).enumerate() {
-            let starts = starts(ray, 0.0, space)?;
-            out[number] = space.limit(*limit);
+        for number in numbers(rays.mask) {
+            let starts = starts(&rays.at(number), 0.0, space)?;
+            out[number] = space.limit(limits[number]);
             for axis in 0..3 {
                 if (starts[axis][2] < 0.0) != (first[axis][2] < 0.0) {
                     return None;
@@ -173,37 +177,33 @@ impl Tree {
     /// Shows `seeker`, for each of up to [`MOST`] rays, every run of pieces whose box it meets at its limit or
     /// before. Fast where the rays go much the same way.
     #[inline(never)]
-    pub fn visit_together(
-        &self,
-        rays: &[&Ray],
-        limits: &mut [f64],
-        seeker: &mut impl PacketSeeker,
-    ) {
-        let packet =
-            (rays.len() >= LEAST).then(|| Packet::new(rays, limits, &self.space)).flatten();
+    pub fn visit_together(&self, rays: &Rays, seeker: &mut impl PacketSeeker) {
+        let mut limits = *seeker.limits();
+        let packet = (rays.mask.count_ones() >= LEAST)
+            .then(|| Packet::new(rays, &limits, &self.space))
+            .flatten();
         let Some(mut packet) = packet else {
-            for (ray, (line, limit)) in rays.iter().zip(limits).enumerate() {
-                self.visit(line, 0.0, *limit, &mut Alone { seeker, ray });
+            for ray in numbers(rays.mask) {
+                self.visit(&rays.at(ray), 0.0, limits[ray], &mut Alone { seeker, ray });
             }
             return;
         };
-        let groups = rays.len().div_ceil(WIDTH);
+        let groups = (u32::BITS - rays.mask.leading_zeros()).div_ceil(WIDTH as u32) as usize;
         let mut stack: SmallVec<[Waiting; STACK]> = SmallVec::new();
         let mut next = Waiting { child: Child::node(0), ..Waiting::default() };
         loop {
             let Waiting { child, node, lane, group: first, .. } = next;
             if child.is_leaf() {
                 let node = &self.nodes[node as usize];
-                for group in first..groups {
-                    let mut mask = packet.enter(group, node, lane as usize);
-                    while mask != 0 {
-                        let lane = (mask.trailing_zeros() & 3) as usize;
-                        mask &= mask - 1;
-                        let ray = WIDTH * group + lane;
-                        let reached = seeker.leaf(ray, child.pieces(), limits[ray]);
+                let enters = |group| packet.enter(group, node, lane as usize) << (WIDTH * group);
+                let mask = (first..groups).fold(0, |mask, group| mask | enters(group));
+                if mask != 0 {
+                    seeker.leaf(mask, child.pieces());
+                    for ray in numbers(mask) {
+                        let reached = seeker.limits()[ray];
                         if reached != limits[ray] {
                             limits[ray] = reached;
-                            packet.limits[group][lane] = self.space.limit(reached);
+                            packet.limits[ray / WIDTH][ray % WIDTH] = self.space.limit(reached);
                             packet.limit = packet.greatest_limit();
                         }
                     }

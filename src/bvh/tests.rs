@@ -3,6 +3,8 @@
 use super::packet::PacketSeeker;
 use super::*;
 use crate::math::random::{Random, tries};
+use crate::math::wide::{Rays, Row};
+use std::array::from_fn;
 
 #[test]
 fn the_boxes_of_a_tree_hold_the_boxes_they_stand_for() {
@@ -98,12 +100,19 @@ fn the_greatest_extent_is_that_of_all_pieces() {
 struct Noted<'a> {
     order: &'a [u32],
     shown: Vec<Vec<bool>>,
+    limits: Row,
 }
 
 impl PacketSeeker for Noted<'_> {
-    fn leaf(&mut self, ray: usize, pieces: Range<usize>, limit: f64) -> f64 {
-        self.order[pieces].iter().for_each(|&piece| self.shown[ray][piece as usize] = true);
-        limit
+    fn leaf(&mut self, mask: u32, pieces: Range<usize>) {
+        for (_, shown) in self.shown.iter_mut().enumerate().filter(|(ray, _)| mask >> ray & 1 == 1)
+        {
+            self.order[pieces.clone()].iter().for_each(|&piece| shown[piece as usize] = true);
+        }
+    }
+
+    fn limits(&self) -> &Row {
+        &self.limits
     }
 
     fn node(&mut self) {}
@@ -129,13 +138,11 @@ fn every_box_that_a_ray_of_a_packet_meets_is_shown_for_it() {
                     direction: (main + random.point(spread)).normalize(),
                 })
                 .collect();
-            let given: Vec<f64> =
-                rays.iter().map(|_| [f64::INFINITY, size][random.below(2)]).collect();
+            let limits: Row = from_fn(|_| [f64::INFINITY, size][random.below(2)]);
             let shown = vec![vec![false; count]; rays.len()];
-            let mut noted = Noted { order: &order, shown };
-            let together: Vec<&Ray> = rays.iter().collect();
-            tree.visit_together(&together, &mut given.clone(), &mut noted);
-            for ((ray, limit), shown) in rays.iter().zip(given).zip(noted.shown) {
+            let mut noted = Noted { order: &order, shown, limits };
+            tree.visit_together(&Rays::new(rays.iter()), &mut noted);
+            for ((ray, limit), shown) in rays.iter().zip(limits).zip(noted.shown) {
                 for (bounds, shown) in all.iter().zip(shown) {
                     let met = is_met(bounds, ray, 0.0, limit);
                     assert!(shown || !met, "{bounds:?} {ray:?} of {}", rays.len());

@@ -4,9 +4,13 @@
 //! only.
 
 use crate::math::Vector;
+use crate::math::wide::*;
 use crate::shape::Ray;
 
 pub(super) const LANES: usize = 4;
+
+/// For the rounding of the test.
+const SLACK: f64 = 1.0 + 32.0 * f64::EPSILON;
 
 /// Four balls by coordinates, so that they are tested two to an instruction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,10 +77,23 @@ impl Balls {
         self.met_from(ray, f64::INFINITY)
     }
 
+    /// Of rays that may meet the ball of a lane.
+    #[inline(always)]
+    pub fn met_by_four<S: Simd>(&self, simd: S, lane: usize, ray: &WideRay<S>) -> Mask<S> {
+        let [x, y, z] = &self.centres;
+        let centre = WideVector::splat(simd, Vector::new(x[lane], y[lane], z[lane]));
+        let start = ray.origin - centre;
+        let along = start.dot(ray.direction);
+        let toward = along.simd_lt(all(simd, 0.0)).select(along, all(simd, 0.0));
+        let excess = start.length_squared() - toward * toward * all(simd, SLACK);
+        let excess = excess - all(simd, self.reaches_squared[lane]);
+        // What is no number is no miss.
+        !excess.simd_gt(all(simd, 0.0))
+    }
+
     /// Of a ray that starts so far behind its start.
     #[inline(always)]
     fn met_from(&self, ray: &Ray, most: f64) -> u32 {
-        const SLACK: f64 = 1.0 + 32.0 * f64::EPSILON;
         let [origin, direction] = [ray.origin, ray.direction].map(|v| v.to_array());
         let mut excess = [0.0; LANES];
         for (lane, excess) in excess.iter_mut().enumerate() {

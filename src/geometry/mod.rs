@@ -14,8 +14,10 @@ mod extent;
 mod nearest;
 mod occluder;
 mod polyhedron;
+mod race;
 pub mod reach;
 mod search;
+mod shades;
 mod sides;
 mod span;
 mod surface;
@@ -26,10 +28,11 @@ mod work;
 pub use crate::bvh::packet::MOST as TOGETHER;
 pub use nearest::Hit;
 pub use occluder::Occluder;
-pub use surface::{shading_normal, spread, surface};
+pub use surface::{SurfacePoints, shading_normal, spread, surface};
 pub use work::Work;
 
 use crate::bvh::Tree;
+use crate::math::wide::Instructions;
 use crate::shape::local::{Local, Met};
 use crate::shape::{Bounds, Box_, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere};
 use crate::world::{Object, World};
@@ -62,6 +65,7 @@ pub struct Geometry {
     wholes: Vec<Whole>,
     /// Whether it counts what its searches take.
     counts: bool,
+    instructions: Instructions,
     /// What the camera's rays meet, where that is not all.
     in_image: Option<Box<Geometry>>,
     /// What mirrored rays meet, likewise.
@@ -142,6 +146,7 @@ impl Geometry {
             placed: Vec::with_capacity(world.placed.len()),
             wholes: Vec::with_capacity(world.csg_solids.len()),
             counts: false,
+            instructions: Instructions::best(),
             in_image: None,
             in_reflections: None,
         };
@@ -167,6 +172,21 @@ impl Geometry {
     pub fn counting(mut self) -> Self {
         self.counts = true;
         self.parts(Self::counting)
+    }
+
+    /// Whether it has a tree: rays that start close together are then searched for together in less time.
+    pub fn has_tree(&self) -> bool {
+        self.tree.is_some()
+    }
+
+    pub fn instructions(&self) -> Instructions {
+        self.instructions
+    }
+
+    /// The same geometry, searched with these instructions.
+    pub fn with(mut self, instructions: Instructions) -> Self {
+        self.instructions = instructions;
+        self.parts(|part| part.with(instructions))
     }
 
     fn parts(mut self, change: impl Fn(Self) -> Self) -> Self {

@@ -3,12 +3,12 @@
 //! **Invariant:** the answer does not depend on the order of the search; only what error bounds cannot
 //! tell apart is decided by rank.
 
-use smallvec::SmallVec;
-
+use super::race::Races;
 use super::search::{Each, Seeker};
 use super::work::{Tally, Uncounted};
 use super::{EASY, Geometry, TIGHT, Work};
 use crate::bvh::packet;
+use crate::math::wide::{Rays, numbers};
 use crate::shape::Ray;
 use crate::shape::local::Met;
 
@@ -66,38 +66,23 @@ impl Geometry {
         self.nearest_with(ray, Uncounted)
     }
 
-    /// As [`Geometry::nearest_counted`] for up to [`packet::MOST`] rays, which are found together where they go
-    /// much the same way: adds a hit for each to `hits`.
-    pub fn nearest_together(&self, rays: &[&Ray], hits: &mut Vec<Hit>, work: &mut Work) {
-        if self.counts {
-            let mut works = [Work::default(); packet::MOST];
-            self.race_together(rays, hits, works.iter_mut());
-            works.into_iter().for_each(|one| *work += one);
-            return;
+    /// As [`Geometry::nearest_counted`] for rays side by side: adds a hit for each to `hits`.
+    pub fn nearest_together(&self, rays: &Rays, hits: &mut Vec<Hit>, work: &mut Work) {
+        match self.counts {
+            true => self.race_together(rays, hits, work),
+            false if rays.mask.count_ones() < packet::LEAST => {
+                let alone = |number| self.nearest_with(&rays.at(number), Uncounted);
+                hits.extend(numbers(rays.mask).map(alone));
+            }
+            false => self.race_together(rays, hits, Uncounted),
         }
-        if self.tree.is_none() || rays.len() < packet::LEAST {
-            hits.extend(rays.iter().map(|ray| self.nearest_with(ray, Uncounted)));
-            return;
-        }
-        let tallies = std::iter::repeat_with(|| Uncounted);
-        self.race_together(rays, hits, tallies);
     }
 
     #[inline(never)]
-    fn race_together<T: Tally>(
-        &self,
-        rays: &[&Ray],
-        hits: &mut Vec<Hit>,
-        tallies: impl Iterator<Item = T>,
-    ) {
-        let mut races: SmallVec<[Race<T>; packet::MOST]> = SmallVec::new();
-        for (ray, tally) in rays.iter().zip(tallies) {
-            races.push(Race::new(self, ray, tally));
-        }
-        self.search_together(rays, [f64::INFINITY; packet::MOST], &mut races);
-        for race in races {
-            hits.push(race.finish());
-        }
+    fn race_together<T: Tally>(&self, rays: &Rays, hits: &mut Vec<Hit>, tally: T) {
+        let mut races = Races::new(self, rays, tally);
+        self.search_together(rays, &mut races);
+        races.finish(hits);
     }
 
     /// Apart from the common path, which stays short.
@@ -166,21 +151,21 @@ impl Geometry {
 }
 
 /// Looks for the nearest crossing, and for another that may be as near.
-struct Race<'a, T> {
-    geometry: &'a Geometry,
-    ray: &'a Ray,
+pub(super) struct Race<'a, T> {
+    pub geometry: &'a Geometry,
+    pub ray: &'a Ray,
     /// The nearest crossing so far. Field by field: a whole [`Hit`] would be read before its parts are written.
-    object: u32,
-    t: f64,
-    leaving: bool,
-    part: u32,
-    is_contested: bool,
+    pub object: u32,
+    pub t: f64,
+    pub leaving: bool,
+    pub part: u32,
+    pub is_contested: bool,
     /// Its t + 2·error: what is farther is certainly not first. Whether another crossing is at this
     /// or before is the same as with the least t + 2·error of all: that other's is not before its t.
-    limit: f64,
+    pub limit: f64,
     /// The least t among the others.
-    rival_t: f64,
-    tally: T,
+    pub rival_t: f64,
+    pub tally: T,
 }
 
 impl<'a, T: Tally> Race<'a, T> {
@@ -197,7 +182,7 @@ impl<'a, T: Tally> Race<'a, T> {
 
     /// The first surface, once all entries that may be met were looked at.
     #[inline(always)]
-    fn finish(self) -> Hit {
+    pub fn finish(self) -> Hit {
         let Self { geometry, ray, limit, .. } = self;
         let hit = match self.contested() {
             true => geometry.first_with(ray, self.tally),

@@ -1,11 +1,11 @@
 //! Whether something stands between a place and a light.
 
-use smallvec::SmallVec;
-
-use super::search::Seeker;
+use super::search::{RowSeeker, Seeker};
+use super::shades::Shades;
 use super::work::{Tally, Uncounted};
 use super::{EASY, Entry, Geometry, Hit, Sides, Solid, TIGHT, Work};
 use crate::bvh::packet;
+use crate::math::wide::*;
 use crate::shape::Ray;
 use crate::shape::local::Met;
 
@@ -37,66 +37,48 @@ impl Geometry {
         }
     }
 
-    /// Whether [`Geometry::occluded`], for each of up to [`packet::MOST`] rays with its distance, which are searched
-    /// together where they go much the same way: a bit for each. `guess` becomes what shadowed the last of them.
+    /// Whether [`Geometry::occluded`], for rays side by side, each with its distance: a bit for each. `guess` becomes
+    /// what shadowed the last of them.
     pub fn occluded_together(
         &self,
-        rays: &[&Ray],
-        distances: &[f64],
+        rays: &Rays,
+        distances: &Row,
         guess: &mut Occluder,
         work: &mut Work,
     ) -> u32 {
-        if self.tree.is_none() || rays.len() < packet::LEAST {
-            let mut found = 0;
-            for (place, (ray, &distance)) in rays.iter().zip(distances).enumerate() {
-                let occluder = self.occluder(ray, distance, *guess, work);
-                if occluder != Occluder::NONE {
-                    (*guess, found) = (occluder, found | 1 << place);
-                }
+        if rays.mask.count_ones() >= packet::LEAST {
+            return match self.counts {
+                true => self.shadows_together(rays, distances, guess, work),
+                false => self.shadows_together(rays, distances, guess, Uncounted),
+            };
+        }
+        let mut found = 0;
+        for number in numbers(rays.mask) {
+            let distance = distances[number];
+            let occluder = self.occluder(&rays.at(number), distance, *guess, work);
+            if occluder != Occluder::NONE {
+                (*guess, found) = (occluder, found | 1 << number);
             }
-            return found;
         }
-        if self.counts {
-            let mut works = [Work::default(); packet::MOST];
-            let found = self.shadows_together(rays, distances, guess, works.iter_mut());
-            works.into_iter().for_each(|one| *work += one);
-            return found;
-        }
-        self.shadows_together(rays, distances, guess, std::iter::repeat_with(|| Uncounted))
+        found
     }
 
     #[inline(never)]
     fn shadows_together<T: Tally>(
         &self,
-        rays: &[&Ray],
-        distances: &[f64],
+        rays: &Rays,
+        distances: &Row,
         guess: &mut Occluder,
-        tallies: impl Iterator<Item = T>,
+        tally: T,
     ) -> u32 {
-        let mut limits = [f64::NEG_INFINITY; packet::MOST];
-        let mut shades: SmallVec<[Shade<T>; packet::MOST]> = SmallVec::new();
-        let guessed = self.entries.get(guess.0);
-        let mut is_done = true;
-        for (place, ((ray, &distance), tally)) in
-            rays.iter().zip(distances).zip(tallies).enumerate()
-        {
-            let mut shade = Shade { geometry: self, ray, distance, found: Occluder::NONE, tally };
-            match guessed.is_some_and(|entry| shade.shadows(entry)) {
-                true => shade.found = *guess,
-                false => (limits[place], is_done) = (distance, false),
-            }
-            shades.push(shade);
+        let mut shades = Shades::new(self, rays, distances, tally);
+        if guess.0 < self.entries.len() {
+            dispatch!(self.instructions.level(), simd => shades.look(simd, guess.0, rays.mask));
         }
-        if !is_done {
-            self.search_together(rays, limits, &mut shades);
+        if shades.open() != 0 {
+            self.search_together(rays, &mut shades);
         }
-        let mut found = 0;
-        for (place, shade) in shades.iter().enumerate() {
-            if shade.found != Occluder::NONE {
-                (*guess, found) = (shade.found, found | 1 << place);
-            }
-        }
-        found
+        shades.finish(guess)
     }
 
     #[inline(never)]
@@ -128,26 +110,31 @@ struct Shade<'a, T> {
 impl<T: Tally> Shade<'_, T> {
     #[inline(always)]
     fn shadows(&mut self, entry: &Entry) -> bool {
-        if !entry.blocks {
-            return false;
-        }
         let Self { geometry, ray, distance, .. } = *self;
-        self.tally.root_solve(|| geometry.price(entry));
-        if let Solid::Whole(whole) = entry.solid {
-            return geometry.whole_shadows(whole, ray, distance);
+        if entry.blocks {
+            self.tally.root_solve(|| geometry.price(entry));
         }
-        if let (Solid::Placed(i), Sides::Both) = (entry.solid, entry.sides) {
-            let shadows = |met: &Met| Sides::Both.see(met) && met.t + met.error < distance;
-            return geometry.placed[i as usize].crosses(ray, distance, shadows);
-        }
-        let crossing = geometry.first_crossing::<EASY>(entry, ray, distance);
-        crossing.is_some_and(|Hit { t, error, .. }| {
-            t + error < distance || geometry.barely_shadows(entry, ray, distance)
-        })
+        entry.blocks && geometry.shadows(entry, ray, distance)
     }
 }
 
 impl Geometry {
+    /// Whether an entry that stops light does so before `distance`.
+    #[inline(always)]
+    pub(super) fn shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
+        if let Solid::Whole(whole) = entry.solid {
+            return self.whole_shadows(whole, ray, distance);
+        }
+        if let (Solid::Placed(i), Sides::Both) = (entry.solid, entry.sides) {
+            let shadows = |met: &Met| Sides::Both.see(met) && met.t + met.error < distance;
+            return self.placed[i as usize].crosses(ray, distance, shadows);
+        }
+        let crossing = self.first_crossing::<EASY>(entry, ray, distance);
+        crossing.is_some_and(|Hit { t, error, .. }| {
+            t + error < distance || self.barely_shadows(entry, ray, distance)
+        })
+    }
+
     /// Whether one of its opaque leaves' surfaces does.
     fn whole_shadows(&self, whole: u32, ray: &Ray, distance: f64) -> bool {
         let crossing = self.first_of_whole(whole, ray, distance, |leaf| leaf.blocks);

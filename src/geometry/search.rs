@@ -6,8 +6,9 @@ use std::ops::Range;
 
 use super::work::Tally;
 use super::{Entry, Geometry, Solid, balls};
-use crate::bvh::packet::{self, PacketSeeker};
+use crate::bvh::packet::PacketSeeker;
 use crate::bvh::{self, Tree};
+use crate::math::wide::*;
 use crate::shape::Ray;
 
 /// Who looks for something among the entries.
@@ -81,58 +82,90 @@ impl Geometry {
     }
 }
 
+/// Who looks for something among the entries, for rays side by side.
+pub(super) trait RowSeeker {
+    /// Looks at the entry of that place for the rays whose bits are set, and perhaps for others.
+    fn look<S: Simd>(&mut self, simd: S, place: usize, mask: u32);
+
+    /// Returns a bit for each ray whose search goes on.
+    fn open(&self) -> u32;
+
+    /// Returns how far each ray goes; −∞ where its search has ended.
+    fn limits(&self) -> &Row;
+
+    /// Takes note of a visit to a node, of all rays together.
+    fn box_visit(&mut self);
+}
+
 impl Geometry {
-    /// [`Self::search`] for each of up to [`packet::MOST`] rays that go much the same way, each with its seeker and
-    /// its limit; a ray of limit −∞ is left out.
-    pub(super) fn search_together(
-        &self,
-        rays: &[&Ray],
-        mut limits: [f64; packet::MOST],
-        seekers: &mut [impl Seeker],
-    ) {
+    /// [`Self::search`] for rays side by side.
+    #[inline(always)]
+    pub(super) fn search_together(&self, rays: &Rays, seeker: &mut impl RowSeeker) {
+        dispatch!(self.instructions.level(), simd => self.search_row(simd, rays, seeker));
+    }
+
+    #[inline(always)]
+    fn search_row<S: Simd>(&self, simd: S, rays: &Rays, seeker: &mut impl RowSeeker) {
+        for (place, entry) in self.entries[..self.unbounded].iter().enumerate() {
+            let mask = seeker.open() & entry.ahead_of(simd, rays);
+            if mask != 0 {
+                seeker.look(simd, place, mask);
+            }
+        }
         let Some(tree) = &self.tree else {
-            for ((ray, limit), seeker) in rays.iter().zip(limits).zip(seekers) {
-                if limit > f64::NEG_INFINITY {
-                    self.search(ray, limit, seeker);
+            for place in self.unbounded..self.entries.len() {
+                let bounded = place - self.unbounded;
+                let (group, lane) = (bounded / balls::LANES, bounded % balls::LANES);
+                let mut met = 0;
+                for rays_of in 0..GROUPS {
+                    if has(seeker.open(), rays_of) {
+                        let ray = rays.four(simd, rays_of);
+                        met |= bits(self.balls[group].met_by_four(simd, lane, &ray), rays_of);
+                    }
+                }
+                let mask = seeker.open() & met;
+                if mask != 0 {
+                    seeker.look(simd, place, mask);
                 }
             }
             return;
         };
-        for ((ray, seeker), limit) in rays.iter().zip(&mut *seekers).zip(&mut limits) {
-            for place in 0..self.unbounded {
-                if *limit > f64::NEG_INFINITY && self.entries[place].is_ahead(ray) {
-                    *limit = look(seeker, place);
-                }
-            }
-        }
-        let mut packet = PacketEntries { seekers, first: self.unbounded };
-        tree.visit_together(rays, &mut limits, &mut packet);
+        tree.visit_together(rays, &mut PacketEntries { seeker, geometry: self });
     }
 }
 
-/// Shows the seeker of each ray the entries of the tree's leaves, one by one.
+/// Shows the seeker of rays the entries of the tree's leaves, one by one.
 struct PacketEntries<'a, S> {
-    seekers: &'a mut [S],
-    /// The place of the tree's first piece.
-    first: usize,
+    seeker: &'a mut S,
+    geometry: &'a Geometry,
 }
 
-impl<S: Seeker> PacketSeeker for PacketEntries<'_, S> {
+impl<K: RowSeeker> PacketEntries<'_, K> {
     #[inline(always)]
-    fn leaf(&mut self, ray: usize, pieces: Range<usize>, mut limit: f64) -> f64 {
+    fn look<S: Simd>(&mut self, simd: S, pieces: Range<usize>, mask: u32) {
         for piece in pieces {
-            limit = self.seekers[ray].look(self.first + piece);
-            if limit == f64::NEG_INFINITY {
-                break;
+            let mask = mask & self.seeker.open();
+            if mask != 0 {
+                self.seeker.look(simd, self.geometry.unbounded + piece, mask);
             }
         }
-        limit
+    }
+}
+
+impl<K: RowSeeker> PacketSeeker for PacketEntries<'_, K> {
+    #[inline(always)]
+    fn leaf(&mut self, mask: u32, pieces: Range<usize>) {
+        dispatch!(self.geometry.instructions.level(), simd => self.look(simd, pieces, mask));
+    }
+
+    #[inline(always)]
+    fn limits(&self) -> &Row {
+        self.seeker.limits()
     }
 
     #[inline(always)]
     fn node(&mut self) {
-        // Of all rays together.
-        self.seekers[0].tally().box_visit();
+        self.seeker.box_visit();
     }
 }
 
@@ -173,5 +206,16 @@ impl Entry {
             | Solid::Placed(_)
             | Solid::Whole(_) => true,
         }
+    }
+
+    /// [`Self::is_ahead`] of rays side by side: a bit for each.
+    #[inline(always)]
+    fn ahead_of<S: Simd>(&self, simd: S, rays: &Rays) -> u32 {
+        let Solid::Plane(plane) = &self.solid else { return rays.mask };
+        let mut ahead = 0;
+        for group in 0..GROUPS {
+            ahead |= bits(plane.is_ahead_of_four(simd, &rays.four(simd, group)), group);
+        }
+        ahead
     }
 }

@@ -4,8 +4,9 @@
 
 use super::{Hit, edge};
 use crate::math::Vector;
+use crate::math::wide::*;
 use crate::shape::local::Met;
-use crate::shape::{Chord, Ray, Shape, SurfacePoint};
+use crate::shape::{Chord, Ray, Shape, SurfacePoint, WidePlanes, WidePoints, WideSpheres};
 use crate::world::World;
 
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.
@@ -24,6 +25,147 @@ pub fn surface(world: &World, ray: &Ray, hit: &Hit) -> SurfacePoint {
                 Met::UNKNOWN => placed.surface(ray, t, leaving),
                 _ => placed.surface_of_part(part, ray, t, leaving),
             }
+        }
+    }
+}
+
+/// The surfaces at hits of rays side by side.
+pub struct SurfacePoints {
+    pub points: Rows,
+    normals: Rows,
+    errors: Row,
+    faces: [u32; ROW],
+    /// The normals on the sides that the rays come from.
+    pub facing: Rows,
+    /// The starts of rays that go on from there, on these sides; see [`SurfacePoint::spawn`].
+    pub origins: Rows,
+}
+
+/// The shapes that are met: spheres and planes.
+struct Shapes {
+    /// Centres of spheres, normals of planes.
+    vectors: Rows,
+    /// Radii of spheres, distances of planes.
+    sizes: Row,
+    scales: Row,
+    /// A bit for each.
+    spheres: u32,
+    planes: u32,
+}
+
+impl SurfacePoints {
+    /// Returns the surface of each ray of the mask, as [`surface`] does for one ray.
+    #[inline(always)]
+    pub fn new(
+        world: &World,
+        instructions: Instructions,
+        (rays, mask): (&Rays, u32),
+        hits: &[Hit],
+    ) -> Self {
+        let mut all = Self {
+            points: Rows::ZERO,
+            normals: Rows::ZERO,
+            errors: [0.0; ROW],
+            faces: [0; ROW],
+            facing: Rows::ZERO,
+            origins: Rows::ZERO,
+        };
+        let mut shapes = Shapes {
+            vectors: Rows::ZERO,
+            sizes: [0.0; ROW],
+            scales: [0.0; ROW],
+            spheres: 0,
+            planes: 0,
+        };
+        let (mut others, mut distances, mut leaving) = (0, [0.0; ROW], 0);
+        for number in numbers(mask) {
+            let (hit, bit) = (&hits[number], 1 << number);
+            distances[number] = hit.t;
+            leaving |= if hit.leaving { bit } else { 0 };
+            match world.objects[hit.object as usize].shape {
+                Shape::Sphere(i) => {
+                    let sphere = &world.spheres[i as usize];
+                    shapes.vectors.set(number, sphere.centre);
+                    (shapes.sizes[number], shapes.scales[number]) = (sphere.radius, sphere.scale());
+                    shapes.spheres |= bit;
+                }
+                Shape::Plane(i) => {
+                    let plane = &world.planes[i as usize];
+                    shapes.vectors.set(number, plane.normal.get());
+                    shapes.sizes[number] = plane.distance;
+                    shapes.planes |= bit;
+                }
+                Shape::Box(_) | Shape::Ellipsoid(_) | Shape::Placed(_) => others |= bit,
+            }
+        }
+        others |= dispatch!(
+            instructions.level(),
+            simd => all.solve(simd, rays, &shapes, &distances)
+        ) & mask;
+        for number in numbers(others) {
+            let point = surface(world, &rays.at(number), &hits[number]);
+            all.points.set(number, point.point);
+            all.normals.set(number, point.normal);
+            (all.errors[number], all.faces[number]) = (point.error, point.face);
+        }
+        dispatch!(instructions.level(), simd => all.leave(simd, leaving));
+        all
+    }
+
+    /// Returns the surface of this number.
+    #[inline(always)]
+    pub fn at(&self, number: usize) -> SurfacePoint {
+        SurfacePoint {
+            point: self.points.at(number),
+            normal: self.normals.at(number),
+            error: self.errors[number],
+            face: self.faces[number],
+        }
+    }
+
+    /// Finds the points of spheres and planes; returns a bit for each of which it cannot.
+    #[inline(always)]
+    fn solve<S: Simd>(&mut self, simd: S, rays: &Rays, shapes: &Shapes, distances: &Row) -> u32 {
+        let mut unsure = 0;
+        for group in 0..GROUPS {
+            let (ray, t) = (rays.four(simd, group), four(simd, distances, group));
+            let (vector, size) =
+                (WideVector::of(simd, &shapes.vectors, group), four(simd, &shapes.sizes, group));
+            if has(shapes.spheres, group) {
+                let scale = four(simd, &shapes.scales, group);
+                let spheres = WideSpheres { centre: vector, radius: size, scale };
+                let found = spheres.surface(simd, &ray, t);
+                unsure |= bits(found.unsure, group) & shapes.spheres;
+                self.store(simd, group, shapes.spheres, found);
+            }
+            if has(shapes.planes, group) {
+                let planes = WidePlanes { normal: vector, distance: size };
+                self.store(simd, group, shapes.planes, planes.surface(simd, &ray, t));
+            }
+        }
+        unsure
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(&mut self, simd: S, group: usize, mask: u32, found: WidePoints<S>) {
+        let mask = Mask::from_bitmask(simd, u64::from(mask >> (LANES * group)) & 15);
+        let WidePoints { point, normal, error, .. } = found;
+        point.or(mask, WideVector::of(simd, &self.points, group)).store(&mut self.points, group);
+        normal.or(mask, WideVector::of(simd, &self.normals, group)).store(&mut self.normals, group);
+        store(mask.select(error, four(simd, &self.errors, group)), &mut self.errors, group);
+    }
+
+    /// Finds the sides that rays come from.
+    #[inline(always)]
+    fn leave<S: Simd>(&mut self, simd: S, leaving: u32) {
+        for group in 0..GROUPS {
+            let leaving = Mask::from_bitmask(simd, u64::from(leaving >> (LANES * group)) & 15);
+            let normal = WideVector::of(simd, &self.normals, group);
+            let error = four(simd, &self.errors, group);
+            let origin =
+                WideVector::of(simd, &self.points, group) + normal * leaving.select(-error, error);
+            origin.store(&mut self.origins, group);
+            (-normal).or(leaving, normal).store(&mut self.facing, group);
         }
     }
 }

@@ -31,7 +31,12 @@ impl AddAssign for Work {
 pub(super) trait Tally {
     fn box_visit(&mut self);
     /// Of a shape of this price, which is asked for where it is counted.
-    fn root_solve(&mut self, price: impl FnOnce() -> u64);
+    #[inline(always)]
+    fn root_solve(&mut self, price: impl FnOnce() -> u64) {
+        self.root_solves(1, price);
+    }
+    /// Of a shape of this price, for so many rays.
+    fn root_solves(&mut self, count: u32, price: impl FnOnce() -> u64);
 }
 
 /// Takes note of nothing, and is nothing.
@@ -41,7 +46,7 @@ impl Tally for Uncounted {
     #[inline(always)]
     fn box_visit(&mut self) {}
     #[inline(always)]
-    fn root_solve(&mut self, _: impl FnOnce() -> u64) {}
+    fn root_solves(&mut self, _: u32, _: impl FnOnce() -> u64) {}
 }
 
 impl Tally for Work {
@@ -50,9 +55,9 @@ impl Tally for Work {
         self.box_visits += 1;
     }
     #[inline(always)]
-    fn root_solve(&mut self, price: impl FnOnce() -> u64) {
-        self.root_solves += 1;
-        self.solving += price();
+    fn root_solves(&mut self, count: u32, price: impl FnOnce() -> u64) {
+        self.root_solves += u64::from(count);
+        self.solving += u64::from(count) * price();
     }
 }
 
@@ -62,8 +67,8 @@ impl<T: Tally> Tally for &mut T {
         (**self).box_visit();
     }
     #[inline(always)]
-    fn root_solve(&mut self, price: impl FnOnce() -> u64) {
-        (**self).root_solve(price);
+    fn root_solves(&mut self, count: u32, price: impl FnOnce() -> u64) {
+        (**self).root_solves(count, price);
     }
 }
 

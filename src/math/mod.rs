@@ -18,6 +18,7 @@ pub mod singular;
 pub mod terms;
 pub mod transform;
 pub mod vector;
+pub mod wide;
 
 pub(crate) use vector::reciprocal_power_of_two;
 pub use vector::{AbsDot, Lanes, Matrix, UnitVector, Vector};

@@ -38,6 +38,7 @@ pub mod text;
 pub mod torus;
 mod tree;
 pub mod uv;
+mod wide;
 
 pub use algebraic::Algebraic;
 pub use bicubic_patch::BicubicPatch;
@@ -66,6 +67,7 @@ pub use sphere_sweep::SphereSweep;
 pub use superellipsoid::Superellipsoid;
 pub use text::Text;
 pub use torus::Torus;
+pub(crate) use wide::{First, WidePlanes, WidePoints, WideSpheres};
 
 use crate::math::Vector;
 pub use crate::math::bounds::{Bounds, Rounding};

@@ -11,6 +11,11 @@ pub struct Sphere {
 }
 
 impl Sphere {
+    /// Sums of squares between these neither overflow nor underflow, and neither do their parts, down to the square
+    /// of the roundoff: 2⁻⁹⁰⁰ to 2¹⁰⁰⁰.
+    pub(super) const SAFE_SQUARES: [f64; 2] =
+        [f64::from_bits(123 << 52), f64::from_bits(2023 << 52)];
+
     /// Returns the chord; `None` if the ray's line misses or touches it.
     ///
     /// With f = S − C, b = f·D, q = f − b·D and m = |q|, half the chord is h = √((r − m)(r + m)). The
@@ -52,11 +57,16 @@ impl Sphere {
         }
         let near = ray.slide(self.centre);
         let from_centre = near.offset + ray.direction * (t + near.along);
-        let scale = reciprocal_power_of_two(self.radius);
-        let normal = (from_centre * scale).normalize_or(-ray.direction);
+        let normal = (from_centre * self.scale()).normalize_or(-ray.direction);
         let point = self.centre + normal * self.radius;
         let error = U * (12.0 * self.radius + 2.0 * normal.abs_dot(point));
         SurfacePoint { point, normal, error, face: 0 }
+    }
+
+    /// Returns a power of two that makes the square of the radius a number of ordinary size.
+    #[inline(always)]
+    pub(crate) fn scale(&self) -> f64 {
+        reciprocal_power_of_two(self.radius)
     }
 
     /// Returns the surface point of a planet near `rough`, which is almost on it: the residual of |P − C| − r
@@ -102,13 +112,11 @@ fn is_planet(radius: f64, place: Vector) -> bool {
     (0..3).all(is_larger) && are_safe(square)
 }
 
-/// Returns whether sums of squares of this size neither overflow nor underflow, and neither do their parts,
-/// down to the square of the roundoff: 2⁻⁹⁰⁰ to 2¹⁰⁰⁰.
+/// Returns whether a sum of squares is one of [`Sphere::SAFE_SQUARES`].
 #[inline(always)]
 fn are_safe(squares: f64) -> bool {
-    const LEAST: f64 = f64::from_bits(123 << 52);
-    const MOST: f64 = f64::from_bits(2023 << 52);
-    squares > LEAST && squares < MOST
+    let [least, most] = Sphere::SAFE_SQUARES;
+    squares > least && squares < most
 }
 
 /// |S − C|² − r² in twice the precision, rounded once: within u of itself plus 32u²·r² of the exact value,

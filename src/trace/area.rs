@@ -12,18 +12,17 @@
 //! measured to 1/65,535 with grids of 1 × 1 to 17 × 17 nodes.
 
 use super::Walk;
-use super::batch::SLICE;
 use super::media::Within;
 use super::shade::{self, Place, Side};
 use super::shadow::{self, Aim};
-use super::surface::Stand;
+use super::surface::{Stand, Stands};
 use super::tracer::Tracer;
 use crate::color::Rgb;
 use crate::math::random::Random;
+use crate::math::wide::{ROW, Rays, numbers};
 use crate::math::{UnitVector, Vector};
 use crate::shape::Ray;
 use crate::world::{Area, Light, LightKind};
-use smallvec::SmallVec;
 
 /// Corners that differ by more than this, summed over the components of the light, divide a block.
 const LEAST_DIFFERENCE: f64 = 0.1;
@@ -228,36 +227,33 @@ fn differ(corners: &[Rgb; 4], color: Rgb) -> bool {
 /// Finds the factors of the nodes that are asked for.
 fn search(tracer: &Tracer, walk: &mut Walk, of: AreaLight, ground: &Ground, nodes: &mut Nodes) {
     let Nodes { factors, asked, .. } = nodes;
-    for asked in asked.chunks(SLICE) {
+    for asked in asked.chunks(ROW) {
         // Of no meaning any more, as all of the batch.
         if walk.patience.is_over_after(asked.len() as u32, tracer.watch) {
             factors.extend(asked.iter().map(|_| Rgb::BLACK));
             continue;
         }
-        let aimed = asked.iter().map(|&node| {
+        let (mut rays, mut reaches) = (Rays::NONE, [0.0; ROW]);
+        for (number, &node) in asked.iter().enumerate() {
             let kind = node_kind(of, ground.place.point, node);
             // The side is that of the surface's point, and the aim that of where the ray starts.
-            let toward = shadow::aim(&kind, ground.place.point)?.to_light;
-            let origin = ground.start(toward);
-            let aim = shadow::aim(&kind, origin)?;
-            Some((Ray { origin, direction: aim.to_light }, aim))
-        });
-        let aimed: SmallVec<[Option<(Ray, Aim)>; SLICE]> = aimed.collect();
-        let rays: SmallVec<[&Ray; SLICE]> = aimed.iter().flatten().map(|(ray, _)| ray).collect();
-        let reaches: SmallVec<[f64; SLICE]> =
-            aimed.iter().flatten().map(|(_, aim)| aim.reach).collect();
-        let mut shadowed = shadow::occluded(tracer, walk, of.number, &rays, &reaches);
-        for aimed in &aimed {
-            let Some((ray, aim)) = aimed else {
-                factors.push(Rgb::WHITE);
-                continue;
-            };
-            let is_shadowed = shadowed & 1 == 1;
-            shadowed >>= 1;
-            factors.push(match (is_shadowed, tracer.filters_shadows) {
-                (true, _) => Rgb::BLACK,
-                (false, false) => Rgb::WHITE,
-                (false, true) => tracer.filtered(walk, ground.place.within, ray.origin, aim),
+            let Some(toward) = shadow::aim(&kind, ground.place.point) else { continue };
+            let origin = ground.start(toward.to_light);
+            let Some(Aim { to_light, reach }) = shadow::aim(&kind, origin) else { continue };
+            rays.set(number, &Ray { origin, direction: to_light });
+            reaches[number] = reach;
+        }
+        let shadowed = shadow::shadowed_together(tracer, walk, of.number, &rays, &reaches);
+        for number in 0..asked.len() {
+            let there = |bits: u32| bits >> number & 1 == 1;
+            factors.push(if there(shadowed) {
+                Rgb::BLACK
+            } else if tracer.filters_shadows && there(rays.mask) {
+                let Ray { origin, direction: to_light } = rays.at(number);
+                let aim = Aim { to_light, reach: reaches[number] };
+                tracer.filtered(walk, ground.place.within, origin, &aim)
+            } else {
+                Rgb::WHITE
             });
         }
     }
@@ -394,18 +390,20 @@ impl<'a> Tracer<'a> {
     pub(super) fn light_one_by_one(
         &self,
         walk: &mut Walk,
-        stands: &mut [Stand],
+        stands: &Stands,
         (number, light): (usize, &Light),
+        sums: &mut [Rgb; ROW],
     ) {
-        for Stand { hit, place, surface, local, .. } in stands {
+        for of in numbers(stands.mask) {
+            let Some(Stand { hit, place, surface, .. }) = stands.at(of) else { continue };
             let normal = place.flat.map_or(place.normal, |flat| flat.normal);
             let behind = place.flat.map_or_else(|| surface.spawn(-normal), |flat| flat.behind);
-            let ground = Ground { place, behind, lights: self.lights_of(hit.object) };
+            let ground = Ground { place: &place, behind, lights: self.lights_of(hit.object) };
             if shade::answers(place.finish)
                 && ground.is_lit_by(number)
                 && let Some(lit) = shade::before(self, walk, &ground, (number, light))
             {
-                *local += lit;
+                sums[of] += lit;
             }
         }
     }

@@ -16,13 +16,12 @@ use super::tracer::Tracer;
 use super::way::Way;
 use crate::color::Rgb;
 use crate::geometry::{Hit, TOGETHER};
-use crate::shape::Ray;
-use smallvec::SmallVec;
+use crate::math::wide::{ROW, Rays, numbers};
 
 /// The camera's rays that are traced together, and about the most of a generation.
 const MOST: usize = 64;
 /// Surfaces that are shaded together.
-pub(super) const SLICE: usize = 16;
+pub(super) const SLICE: usize = ROW;
 /// So many generations have all their rays in memory; deeper ones follow one ray at a time.
 const SIDE_BY_SIDE: usize = 64;
 
@@ -195,13 +194,15 @@ impl<'a> Tracer<'a> {
     pub fn each_seen(
         &self,
         walk: &mut Walk,
-        mut rays: impl Iterator<Item = Ray>,
+        mut rows: impl Iterator<Item = Rays>,
         mut look: impl FnMut(Rgb),
     ) {
         let mut batch = std::mem::take(&mut walk.batch);
-        let goes_on = rays.try_for_each(|ray| {
-            batch.ways.push(Way::from_camera(ray, batch.ways.len() as u32));
-            if batch.ways.len() < MOST {
+        let goes_on = rows.try_for_each(|rays| {
+            for number in numbers(rays.mask) {
+                batch.ways.push(Way::from_camera(rays.at(number), batch.ways.len() as u32));
+            }
+            if batch.ways.len() + ROW <= MOST {
                 return ControlFlow::Continue(());
             }
             self.gather(walk, &mut batch, &mut look)
@@ -290,10 +291,10 @@ impl<'a> Tracer<'a> {
         while hits.len() < ways.len() {
             let next = &ways[hits.len()..];
             let met_by = self.met_by(&next[0]);
-            let together = next.iter().take(TOGETHER);
-            let together = together.take_while(|way| std::ptr::eq(self.met_by(way), met_by));
-            let rays: SmallVec<[&Ray; TOGETHER]> = together.map(|way| &way.ray).collect();
-            met_by.nearest_together(&rays, hits, work);
+            let next = &next[..next.len().min(TOGETHER)];
+            let other = next.iter().position(|way| !std::ptr::eq(self.met_by(way), met_by));
+            let together = next[..other.unwrap_or(next.len())].iter().map(|way| &way.ray);
+            met_by.nearest_together(&Rays::new(together), hits, work);
         }
         // A ray that starts inside of an object leaves that first, even where it starts in an edge, too near to the
         // other face to tell.

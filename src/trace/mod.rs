@@ -4,7 +4,7 @@
 //! on the number of threads, on their timing, on the tiles or on what is traced together.
 //!
 //! Rays are traced in batches that pass through stages: the camera makes rays, `batch` follows them from generation
-//! to generation, `batch::intersect` finds what they meet, `surface` tells what is there, `shade` adds the lights,
+//! to generation, `batch::intersect` finds what they meet, `surface` tells what is there, `light` adds the lights,
 //! `transmission` and `layers` send rays on, and what comes back is folded.
 
 mod absorption;
@@ -24,6 +24,7 @@ mod grain;
 mod highlight;
 mod irid;
 mod layers;
+mod light;
 mod media;
 mod metal;
 mod pixels;

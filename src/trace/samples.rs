@@ -4,9 +4,33 @@
 //! has no ray.
 
 use super::Walk;
-use super::camera::{Lens, Point};
+use super::camera::{Flat, Lens, Point};
 use super::tracer::Tracer;
 use crate::color::Rgb;
+use crate::math::wide::{Instructions, ROW, Rays};
+use crate::shape::Ray;
+
+/// Rows of rays through points.
+struct Rows<'a, I> {
+    points: I,
+    flat: &'a Flat,
+    instructions: Instructions,
+}
+
+impl<I: Iterator<Item = Point>> Iterator for Rows<'_, I> {
+    type Item = Rays;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Rays> {
+        let (mut places, mut mask) = ([[0.0; ROW]; 2], 0);
+        for number in 0..ROW {
+            let Some(Point { u, v, .. }) = self.points.next() else { break };
+            (places[0][number], places[1][number]) = (u, v);
+            mask |= 1 << number;
+        }
+        (mask != 0).then(|| self.flat.rays(self.instructions, &places, mask))
+    }
+}
 
 impl Tracer<'_> {
     /// Shows `look` the radiance at each point of the screen, in their order; stops early where the watch wants no
@@ -19,7 +43,10 @@ impl Tracer<'_> {
         mut look: impl FnMut(Rgb),
     ) {
         match lens.plain() {
-            Some(flat) => self.each_seen(walk, points.map(|point| flat.ray(point)), look),
+            Some(flat) => {
+                let rows = Rows { points, flat, instructions: self.geometry.instructions() };
+                self.each_seen(walk, rows, look);
+            }
             None => {
                 let points: Vec<Point> = points.collect();
                 let rays = lens.rays(&points);
@@ -30,7 +57,9 @@ impl Tracer<'_> {
                     evaluations.camera_normal += if lens.has_normal() { sent } else { 0 };
                 }
                 let mut next = 0;
-                self.each_seen(walk, rays.iter().flatten().copied(), |seen| {
+                let sent: Vec<Ray> = rays.iter().flatten().copied().collect();
+                let rows = sent.chunks(ROW).map(|rays| Rays::new(rays.iter()));
+                self.each_seen(walk, rows, |seen| {
                     while rays[next].is_none() {
                         look(Rgb::BLACK);
                         next += 1;

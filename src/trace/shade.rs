@@ -4,19 +4,15 @@
 use super::Walk;
 use super::area::{self, AreaLight, Ground};
 use super::attenuation::attenuated;
-use super::batch::SLICE;
 use super::extras::{self, Lit};
 use super::highlight::{self, Gloss};
 use super::media::Within;
 use super::shadow::{self, Aim};
-use super::surface::Stand;
 use super::tracer::Tracer;
 use crate::color::Rgb;
 use crate::math::Vector;
 use crate::math::power::power;
-use crate::shape::Ray;
 use crate::world::{Finish, Light, LightKind};
-use smallvec::SmallVec;
 
 /// A place on a surface, ready to be lit.
 #[derive(Clone, Copy)]
@@ -132,7 +128,7 @@ pub(super) struct Toward {
 
 /// How a surface lies toward a light; `None` where that is behind it.
 #[inline(always)]
-fn toward(place: &Place, light: &LightKind) -> Option<Toward> {
+pub(super) fn toward(place: &Place, light: &LightKind) -> Option<Toward> {
     let height = shadow::height(light, place.point, place.normal);
     if !(height > 0.0 || (place.finish.seed && height == 0.0)) {
         return None;
@@ -150,7 +146,7 @@ fn toward(place: &Place, light: &LightKind) -> Option<Toward> {
 
 /// What part of a light's intensity a surface sends to the viewer.
 #[inline(always)]
-fn answered(
+pub(super) fn answered(
     place: &Place,
     (number, light): (usize, &Light),
     to_light: Vector,
@@ -166,98 +162,7 @@ fn answered(
     }
 }
 
-/// A ray from a surface toward a light.
-pub(super) struct Arriving {
-    /// The number of the surface.
-    stand: usize,
-    pub ray: Ray,
-    /// What is not nearer than this casts no shadow.
-    pub reach: f64,
-    /// Of the angle to the normal.
-    cosine: f64,
-    /// What of the light's colour comes there if nothing is between.
-    color: Rgb,
-}
-
 impl Tracer<'_> {
-    /// Adds to what surfaces show what they send to the viewer of each light: [`local`] for many, one light after
-    /// the other.
-    #[inline(never)]
-    pub(super) fn light(&self, walk: &mut Walk, stands: &mut [Stand]) {
-        let mut rays: SmallVec<[Arriving; SLICE]> = SmallVec::new();
-        for (number, light) in self.world.lights.iter().enumerate() {
-            if light.area.is_some() || !self.world.light_sets.is_empty() {
-                self.light_one_by_one(walk, stands, (number, light));
-                continue;
-            }
-            let mut object = u32::MAX;
-            for stand in 0..stands.len() {
-                // Rays from one object are close together.
-                if stands[stand].hit.object != object {
-                    object = stands[stand].hit.object;
-                    self.arrive(walk, stands, (number, light), &mut rays);
-                }
-                let place = &stands[stand].place;
-                if !answers(place.finish) {
-                    continue;
-                }
-                let Some(toward) = toward(place, &light.kind) else { continue };
-                let from = (toward.origin, &toward.aim);
-                let color = self.emitted(walk, (light, &light.kind), place.within, from.0, from.1);
-                let Some(color) = color else { continue };
-                let Toward { origin, aim: Aim { to_light, reach }, cosine, .. } = toward;
-                let ray = Ray { origin, direction: to_light };
-                rays.push(Arriving { stand, ray, reach, cosine, color });
-            }
-            self.arrive(walk, stands, (number, light), &mut rays);
-        }
-    }
-
-    /// Adds to what surfaces show what they send to the viewer of a light, where nothing opaque is in the way.
-    #[inline(always)]
-    fn arrive(
-        &self,
-        walk: &mut Walk,
-        stands: &mut [Stand],
-        (number, light): (usize, &Light),
-        rays: &mut SmallVec<[Arriving; SLICE]>,
-    ) {
-        let shadowed = match self.shadows && light.casts_shadows {
-            true => shadow::shadowed_together(self, walk, number, rays),
-            false => 0,
-        };
-        for (place, arriving) in rays.iter().enumerate() {
-            if shadowed >> place & 1 == 0 {
-                self.lit(walk, &mut stands[arriving.stand], (number, light), arriving);
-            }
-        }
-        rays.clear();
-    }
-
-    /// Adds to what a surface shows what it sends to the viewer of a light that no opaque surface keeps away.
-    #[inline(always)]
-    fn lit(
-        &self,
-        walk: &mut Walk,
-        Stand { place, local, .. }: &mut Stand,
-        (number, light): (usize, &Light),
-        arriving: &Arriving,
-    ) {
-        let &Arriving { ray, reach, cosine, mut color, .. } = arriving;
-        let to_light = ray.direction;
-        if self.filters_shadows && light.casts_shadows {
-            let aim = Aim { to_light, reach };
-            color = color * self.filtered(walk, place.within, ray.origin, &aim);
-            if color.is_black() {
-                return;
-            }
-        }
-        if self.counts {
-            count(walk, place.finish, light);
-        }
-        *local += color * answered(place, (number, light), to_light, cosine, 0);
-    }
-
     /// What of a light's colour goes to a point; `None` where none does.
     #[inline(always)]
     pub(super) fn emitted(

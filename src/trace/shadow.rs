@@ -3,17 +3,15 @@
 use std::cmp::Ordering;
 
 use super::Walk;
-use super::batch::SLICE;
 use super::media::Within;
-use super::shade::Arriving;
 use super::texture;
 use super::tracer::Tracer;
 use crate::color::Rgb;
 use crate::geometry::{Hit, Occluder};
+use crate::math::wide::{Rays, Row};
 use crate::math::{UnitVector, Vector};
 use crate::shape::Ray;
 use crate::world::LightKind;
-use smallvec::SmallVec;
 
 /// From a point toward a light.
 #[derive(Clone, Copy)]
@@ -83,29 +81,16 @@ pub(super) fn shadowed(
     occluder != Occluder::NONE
 }
 
-/// As [`shadowed`], for up to [`SLICE`] rays: a bit for each.
+/// As [`shadowed`], for rays and how far they go: a bit for each.
 #[inline(always)]
 pub(super) fn shadowed_together(
     tracer: &Tracer,
     walk: &mut Walk,
     light: usize,
-    arriving: &[Arriving],
+    rays: &Rays,
+    reaches: &Row,
 ) -> u32 {
-    let rays: SmallVec<[&Ray; SLICE]> = arriving.iter().map(|one| &one.ray).collect();
-    let reaches: SmallVec<[f64; SLICE]> = arriving.iter().map(|one| one.reach).collect();
-    occluded(tracer, walk, light, &rays, &reaches)
-}
-
-/// As [`shadowed_together`], for rays and how far they go.
-#[inline(always)]
-pub(super) fn occluded(
-    tracer: &Tracer,
-    walk: &mut Walk,
-    light: usize,
-    rays: &[&Ray],
-    reaches: &[f64],
-) -> u32 {
-    walk.counters.shadow += rays.len() as u64;
+    walk.counters.shadow += u64::from(rays.mask.count_ones());
     let guess = walk.occluders.get(light).copied().unwrap_or(Occluder::NONE);
     let mut occluder = guess;
     let work = &mut walk.counters.work;

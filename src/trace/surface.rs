@@ -4,27 +4,99 @@
 
 use super::area::Ground;
 use super::batch::{SLICE, Surfaces};
+use super::media::Within;
 use super::shade::{Flat, Place};
 use super::tracer::Tracer;
 use super::way::Way;
 use super::{Walk, behind, sky, texture};
 use crate::color::{Color, Rgb};
-use crate::geometry::{self, Hit};
-use crate::shape::SurfacePoint;
-use crate::world::{Plain, Texture};
+use crate::geometry::{self, Hit, SurfacePoints};
+use crate::math::Vector;
+use crate::math::wide::{Rays, Rows, numbers};
+use crate::shape::{Ray, Shape, SurfacePoint};
+use crate::world::{Finish, Pigment, Plain, Texture};
 use smallvec::SmallVec;
 
 /// A surface of a plain texture that a ray has met.
 pub(super) struct Stand<'a, 'b> {
     pub way: &'b Way,
     pub hit: &'b Hit,
-    /// Its number among those that are shaded together.
-    pub number: usize,
     pub surface: SurfacePoint,
     pub paint: Color,
     pub place: Place<'a>,
-    /// What it shows by itself.
-    pub local: Rgb,
+}
+
+/// Surfaces of plain textures among those that are shaded together, by their number among these.
+pub(super) struct Stands<'a, 'b> {
+    ways: &'b [Way],
+    pub hits: &'b [Hit],
+    /// A bit for each.
+    pub mask: u32,
+    plains: [Option<&'a Plain>; SLICE],
+    surfaces: SurfacePoints,
+    paints: [Color; SLICE],
+    bodies: [Rgb; SLICE],
+    /// Those that are lit by another normal than they lie by.
+    pub shaped: u32,
+    shapes: SmallVec<[Shaped; SLICE]>,
+    /// What each shows by itself.
+    pub local: [Rgb; SLICE],
+}
+
+/// How a surface is lit by another normal than it lies by.
+struct Shaped {
+    number: usize,
+    normal: Vector,
+    flat: Flat,
+    smooth: Option<Vector>,
+}
+
+impl<'a, 'b> Stands<'a, 'b> {
+    /// Returns the finish of the surface of this number, which is there.
+    #[inline(always)]
+    pub fn finish(&self, number: usize) -> Option<&'a Finish> {
+        self.plains[number].map(|plain| &plain.finish)
+    }
+
+    /// Returns the solids that the ray of this number is in.
+    #[inline(always)]
+    pub fn within(&self, number: usize) -> Within {
+        self.ways[number].within
+    }
+
+    /// Returns the points of surfaces, where rays start that leave them, and the normals that it is lit by, but those that are
+    /// [`Self::shaped`].
+    pub fn rows(&self) -> (&Rows, &Rows, &Rows) {
+        let SurfacePoints { points, origins, facing, .. } = &self.surfaces;
+        (points, origins, facing)
+    }
+
+    /// Returns the surface of this number; `None` if it is not there.
+    #[inline(always)]
+    pub fn at(&self, number: usize) -> Option<Stand<'a, 'b>> {
+        let finish = self.finish(number)?;
+        let (way, hit) = (&self.ways[number], &self.hits[number]);
+        let (surface, paint) = (self.surfaces.at(number), self.paints[number]);
+        let mut place = Place {
+            finish,
+            color: paint.rgb,
+            body: self.bodies[number],
+            point: surface.point,
+            origin: self.surfaces.origins.at(number),
+            normal: self.surfaces.facing.at(number),
+            flat: None,
+            smooth: None,
+            to_viewer: -way.ray.direction,
+            within: way.within,
+        };
+        if self.shaped >> number & 1 == 1
+            && let Some(shaped) = self.shapes.iter().find(|shaped| shaped.number == number)
+        {
+            let &Shaped { normal, flat, smooth, .. } = shaped;
+            (place.normal, place.flat, place.smooth) = (normal, Some(flat), smooth);
+        }
+        Some(Stand { way, hit, surface, paint, place })
+    }
 }
 
 impl<'a> Tracer<'a> {
@@ -32,7 +104,8 @@ impl<'a> Tracer<'a> {
     #[inline(never)]
     pub fn shade(&self, walk: &mut Walk, mut surfaces: Surfaces) {
         let (ways, hits) = (surfaces.ways, surfaces.hits);
-        let mut stands: SmallVec<[Stand; SLICE]> = SmallVec::new();
+        let mut plains = [None; SLICE];
+        let mut mask = 0;
         // Surfaces that rays go on from.
         let (mut steps, mut pending) = (0, walk.pending());
         let mut count = |walk: &Walk| {
@@ -52,7 +125,7 @@ impl<'a> Tracer<'a> {
             let object = &self.world.objects[hit.object as usize];
             let texture = self.world.coat(object, hit.leaving).texture;
             match &self.world.textures[texture as usize] {
-                Texture::Plain(plain) => stands.push(self.stand(plain, way, hit, number)),
+                Texture::Plain(plain) => (plains[number], mask) = (Some(plain), mask | 1 << number),
                 _ => {
                     let to = surfaces.first + number as u32;
                     let local = self.composite(walk, way, hit, to);
@@ -61,72 +134,101 @@ impl<'a> Tracer<'a> {
                 }
             }
         }
+        if mask == 0 {
+            walk.patience.is_over_after(steps, self.watch);
+            return;
+        }
+        let mut stands = self.stands(ways, hits, plains, mask);
         if self.lights {
             self.light(walk, &mut stands);
         }
-        for stand in &mut stands {
+        for number in numbers(mask) {
+            let Some(stand) = stands.at(number) else { continue };
             let object = &self.world.objects[stand.hit.object as usize];
             let finish = stand.place.finish;
+            let mut local = stands.local[number];
             if object.double_illuminate || finish.extras.is_some() {
-                stand.local += self.lit_behind(walk, stand, object.double_illuminate);
+                local += self.lit_behind(walk, &stand, object.double_illuminate);
             }
-            surfaces.show(stand.number, stand.local, finish.seed);
+            surfaces.show(number, local, finish.seed);
             if self.secondary && stand.way.level < self.max_trace_level {
-                self.scatter(walk, stand, surfaces.first + stand.number as u32);
+                self.scatter(walk, &stand, surfaces.first + number as u32);
                 count(walk);
             }
         }
         walk.patience.is_over_after(steps, self.watch);
     }
 
-    /// What there is where a ray meets a surface, on the side it comes from.
+    /// What there is where rays meet plain textures, on the sides they come from.
     #[inline(always)]
-    fn stand<'b>(
+    fn stands<'b>(
         &self,
-        plain: &'a Plain,
-        way: &'b Way,
-        hit: &'b Hit,
+        ways: &'b [Way],
+        hits: &'b [Hit],
+        plains: [Option<&'a Plain>; SLICE],
+        mask: u32,
+    ) -> Stands<'a, 'b> {
+        let rays = Rays::new(ways.iter().map(|way| &way.ray));
+        let instructions = self.geometry.instructions();
+        let mut stands = Stands {
+            ways,
+            hits,
+            mask,
+            plains,
+            surfaces: SurfacePoints::new(self.world, instructions, (&rays, mask), hits),
+            paints: [Color::default(); SLICE],
+            bodies: [Rgb::BLACK; SLICE],
+            shaped: 0,
+            shapes: SmallVec::new(),
+            local: [Rgb::BLACK; SLICE],
+        };
+        for number in numbers(mask) {
+            let Some(plain) = plains[number] else { continue };
+            let (ray, hit) = (&ways[number].ray, &hits[number]);
+            let paint = match &plain.pigment {
+                Pigment::Color(color) => *color,
+                _ => texture::color(self, plain, ray, hit, &stands.surfaces.at(number)),
+            };
+            let body = paint.body(self.world.settings.clearness);
+            (stands.paints[number], stands.bodies[number]) = (paint, body);
+            stands.local[number] = body * plain.finish.emission;
+            let may_be_smooth =
+                matches!(self.world.objects[hit.object as usize].shape, Shape::Placed(_));
+            if (may_be_smooth || plain.normal.is_some())
+                && let Some(shaped) = self.shaped(plain, (ray, hit), &stands.surfaces, number)
+            {
+                stands.shaped |= 1 << number;
+                stands.shapes.push(shaped);
+            }
+        }
+        stands
+    }
+
+    /// How a surface is lit that is smooth or bumpy.
+    #[inline(never)]
+    fn shaped(
+        &self,
+        plain: &Plain,
+        (ray, hit): (&Ray, &Hit),
+        surfaces: &SurfacePoints,
         number: usize,
-    ) -> Stand<'a, 'b> {
-        let ray = &way.ray;
-        let surface = geometry::surface(self.world, ray, hit);
-        let Plain { normal: bumps, finish, .. } = plain;
-        let normal = if hit.leaving { -surface.normal } else { surface.normal };
-        let paint = texture::color(self, plain, ray, hit, &surface);
-        let origin = surface.spawn(normal);
-        let (normal, flat) = match geometry::shading_normal(self.world, hit, &surface) {
-            None => (normal, None),
-            Some(smooth) => {
-                let behind = surface.spawn(-normal);
-                let smooth = if smooth.dot(ray.direction) > 0.0 { -smooth } else { smooth };
-                (smooth, Some(Flat { normal, behind }))
-            }
+    ) -> Option<Shaped> {
+        let (surface, facing) = (surfaces.at(number), surfaces.facing.at(number));
+        let behind = surface.spawn(-facing);
+        let flat = Flat { normal: facing, behind };
+        let smooth = geometry::shading_normal(self.world, hit, &surface);
+        let normal = match smooth {
+            None => facing,
+            Some(smooth) if smooth.dot(ray.direction) > 0.0 => -smooth,
+            Some(smooth) => smooth,
         };
-        let (normal, flat, smooth) = match bumps {
-            None => (normal, flat, None),
+        match &plain.normal {
+            None => smooth.map(|_| Shaped { number, normal, flat, smooth: None }),
             Some(bumps) => {
-                let behind =
-                    surface.spawn(if hit.leaving { surface.normal } else { -surface.normal });
-                let facing = if hit.leaving { -surface.normal } else { surface.normal };
-                let flat = flat.unwrap_or(Flat { normal: facing, behind });
                 let bumpy = texture::perturbed(self, bumps, normal, (ray, hit, &surface));
-                (bumpy, Some(flat), Some(normal))
+                Some(Shaped { number, normal: bumpy, flat, smooth: Some(normal) })
             }
-        };
-        let place = Place {
-            finish,
-            color: paint.rgb,
-            body: paint.body(self.world.settings.clearness),
-            point: surface.point,
-            origin,
-            normal,
-            flat,
-            smooth,
-            to_viewer: -ray.direction,
-            within: way.within,
-        };
-        let local = place.body * finish.emission;
-        Stand { way, hit, number, surface, paint, place, local }
+        }
     }
 
     /// What the lights on the other side of a surface add that is lit on `both`, or scatters their light.

@@ -1,7 +1,8 @@
 //! The perspective and the orthographic camera: the screen is a plane.
 
-use super::{Point, Projection, unit};
+use super::{Projection, unit};
 use crate::math::Vector;
+use crate::math::wide::*;
 use crate::shape::Ray;
 use crate::world::{Camera, CameraKind};
 
@@ -26,22 +27,54 @@ impl Flat {
         Self { origin, shift, direction, turn }
     }
 
-    /// Returns the ray through the point (`u`, `v`) of the screen.
+    /// Returns the rays through points (u, v) of the screen, one for each bit of a mask.
     #[inline(always)]
-    pub fn ray(&self, Point { u, v, .. }: Point) -> Ray {
+    pub fn rays(&self, instructions: Instructions, [u, v]: &[Row; 2], mask: u32) -> Rays {
+        let mut rays = Rays { mask, ..Rays::NONE };
+        let odd = dispatch!(instructions.level(), simd => self.aim(simd, [u, v], &mut rays)) & mask;
+        for number in numbers(odd) {
+            rays.directions.set(number, unit(self.line(u[number], v[number]).direction));
+        }
+        rays
+    }
+
+    /// Finds rays; returns a bit for each whose direction has too long or too short a square.
+    #[inline(always)]
+    fn aim<S: Simd>(&self, simd: S, [u, v]: [&Row; 2], rays: &mut Rays) -> u32 {
+        let mut odd = 0;
+        for group in 0..GROUPS {
+            if !has(rays.mask, group) {
+                continue;
+            }
+            let (u, v) = (four(simd, u, group), four(simd, v, group));
+            let shift = along(simd, self.shift, u, v);
+            let turn = along(simd, self.turn, u, v);
+            (WideVector::splat(simd, self.origin) + shift).store(&mut rays.origins, group);
+            let direction = WideVector::splat(simd, self.direction) + turn;
+            let square = direction.length_squared();
+            (direction / square.sqrt()).store(&mut rays.directions, group);
+            odd |= bits(!square.is_normal(), group);
+        }
+        odd
+    }
+
+    fn line(&self, u: f64, v: f64) -> Ray {
         let along = |[right, up]: [Vector; 2]| right * u + up * v;
         Ray {
             origin: self.origin + along(self.shift),
-            direction: unit(self.direction + along(self.turn)),
+            direction: self.direction + along(self.turn),
         }
     }
 }
 
+/// Returns how far points (u, v) are from the middle of the screen.
+#[inline(always)]
+fn along<S: Simd>(simd: S, [right, up]: [Vector; 2], u: Wide<S>, v: Wide<S>) -> WideVector<S> {
+    WideVector::splat(simd, right) * u + WideVector::splat(simd, up) * v
+}
+
 impl Projection for Flat {
     fn through(&self, u: f64, v: f64) -> Option<Ray> {
-        let along = |[right, up]: [Vector; 2]| right * u + up * v;
-        let (origin, direction) =
-            (self.origin + along(self.shift), self.direction + along(self.turn));
-        Some(Ray { origin, direction })
+        Some(self.line(u, v))
     }
 }

@@ -1,0 +1,177 @@
+//! The first surfaces that rays side by side meet.
+//!
+//! **Invariant:** each ray finds what it finds alone: spheres and planes are solved for four rays at once, all else
+//! for one.
+
+use super::nearest::Race;
+use super::search::RowSeeker;
+use super::work::Tally;
+use super::{EASY, Entry, Geometry, Hit, Sides, Solid};
+use crate::math::wide::*;
+use crate::shape::First;
+use crate::shape::local::Met;
+
+/// A [`Race`] for each ray.
+pub(super) struct Races<'a, T> {
+    geometry: &'a Geometry,
+    rays: &'a Rays,
+    object: [u32; ROW],
+    part: [u32; ROW],
+    /// A bit for each ray.
+    leaving: u32,
+    is_contested: u32,
+    t: Row,
+    limits: Row,
+    rival_t: Row,
+    tally: T,
+}
+
+impl<'a, T: Tally> Races<'a, T> {
+    #[inline(always)]
+    pub fn new(geometry: &'a Geometry, rays: &'a Rays, tally: T) -> Self {
+        let Hit { object, t, part, .. } = Hit::NOTHING;
+        let ([object, part], [t, limits, rival_t]) = ([[object; ROW], [part; ROW]], [[t; ROW]; 3]);
+        Self {
+            geometry,
+            rays,
+            object,
+            part,
+            leaving: 0,
+            is_contested: 0,
+            t,
+            limits,
+            rival_t,
+            tally,
+        }
+    }
+
+    /// Adds the first surface that each ray meets.
+    #[inline(always)]
+    pub fn finish(mut self, hits: &mut Vec<Hit>) {
+        for number in numbers(self.rays.mask) {
+            let (t, limit) = (self.t[number], self.limits[number]);
+            let may_differ = self.rival_t[number] <= limit || self.is_contested >> number & 1 == 1;
+            hits.push(match may_differ && t != f64::INFINITY {
+                true => self.decided(number),
+                false => Hit {
+                    object: self.object[number],
+                    t,
+                    error: (limit - t) / 2.0,
+                    leaving: self.leaving >> number & 1 == 1,
+                    part: self.part[number],
+                    contested: false,
+                },
+            });
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn decided(&mut self, number: usize) -> Hit {
+        let ray = self.rays.at(number);
+        let race = Race {
+            geometry: self.geometry,
+            ray: &ray,
+            object: self.object[number],
+            t: self.t[number],
+            leaving: self.leaving >> number & 1 == 1,
+            part: self.part[number],
+            is_contested: self.is_contested >> number & 1 == 1,
+            limit: self.limits[number],
+            rival_t: self.rival_t[number],
+            tally: &mut self.tally,
+        };
+        race.finish()
+    }
+
+    /// Looks at an entry for the ray of this number alone.
+    #[inline(never)]
+    fn look_alone(&mut self, entry: &Entry, number: usize) {
+        let (ray, limit) = (self.rays.at(number), self.limits[number]);
+        let Some(hit) = self.geometry.first_crossing::<EASY>(entry, &ray, limit) else { return };
+        if hit.t < self.t[number] {
+            self.rival_t[number] = self.t[number];
+            self.limits[number] = hit.t + 2.0 * hit.error;
+            (self.object[number], self.part[number]) = (hit.object, hit.part);
+            self.t[number] = hit.t;
+            let bit = 1 << number;
+            self.leaving = self.leaving & !bit | u32::from(hit.leaving) << number;
+            self.is_contested = self.is_contested & !bit | u32::from(hit.contested) << number;
+        } else if hit.t < self.rival_t[number] {
+            self.rival_t[number] = hit.t;
+        }
+    }
+
+    /// Takes note of where the rays of a group first meet an entry.
+    #[inline(always)]
+    fn take<S: Simd>(&mut self, simd: S, entry: &Entry, group: usize, first: First<S>) {
+        let (t, rival_t) = (four(simd, &self.t, group), four(simd, &self.rival_t, group));
+        let limit = four(simd, &self.limits, group);
+        let nearer = first.t.simd_lt(t);
+        let rival = first.t.simd_lt(rival_t).select(first.t, rival_t);
+        let new_limit = first.t + first.error * all(simd, 2.0);
+        store(nearer.select(t, rival), &mut self.rival_t, group);
+        store(nearer.select(new_limit, limit), &mut self.limits, group);
+        store(nearer.select(first.t, t), &mut self.t, group);
+        let nearer = bits(nearer, group);
+        self.leaving = self.leaving & !nearer | bits(first.leaving, group) & nearer;
+        self.is_contested &= !nearer;
+        for number in numbers(nearer) {
+            (self.object[number], self.part[number]) = (entry.object, Met::UNKNOWN);
+        }
+        for number in numbers(bits(first.unsure, group)) {
+            self.look_alone(entry, number);
+        }
+    }
+}
+
+impl<T: Tally> RowSeeker for Races<'_, T> {
+    #[inline(always)]
+    fn look<S: Simd>(&mut self, simd: S, place: usize, mask: u32) {
+        let geometry = self.geometry;
+        let entry = &geometry.entries[place];
+        self.tally.root_solves(mask.count_ones(), || geometry.price(entry));
+        match &entry.solid {
+            Solid::Sphere(sphere) if mask.count_ones() > 1 => {
+                let inside = entry.sides == Sides::Inside;
+                for group in 0..GROUPS {
+                    if !has(mask, group) {
+                        continue;
+                    }
+                    let (ray, limit) =
+                        (self.rays.four(simd, group), four(simd, &self.limits, group));
+                    let first = sphere.first_of_four(simd, &ray, inside, limit);
+                    self.take(simd, entry, group, first);
+                }
+            }
+            Solid::Plane(plane) => {
+                let shows = [false, true].map(|leaving| entry.sides.shows(leaving));
+                for group in 0..GROUPS {
+                    if !has(mask, group) {
+                        continue;
+                    }
+                    let (ray, limit) =
+                        (self.rays.four(simd, group), four(simd, &self.limits, group));
+                    let first = plane.first_of_four(simd, &ray, shows, limit);
+                    self.take(simd, entry, group, first);
+                }
+            }
+            _ => numbers(mask).for_each(|number| self.look_alone(entry, number)),
+        }
+    }
+
+    #[inline(always)]
+    fn open(&self) -> u32 {
+        self.rays.mask
+    }
+
+    #[inline(always)]
+    fn limits(&self) -> &Row {
+        &self.limits
+    }
+
+    #[inline(always)]
+    fn box_visit(&mut self) {
+        self.tally.box_visit();
+    }
+}

@@ -1,0 +1,218 @@
+//! The light that surfaces side by side send to the viewer: one light after the other, for all of them.
+//!
+//! **Invariant:** each surface shows what [`shade::local`] says of it alone.
+
+use super::Walk;
+use super::shade::{self, Toward};
+use super::shadow::{self, Aim};
+use super::surface::{Stand, Stands};
+use super::tracer::Tracer;
+use crate::color::Rgb;
+use crate::math::Vector;
+use crate::math::wide::*;
+use crate::shape::Ray;
+use crate::world::{Light, LightKind};
+use smallvec::SmallVec;
+
+/// Surfaces that lights may reach.
+struct Grounds<'a> {
+    points: &'a Rows,
+    normals: &'a Rows,
+    /// Where rays toward lights start.
+    origins: &'a Rows,
+    /// A bit for each that answers lights.
+    answers: u32,
+    /// Which of these are lit by the formula of the seed.
+    seed: u32,
+    /// Which are lit by another normal than they lie by: each is aimed at lights by itself.
+    shaped: u32,
+    /// The bits of those whose rays go together.
+    together: SmallVec<[u32; ROW]>,
+}
+
+impl<'a> Grounds<'a> {
+    #[inline(always)]
+    fn of(stands: &'a Stands, by_object: bool) -> Self {
+        let (points, origins, normals) = stands.rows();
+        let (mut answers, mut seed, mut together) = (0, 0, SmallVec::new());
+        let mut objects: SmallVec<[u32; ROW]> = SmallVec::new();
+        for number in numbers(stands.mask) {
+            let Some(finish) = stands.finish(number) else { continue };
+            if !shade::answers(finish) {
+                continue;
+            }
+            let bit = 1 << number;
+            answers |= bit;
+            seed |= if finish.seed { bit } else { 0 };
+            if !by_object {
+                continue;
+            }
+            let object = stands.hits[number].object;
+            match objects.iter().position(|known| *known == object) {
+                Some(place) => together[place] |= bit,
+                None => {
+                    objects.push(object);
+                    together.push(bit);
+                }
+            }
+        }
+        if !by_object && answers != 0 {
+            together.push(answers);
+        }
+        let shaped = stands.shaped & answers;
+        Self { points, normals, origins, answers, seed, shaped, together }
+    }
+}
+
+/// Rays from surfaces toward a light.
+struct Aims {
+    rays: Rays,
+    reaches: Row,
+    /// Of the angles to the normals.
+    cosines: Row,
+}
+
+/// Returns the ways from places to a light.
+#[inline(always)]
+fn way<S: Simd>(simd: S, light: &LightKind, place: WideVector<S>) -> WideVector<S> {
+    match *light {
+        LightKind::Point { position } => WideVector::splat(simd, position) - place,
+        LightKind::Directional { to_light } | LightKind::Parallel { to_light, .. } => {
+            WideVector::splat(simd, to_light.get())
+        }
+    }
+}
+
+impl Aims {
+    /// Returns what [`shade::toward`] says of surfaces that lie as they are lit.
+    #[inline(always)]
+    fn new<S: Simd>(simd: S, light: &LightKind, grounds: &Grounds) -> Self {
+        let mut aims = Self { rays: Rays::NONE, reaches: [0.0; ROW], cosines: [0.0; ROW] };
+        let zero = all(simd, 0.0);
+        for group in 0..GROUPS {
+            if !has(grounds.answers, group) {
+                continue;
+            }
+            let point = WideVector::of(simd, grounds.points, group);
+            let normal = WideVector::of(simd, grounds.normals, group);
+            let origin = WideVector::of(simd, grounds.origins, group);
+            let height = normal.dot(way(simd, light, point));
+            let above = bits(height.simd_gt(zero), group)
+                | bits(height.simd_eq(zero), group) & grounds.seed;
+            let way = way(simd, light, origin);
+            let (to_light, reach, known) = match *light {
+                LightKind::Point { .. } => {
+                    let square = way.length_squared();
+                    let reach = square.sqrt();
+                    (way / reach, reach, bits(square.is_normal(), group))
+                }
+                LightKind::Directional { .. } => (way, all(simd, f64::INFINITY), u32::MAX),
+                LightKind::Parallel { position, .. } => {
+                    let reach = (WideVector::splat(simd, position) - origin).dot(way);
+                    (way, reach, u32::MAX)
+                }
+            };
+            let cosine = normal.dot(to_light);
+            let cosine = cosine.simd_gt(zero).select(cosine, zero);
+            origin.store(&mut aims.rays.origins, group);
+            to_light.store(&mut aims.rays.directions, group);
+            store(reach, &mut aims.reaches, group);
+            store(cosine, &mut aims.cosines, group);
+            let lit = above & grounds.answers & !grounds.shaped;
+            aims.rays.mask |= lit & known;
+            for number in numbers(lit & !known) {
+                let origin = grounds.origins.at(number);
+                if let Some(aim) = shadow::aim(light, origin) {
+                    let cosine = grounds.normals.at(number).dot(aim.to_light).max(0.0);
+                    aims.set(number, origin, aim, cosine);
+                }
+            }
+        }
+        aims
+    }
+
+    fn set(&mut self, number: usize, origin: Vector, Aim { to_light, reach }: Aim, cosine: f64) {
+        self.rays.set(number, &Ray { origin, direction: to_light });
+        (self.reaches[number], self.cosines[number]) = (reach, cosine);
+    }
+
+    fn aim(&self, number: usize) -> Aim {
+        Aim { to_light: self.rays.directions.at(number), reach: self.reaches[number] }
+    }
+}
+
+impl Tracer<'_> {
+    /// Adds to what surfaces show what they send to the viewer of each light.
+    #[inline(never)]
+    pub(super) fn light(&self, walk: &mut Walk, stands: &mut Stands) {
+        let mut sums = stands.local;
+        let grounds = Grounds::of(stands, self.geometry.has_tree());
+        for (number, light) in self.world.lights.iter().enumerate() {
+            if light.area.is_some() || !self.world.light_sets.is_empty() {
+                self.light_one_by_one(walk, stands, (number, light), &mut sums);
+            } else if grounds.answers != 0 {
+                self.light_together(walk, stands, &grounds, (number, light), &mut sums);
+            }
+        }
+        stands.local = sums;
+    }
+
+    #[inline(always)]
+    fn light_together(
+        &self,
+        walk: &mut Walk,
+        stands: &Stands,
+        grounds: &Grounds,
+        (number, light): (usize, &Light),
+        sums: &mut [Rgb; ROW],
+    ) {
+        let (kind, level) = (&light.kind, self.geometry.instructions().level());
+        let mut aims = dispatch!(level, simd => Aims::new(simd, kind, grounds));
+        for surface in numbers(grounds.shaped) {
+            if let Some(stand) = stands.at(surface)
+                && let Some(toward) = shade::toward(&stand.place, kind)
+            {
+                let Toward { origin, aim, cosine, .. } = toward;
+                aims.set(surface, origin, aim, cosine);
+            }
+        }
+        let mut colors = [light.color; ROW];
+        if light.attenuation.is_some() {
+            for surface in numbers(aims.rays.mask) {
+                let (within, origin) = (stands.within(surface), aims.rays.origins.at(surface));
+                match self.emitted(walk, (light, kind), within, origin, &aims.aim(surface)) {
+                    Some(color) => colors[surface] = color,
+                    None => aims.rays.mask &= !(1 << surface),
+                }
+            }
+        }
+        let lit = aims.rays.mask;
+        let mut shadowed = 0;
+        if self.shadows && light.casts_shadows {
+            for together in &grounds.together {
+                aims.rays.mask = lit & together;
+                if aims.rays.mask != 0 {
+                    let (rays, reaches) = (&aims.rays, &aims.reaches);
+                    shadowed |= shadow::shadowed_together(self, walk, number, rays, reaches);
+                }
+            }
+        }
+        for surface in numbers(lit & !shadowed) {
+            let Some(Stand { place, .. }) = stands.at(surface) else { continue };
+            let (aim, mut color) = (aims.aim(surface), colors[surface]);
+            if self.filters_shadows && light.casts_shadows {
+                let origin = aims.rays.origins.at(surface);
+                color = color * self.filtered(walk, place.within, origin, &aim);
+                if color.is_black() {
+                    continue;
+                }
+            }
+            if self.counts {
+                shade::count(walk, place.finish, light);
+            }
+            let cosine = aims.cosines[surface];
+            let answer = shade::answered(&place, (number, light), aim.to_light, cosine, 0);
+            sums[surface] += color * answer;
+        }
+    }
+}
