@@ -54,22 +54,24 @@ struct Shapes {
 }
 
 impl SurfacePoints {
-    /// Returns the surface of each ray of the mask, as [`surface`] does for one ray.
+    pub const NONE: Self = Self {
+        points: Rows::ZERO,
+        normals: Rows::ZERO,
+        errors: [0.0; ROW],
+        faces: [0; ROW],
+        facing: Rows::ZERO,
+        origins: Rows::ZERO,
+    };
+
+    /// Finds the surface of each ray of the mask, as [`surface`] does for one ray.
     #[inline(always)]
-    pub fn new(
+    pub fn find(
+        &mut self,
         world: &World,
         instructions: Instructions,
         (rays, mask): (&Rays, u32),
         hits: &[Hit],
-    ) -> Self {
-        let mut all = Self {
-            points: Rows::ZERO,
-            normals: Rows::ZERO,
-            errors: [0.0; ROW],
-            faces: [0; ROW],
-            facing: Rows::ZERO,
-            origins: Rows::ZERO,
-        };
+    ) {
         let mut shapes = Shapes {
             vectors: Rows::ZERO,
             sizes: [0.0; ROW],
@@ -100,16 +102,15 @@ impl SurfacePoints {
         }
         others |= dispatch!(
             instructions.level(),
-            simd => all.solve(simd, rays, &shapes, &distances)
+            simd => self.solve(simd, rays, &shapes, &distances)
         ) & mask;
         for number in numbers(others) {
             let point = surface(world, &rays.at(number), &hits[number]);
-            all.points.set(number, point.point);
-            all.normals.set(number, point.normal);
-            (all.errors[number], all.faces[number]) = (point.error, point.face);
+            self.points.set(number, point.point);
+            self.normals.set(number, point.normal);
+            (self.errors[number], self.faces[number]) = (point.error, point.face);
         }
-        dispatch!(instructions.level(), simd => all.leave(simd, leaving));
-        all
+        dispatch!(instructions.level(), simd => self.leave(simd, leaving));
     }
 
     /// Returns the surface of this number.

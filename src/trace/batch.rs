@@ -32,23 +32,45 @@ pub(super) struct Onward {
     pub back: Back,
 }
 
-impl Onward {
-    /// Adds the ray to those that go on. It is one with a ray of the same direction among those from `since` on,
-    /// which are few: each is compared.
-    pub fn join(self, onward: &mut Vec<Self>, since: usize) {
-        let same = |old: &&mut Self| {
-            old.back.exponent == 1.0
-                && self.back.exponent == 1.0
-                && old.way.spectrum == self.way.spectrum
-                && old.way.ray.direction == self.way.ray.direction
+/// Rays that go on from surfaces.
+#[derive(Debug, Default)]
+pub(super) struct Onwards {
+    ways: Vec<Way>,
+    backs: Vec<Back>,
+}
+
+impl Onwards {
+    pub fn len(&self) -> usize {
+        self.ways.len()
+    }
+
+    #[inline(always)]
+    pub fn push(&mut self, Onward { way, back }: Onward) {
+        self.ways.push(way);
+        self.backs.push(back);
+    }
+
+    /// Adds a ray. It is one with a ray of the same direction among those from `since` on, which are few: each is
+    /// compared.
+    pub fn join(&mut self, new: Onward, since: usize) {
+        let same = |(way, back): &(&mut Way, &mut Back)| {
+            back.exponent == 1.0
+                && new.back.exponent == 1.0
+                && way.spectrum == new.way.spectrum
+                && way.ray.direction == new.way.ray.direction
         };
-        match onward[since..].iter_mut().find(same) {
-            Some(old) => {
-                old.back.factor += self.back.factor;
-                old.way.weight = old.way.weight.max(self.way.weight);
+        match self.ways[since..].iter_mut().zip(&mut self.backs[since..]).find(same) {
+            Some((way, back)) => {
+                back.factor += new.back.factor;
+                way.weight = way.weight.max(new.way.weight);
             }
-            None => onward.push(self),
+            None => self.push(new),
         }
+    }
+
+    fn clear(&mut self) {
+        self.ways.clear();
+        self.backs.clear();
     }
 }
 
@@ -190,25 +212,30 @@ impl Batch {
 
 impl<'a> Tracer<'a> {
     /// Shows `look` the radiance seen along each of the camera's rays, in their order; stops early where the watch
-    /// wants no more.
+    /// wants no more. `fill` puts the next rays into a row, until there are none.
     pub fn each_seen(
         &self,
         walk: &mut Walk,
-        mut rows: impl Iterator<Item = Rays>,
+        mut fill: impl FnMut(&mut Rays),
         mut look: impl FnMut(Rgb),
     ) {
         let mut batch = std::mem::take(&mut walk.batch);
-        let goes_on = rows.try_for_each(|rays| {
+        let mut rays = Rays::NONE;
+        loop {
+            fill(&mut rays);
             for number in numbers(rays.mask) {
                 batch.ways.push(Way::from_camera(rays.at(number), batch.ways.len() as u32));
             }
-            if batch.ways.len() + ROW <= MOST {
-                return ControlFlow::Continue(());
+            let (is_last, is_full) = (rays.mask == 0, batch.ways.len() + ROW > MOST);
+            if is_full || is_last && !batch.ways.is_empty() {
+                let goes_on = self.gather(walk, &mut batch, &mut look);
+                if goes_on.is_break() {
+                    break;
+                }
             }
-            self.gather(walk, &mut batch, &mut look)
-        });
-        if goes_on.is_continue() && !batch.ways.is_empty() {
-            let _ = self.gather(walk, &mut batch, &mut look);
+            if is_last {
+                break;
+            }
         }
         batch.ways.clear();
         walk.batch = batch;
@@ -259,9 +286,10 @@ impl<'a> Tracer<'a> {
             let count = walk.pending();
             if count > 0 {
                 batch.forget_shaded();
-                let onward = || walk.onward.iter().chain(&walk.behind);
-                batch.ways.extend(onward().map(|onward| onward.way));
-                batch.add(count, onward().map(|onward| onward.back), walk.media.known());
+                batch.ways.extend_from_slice(&walk.onward.ways);
+                batch.ways.extend_from_slice(&walk.behind.ways);
+                let backs = walk.onward.backs.iter().chain(&walk.behind.backs).copied();
+                batch.add(count, backs, walk.media.known());
                 walk.onward.clear();
                 walk.behind.clear();
                 self.advance(walk, batch);

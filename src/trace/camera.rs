@@ -28,7 +28,7 @@ use crate::world::{Camera, CameraKind};
 
 use cylinder::Cylinder;
 use fisheye::Fisheye;
-pub(super) use flat::Flat;
+use flat::Flat;
 pub(super) use focus::Focus;
 use omnimax::Omnimax;
 use panoramic::Panoramic;
@@ -134,7 +134,7 @@ impl Lens {
         self.normal.is_some()
     }
 
-    /// Returns the camera if its rays need nothing but [`Flat::rays`].
+    /// Returns the camera if its rays need nothing but [`Flat::find`].
     #[inline(always)]
     pub fn plain(&self) -> Option<&Flat> {
         match &self.kind {

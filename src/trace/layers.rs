@@ -353,7 +353,7 @@ impl<'a> Tracer<'a> {
             let is_total =
                 !is_cut && samples.is_none() && bent_between(top, [from, after]).is_none();
             if !is_total {
-                own_mirrors.into_iter().for_each(|mirror| mirror.join(&mut walk.onward, since));
+                own_mirrors.into_iter().for_each(|mirror| walk.onward.join(mirror, since));
             }
             if !is_cut {
                 let factor = factor * left * (stack.share * passed);
@@ -379,7 +379,7 @@ impl<'a> Tracer<'a> {
                         let within = within_behind;
                         let way = Way { ray, weight, level, inside, spectrum, within, ..*way };
                         let back = Back { to, factor: factor * color, exponent: 1.0 };
-                        Onward { way, back }.join(&mut walk.behind, since_sample);
+                        walk.behind.join(Onward { way, back }, since_sample);
                     }
                     // All light is thrown back.
                     None => {
@@ -395,7 +395,7 @@ impl<'a> Tracer<'a> {
                             None => left * share,
                         };
                         let back = Back { to, factor, exponent: 1.0 };
-                        Onward { way, back }.join(&mut walk.onward, since);
+                        walk.onward.join(Onward { way, back }, since);
                     }
                 }
             }

@@ -32,7 +32,7 @@ struct Grounds<'a> {
 
 impl<'a> Grounds<'a> {
     #[inline(always)]
-    fn of(stands: &'a Stands, by_object: bool) -> Self {
+    fn of(stands: &Stands<'_, '_, 'a>, by_object: bool) -> Self {
         let (points, origins, normals) = stands.rows();
         let (mut answers, mut seed, mut together) = (0, 0, SmallVec::new());
         let mut objects: SmallVec<[u32; ROW]> = SmallVec::new();
@@ -84,10 +84,11 @@ fn way<S: Simd>(simd: S, light: &LightKind, place: WideVector<S>) -> WideVector<
 }
 
 impl Aims {
-    /// Returns what [`shade::toward`] says of surfaces that lie as they are lit.
+    const NONE: Self = Self { rays: Rays::NONE, reaches: [0.0; ROW], cosines: [0.0; ROW] };
+
+    /// Finds what [`shade::toward`] says of surfaces that lie as they are lit.
     #[inline(always)]
-    fn new<S: Simd>(simd: S, light: &LightKind, grounds: &Grounds) -> Self {
-        let mut aims = Self { rays: Rays::NONE, reaches: [0.0; ROW], cosines: [0.0; ROW] };
+    fn find<S: Simd>(&mut self, simd: S, light: &LightKind, grounds: &Grounds) {
         let zero = all(simd, 0.0);
         for group in 0..GROUPS {
             if !has(grounds.answers, group) {
@@ -114,21 +115,20 @@ impl Aims {
             };
             let cosine = normal.dot(to_light);
             let cosine = cosine.simd_gt(zero).select(cosine, zero);
-            origin.store(&mut aims.rays.origins, group);
-            to_light.store(&mut aims.rays.directions, group);
-            store(reach, &mut aims.reaches, group);
-            store(cosine, &mut aims.cosines, group);
+            origin.store(&mut self.rays.origins, group);
+            to_light.store(&mut self.rays.directions, group);
+            store(reach, &mut self.reaches, group);
+            store(cosine, &mut self.cosines, group);
             let lit = above & grounds.answers & !grounds.shaped;
-            aims.rays.mask |= lit & known;
+            self.rays.mask |= lit & known;
             for number in numbers(lit & !known) {
                 let origin = grounds.origins.at(number);
                 if let Some(aim) = shadow::aim(light, origin) {
                     let cosine = grounds.normals.at(number).dot(aim.to_light).max(0.0);
-                    aims.set(number, origin, aim, cosine);
+                    self.set(number, origin, aim, cosine);
                 }
             }
         }
-        aims
     }
 
     fn set(&mut self, number: usize, origin: Vector, Aim { to_light, reach }: Aim, cosine: f64) {
@@ -167,7 +167,8 @@ impl Tracer<'_> {
         sums: &mut [Rgb; ROW],
     ) {
         let (kind, level) = (&light.kind, self.geometry.instructions().level());
-        let mut aims = dispatch!(level, simd => Aims::new(simd, kind, grounds));
+        let mut aims = Aims::NONE;
+        dispatch!(level, simd => aims.find(simd, kind, grounds));
         for surface in numbers(grounds.shaped) {
             if let Some(stand) = stands.at(surface)
                 && let Some(toward) = shade::toward(&stand.place, kind)
@@ -176,8 +177,9 @@ impl Tracer<'_> {
                 aims.set(surface, origin, aim, cosine);
             }
         }
-        let mut colors = [light.color; ROW];
-        if light.attenuation.is_some() {
+        let is_attenuated = light.attenuation.is_some();
+        let mut colors = [Rgb::BLACK; ROW];
+        if is_attenuated {
             for surface in numbers(aims.rays.mask) {
                 let (within, origin) = (stands.within(surface), aims.rays.origins.at(surface));
                 match self.emitted(walk, (light, kind), within, origin, &aims.aim(surface)) {
@@ -199,7 +201,8 @@ impl Tracer<'_> {
         }
         for surface in numbers(lit & !shadowed) {
             let Some(Stand { place, .. }) = stands.at(surface) else { continue };
-            let (aim, mut color) = (aims.aim(surface), colors[surface]);
+            let aim = aims.aim(surface);
+            let mut color = if is_attenuated { colors[surface] } else { light.color };
             if self.filters_shadows && light.casts_shadows {
                 let origin = aims.rays.origins.at(surface);
                 color = color * self.filtered(walk, place.within, origin, &aim);

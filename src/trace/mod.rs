@@ -53,7 +53,7 @@ use crate::world::World;
 
 use antialias::Shown;
 use area::Nodes;
-use batch::{Batch, Onward};
+use batch::{Batch, Onwards};
 use camera::Lens;
 use media::Media;
 use shadow::Filters;
@@ -103,8 +103,8 @@ impl Traced {
 pub(crate) struct Walk {
     batch: Batch,
     /// Rays that go on before the surfaces at hand, where these mirror them, and behind them.
-    onward: Vec<Onward>,
-    behind: Vec<Onward>,
+    onward: Onwards,
+    behind: Onwards,
     media: Media,
     /// Surfaces that coincide with the one at hand.
     coinciding: Vec<Hit>,

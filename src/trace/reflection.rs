@@ -5,6 +5,7 @@ use crate::color::Rgb;
 use crate::math::Vector;
 use crate::math::elementary::pow;
 use crate::math::power::power;
+use crate::math::wide::*;
 use crate::world::Reflection;
 
 /// The factor by which a surface of `color` reflects, seen at the angle of `cosine` to its normal:
@@ -12,8 +13,16 @@ use crate::world::Reflection;
 /// goes by Fresnel's equations, `fresnel` stands for the power.
 ///
 /// **Source:** POV-Ray manual, section "Reflection"; measured to 1/65535.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn reflectance(reflection: &Reflection, color: Rgb, cosine: f64, fresnel: f64) -> Rgb {
+    match reflection.minimum == reflection.maximum && reflection.metallic == 0.0 {
+        true => reflection.maximum,
+        false => varying(reflection, color, cosine, fresnel),
+    }
+}
+
+#[inline(never)]
+fn varying(reflection: &Reflection, color: Rgb, cosine: f64, fresnel: f64) -> Rgb {
     // Negative where a perturbed normal faces away: then there is more than the maximum, as in POV-Ray 3.7
     // (measured).
     let cosine = cosine.min(1.0);
@@ -69,6 +78,26 @@ pub(super) fn mirrored(direction: Vector, normal: Vector) -> Vector {
     let mirrored = direction - normal * (2.0 * direction.dot(normal));
     // Without this the length's rounding errors would add up along a path.
     mirrored / mirrored.length()
+}
+
+/// [`mirrored`] for the bits of a mask.
+#[inline(always)]
+pub(super) fn mirrored_together<S: Simd>(
+    simd: S,
+    directions: &Rows,
+    normals: &Rows,
+    mask: u32,
+    mirrored: &mut Rows,
+) {
+    for group in 0..GROUPS {
+        if !has(mask, group) {
+            continue;
+        }
+        let direction = WideVector::of(simd, directions, group);
+        let normal = WideVector::of(simd, normals, group);
+        let turned = direction - normal * (all(simd, 2.0) * direction.dot(normal));
+        (turned / turned.length_squared().sqrt()).store(mirrored, group);
+    }
 }
 
 #[cfg(test)]

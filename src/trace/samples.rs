@@ -4,33 +4,11 @@
 //! has no ray.
 
 use super::Walk;
-use super::camera::{Flat, Lens, Point};
+use super::camera::{Lens, Point};
 use super::tracer::Tracer;
 use crate::color::Rgb;
-use crate::math::wide::{Instructions, ROW, Rays};
+use crate::math::wide::{ROW, Rays};
 use crate::shape::Ray;
-
-/// Rows of rays through points.
-struct Rows<'a, I> {
-    points: I,
-    flat: &'a Flat,
-    instructions: Instructions,
-}
-
-impl<I: Iterator<Item = Point>> Iterator for Rows<'_, I> {
-    type Item = Rays;
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<Rays> {
-        let (mut places, mut mask) = ([[0.0; ROW]; 2], 0);
-        for number in 0..ROW {
-            let Some(Point { u, v, .. }) = self.points.next() else { break };
-            (places[0][number], places[1][number]) = (u, v);
-            mask |= 1 << number;
-        }
-        (mask != 0).then(|| self.flat.rays(self.instructions, &places, mask))
-    }
-}
 
 impl Tracer<'_> {
     /// Shows `look` the radiance at each point of the screen, in their order; stops early where the watch wants no
@@ -44,8 +22,18 @@ impl Tracer<'_> {
     ) {
         match lens.plain() {
             Some(flat) => {
-                let rows = Rows { points, flat, instructions: self.geometry.instructions() };
-                self.each_seen(walk, rows, look);
+                let (instructions, mut points) = (self.geometry.instructions(), points);
+                let mut places = [[0.0; ROW]; 2];
+                let fill = |rays: &mut Rays| {
+                    rays.mask = 0;
+                    for number in 0..ROW {
+                        let Some(Point { u, v, .. }) = points.next() else { break };
+                        (places[0][number], places[1][number]) = (u, v);
+                        rays.mask |= 1 << number;
+                    }
+                    flat.find(instructions, &places, rays);
+                };
+                self.each_seen(walk, fill, look);
             }
             None => {
                 let points: Vec<Point> = points.collect();
@@ -58,8 +46,9 @@ impl Tracer<'_> {
                 }
                 let mut next = 0;
                 let sent: Vec<Ray> = rays.iter().flatten().copied().collect();
-                let rows = sent.chunks(ROW).map(|rays| Rays::new(rays.iter()));
-                self.each_seen(walk, rows, |seen| {
+                let mut rows = sent.chunks(ROW);
+                let fill = |rays: &mut Rays| *rays = Rays::new(rows.next().unwrap_or(&[]).iter());
+                self.each_seen(walk, fill, |seen| {
                     while rays[next].is_none() {
                         look(Rgb::BLACK);
                         next += 1;

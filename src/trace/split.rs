@@ -67,7 +67,7 @@ impl Tracer<'_> {
                     walk.counters.total_reflection += 1;
                     let inside = hit.leaving.then(|| Inside::of(hit));
                     let way = Way { inside, within, ..way.mirrored(place, weight) };
-                    Onward { way, back }.join(&mut walk.onward, since);
+                    walk.onward.join(Onward { way, back }, since);
                 }
             }
         }

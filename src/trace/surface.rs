@@ -3,16 +3,16 @@
 //! **In:** rays and their hits, side by side. **Out:** what each surface shows by itself, and the rays that go on.
 
 use super::area::Ground;
-use super::batch::{SLICE, Surfaces};
+use super::batch::{Back, Onward, SLICE, Surfaces};
 use super::media::Within;
 use super::shade::{Flat, Place};
 use super::tracer::Tracer;
 use super::way::Way;
-use super::{Walk, behind, sky, texture};
+use super::{Walk, behind, reflection, sky, texture};
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, Hit, SurfacePoints};
 use crate::math::Vector;
-use crate::math::wide::{Rays, Rows, numbers};
+use crate::math::wide::{Rays, Rows, dispatch, numbers};
 use crate::shape::{Ray, Shape, SurfacePoint};
 use crate::world::{Finish, Pigment, Plain, Texture};
 use smallvec::SmallVec;
@@ -27,13 +27,13 @@ pub(super) struct Stand<'a, 'b> {
 }
 
 /// Surfaces of plain textures among those that are shaded together, by their number among these.
-pub(super) struct Stands<'a, 'b> {
-    ways: &'b [Way],
+pub(super) struct Stands<'a, 'b, 'c> {
+    pub ways: &'b [Way],
     pub hits: &'b [Hit],
     /// A bit for each.
     pub mask: u32,
     plains: [Option<&'a Plain>; SLICE],
-    surfaces: SurfacePoints,
+    surfaces: &'c SurfacePoints,
     paints: [Color; SLICE],
     bodies: [Rgb; SLICE],
     /// Those that are lit by another normal than they lie by.
@@ -51,7 +51,7 @@ struct Shaped {
     smooth: Option<Vector>,
 }
 
-impl<'a, 'b> Stands<'a, 'b> {
+impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
     /// Returns the finish of the surface of this number, which is there.
     #[inline(always)]
     pub fn finish(&self, number: usize) -> Option<&'a Finish> {
@@ -66,8 +66,8 @@ impl<'a, 'b> Stands<'a, 'b> {
 
     /// Returns the points of surfaces, where rays start that leave them, and the normals that it is lit by, but those that are
     /// [`Self::shaped`].
-    pub fn rows(&self) -> (&Rows, &Rows, &Rows) {
-        let SurfacePoints { points, origins, facing, .. } = &self.surfaces;
+    pub fn rows(&self) -> (&'c Rows, &'c Rows, &'c Rows) {
+        let SurfacePoints { points, origins, facing, .. } = self.surfaces;
         (points, origins, facing)
     }
 
@@ -138,53 +138,80 @@ impl<'a> Tracer<'a> {
             walk.patience.is_over_after(steps, self.watch);
             return;
         }
-        let mut stands = self.stands(ways, hits, plains, mask);
-        if self.lights {
-            self.light(walk, &mut stands);
-        }
-        for number in numbers(mask) {
-            let Some(stand) = stands.at(number) else { continue };
-            let object = &self.world.objects[stand.hit.object as usize];
-            let finish = stand.place.finish;
-            let mut local = stands.local[number];
-            if object.double_illuminate || finish.extras.is_some() {
-                local += self.lit_behind(walk, &stand, object.double_illuminate);
-            }
-            surfaces.show(number, local, finish.seed);
-            if self.secondary && stand.way.level < self.max_trace_level {
-                self.scatter(walk, &stand, surfaces.first + number as u32);
-                count(walk);
-            }
-        }
-        walk.patience.is_over_after(steps, self.watch);
-    }
-
-    /// What there is where rays meet plain textures, on the sides they come from.
-    #[inline(always)]
-    fn stands<'b>(
-        &self,
-        ways: &'b [Way],
-        hits: &'b [Hit],
-        plains: [Option<&'a Plain>; SLICE],
-        mask: u32,
-    ) -> Stands<'a, 'b> {
         let rays = Rays::new(ways.iter().map(|way| &way.ray));
-        let instructions = self.geometry.instructions();
+        let mut points = SurfacePoints::NONE;
+        points.find(self.world, self.geometry.instructions(), (&rays, mask), hits);
         let mut stands = Stands {
             ways,
             hits,
             mask,
             plains,
-            surfaces: SurfacePoints::new(self.world, instructions, (&rays, mask), hits),
+            surfaces: &points,
             paints: [Color::default(); SLICE],
             bodies: [Rgb::BLACK; SLICE],
             shaped: 0,
             shapes: SmallVec::new(),
             local: [Rgb::BLACK; SLICE],
         };
+        self.paint(&mut stands);
+        if self.lights {
+            self.light(walk, &mut stands);
+        }
+        let mirrors = if self.secondary { self.mirrors(&stands) } else { 0 };
+        let mut mirrored = Rows::ZERO;
+        if mirrors != 0 {
+            let (directions, normals) = (&rays.directions, &points.facing);
+            dispatch!(self.geometry.instructions().level(), simd => {
+                reflection::mirrored_together(simd, directions, normals, mirrors, &mut mirrored);
+            });
+        }
         for number in numbers(mask) {
-            let Some(plain) = plains[number] else { continue };
-            let (ray, hit) = (&ways[number].ray, &hits[number]);
+            let Some(finish) = stands.finish(number) else { continue };
+            let (way, to) = (&ways[number], surfaces.first + number as u32);
+            let object = &self.world.objects[hits[number].object as usize];
+            let mut local = stands.local[number];
+            let goes_on = self.secondary && way.level < self.max_trace_level;
+            if mirrors >> number & 1 == 1 {
+                if goes_on {
+                    let origin = points.origins.at(number);
+                    let ray = Ray { origin, direction: mirrored.at(number) };
+                    self.mirror(walk, way, finish, ray, to);
+                }
+                // The rest has no rays that go on, and no light from behind.
+            } else if finish.reflection.is_some()
+                || finish.extras.is_some()
+                || object.double_illuminate
+                || (self.clear && stands.paints[number].is_clear())
+            {
+                local += self.rest(walk, &stands, number, goes_on, to);
+            }
+            surfaces.show(number, local, finish.seed);
+            count(walk);
+        }
+        walk.patience.is_over_after(steps, self.watch);
+    }
+
+    /// What a surface shows of the light behind it; rays that go on are added to the walk's.
+    #[inline(never)]
+    fn rest(&self, walk: &mut Walk, stands: &Stands, number: usize, goes_on: bool, to: u32) -> Rgb {
+        let Some(stand) = stands.at(number) else { return Rgb::BLACK };
+        let both = self.world.objects[stand.hit.object as usize].double_illuminate;
+        let local = match both || stand.place.finish.extras.is_some() {
+            true => self.lit_behind(walk, &stand, both),
+            false => Rgb::BLACK,
+        };
+        if goes_on {
+            self.scatter(walk, &stand, to);
+        }
+        local
+    }
+
+    /// Finds the colours and normals of surfaces.
+    #[inline(always)]
+    fn paint(&self, stands: &mut Stands<'a, '_, '_>) {
+        for number in numbers(stands.mask) {
+            let Some(plain) = stands.plains[number] else { continue };
+            let (ray, hit) = (&stands.ways[number].ray, &stands.hits[number]);
             let paint = match &plain.pigment {
                 Pigment::Color(color) => *color,
                 _ => texture::color(self, plain, ray, hit, &stands.surfaces.at(number)),
@@ -192,16 +219,50 @@ impl<'a> Tracer<'a> {
             let body = paint.body(self.world.settings.clearness);
             (stands.paints[number], stands.bodies[number]) = (paint, body);
             stands.local[number] = body * plain.finish.emission;
-            let may_be_smooth =
-                matches!(self.world.objects[hit.object as usize].shape, Shape::Placed(_));
-            if (may_be_smooth || plain.normal.is_some())
-                && let Some(shaped) = self.shaped(plain, (ray, hit), &stands.surfaces, number)
+            let shape = self.world.objects[hit.object as usize].shape;
+            if (matches!(shape, Shape::Placed(_)) || plain.normal.is_some())
+                && let Some(shaped) = self.shaped(plain, (ray, hit), stands.surfaces, number)
             {
                 stands.shaped |= 1 << number;
                 stands.shapes.push(shaped);
             }
         }
-        stands
+    }
+
+    /// Returns a bit for each surface that does nothing but show what it is like and mirror rays.
+    #[inline(always)]
+    fn mirrors(&self, stands: &Stands) -> u32 {
+        let mut mirrors = 0;
+        for number in numbers(stands.mask & !stands.shaped) {
+            let Some(finish) = stands.finish(number) else { continue };
+            let Some(reflection) = &finish.reflection else { continue };
+            let object = &self.world.objects[stands.hits[number].object as usize];
+            let is_plain = finish.extras.is_none()
+                && !object.double_illuminate
+                && !(self.bends && reflection.fresnel)
+                && !(self.clear && stands.paints[number].is_clear())
+                && reflection.minimum == reflection.maximum
+                && reflection.metallic == 0.0;
+            mirrors |= if is_plain { 1 << number } else { 0 };
+        }
+        mirrors
+    }
+
+    /// Adds the mirrored ray of a surface that mirrors the same at all angles to the walk's.
+    #[inline(always)]
+    fn mirror(&self, walk: &mut Walk, way: &Way, finish: &Finish, ray: Ray, to: u32) {
+        let Some(reflection) = &finish.reflection else { return };
+        let most = || reflection::most(reflection, 0.0);
+        let Some(weight) = self.weight(way.weight, finish, most) else { return };
+        let factor = reflection.maximum;
+        if factor.is_black() {
+            return;
+        }
+        walk.counters.reflection += 1;
+        let (level, mirrored, inside) = (way.level + 1, true, None);
+        let (spectrum, within) = (way.spectrum, way.within);
+        let way = Way { ray, weight, level, mirrored, inside, spectrum, within };
+        walk.onward.push(Onward { way, back: Back { to, factor, exponent: reflection.exponent } });
     }
 
     /// How a surface is lit that is smooth or bumpy.

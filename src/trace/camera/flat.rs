@@ -27,15 +27,13 @@ impl Flat {
         Self { origin, shift, direction, turn }
     }
 
-    /// Returns the rays through points (u, v) of the screen, one for each bit of a mask.
+    /// Finds the rays through points (u, v) of the screen, one for each bit of the rays' mask.
     #[inline(always)]
-    pub fn rays(&self, instructions: Instructions, [u, v]: &[Row; 2], mask: u32) -> Rays {
-        let mut rays = Rays { mask, ..Rays::NONE };
-        let odd = dispatch!(instructions.level(), simd => self.aim(simd, [u, v], &mut rays)) & mask;
-        for number in numbers(odd) {
+    pub fn find(&self, instructions: Instructions, [u, v]: &[Row; 2], rays: &mut Rays) {
+        let odd = dispatch!(instructions.level(), simd => self.aim(simd, [u, v], rays));
+        for number in numbers(odd & rays.mask) {
             rays.directions.set(number, unit(self.line(u[number], v[number]).direction));
         }
-        rays
     }
 
     /// Finds rays; returns a bit for each whose direction has too long or too short a square.
