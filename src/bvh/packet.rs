@@ -78,13 +78,13 @@ struct PacketAxis {
 
 impl Packet {
     /// `None` where the rays do not all go the same way along each axis, or one starts too far off.
-    fn new(rays: &Rays, limits: &Row, space: &Space) -> Option<Self> {
+    fn new(rays: &Rays, slack: f64, limits: &Row, space: &Space) -> Option<Self> {
         // The starts and the reciprocals by axis; in lanes without a ray, those of the first.
-        let first = starts(&rays.at(numbers(rays.mask).next()?), 0.0, space)?;
+        let first = starts(&rays.at(numbers(rays.mask).next()?), slack, space)?;
         let mut all = first.map(|axis| axis.map(|value| [value; MOST]));
         let mut out = [f32::NEG_INFINITY; MOST];
         for number in numbers(rays.mask) {
-            let starts = starts(&rays.at(number), 0.0, space)?;
+            let starts = starts(&rays.at(number), slack, space)?;
             out[number] = space.limit(limits[number]);
             for axis in 0..3 {
                 if (starts[axis][2] < 0.0) != (first[axis][2] < 0.0) {
@@ -174,17 +174,17 @@ struct Waiting {
 }
 
 impl Tree {
-    /// Shows `seeker`, for each of up to [`MOST`] rays, every run of pieces whose box it meets at its limit or
-    /// before. Fast where the rays go much the same way.
+    /// Shows `seeker`, for each of up to [`MOST`] rays, every run of pieces whose box it meets, or passes by at
+    /// most `slack`, at its limit or before. Fast where the rays go much the same way.
     #[inline(never)]
-    pub fn visit_together(&self, rays: &Rays, seeker: &mut impl PacketSeeker) {
+    pub fn visit_together(&self, rays: &Rays, slack: f64, seeker: &mut impl PacketSeeker) {
         let mut limits = *seeker.limits();
         let packet = (rays.mask.count_ones() >= LEAST)
-            .then(|| Packet::new(rays, &limits, &self.space))
+            .then(|| Packet::new(rays, slack, &limits, &self.space))
             .flatten();
         let Some(mut packet) = packet else {
             for ray in numbers(rays.mask) {
-                self.visit(&rays.at(ray), 0.0, limits[ray], &mut Alone { seeker, ray });
+                self.visit(&rays.at(ray), slack, limits[ray], &mut Alone { seeker, ray });
             }
             return;
         };

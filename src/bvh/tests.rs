@@ -141,7 +141,7 @@ fn every_box_that_a_ray_of_a_packet_meets_is_shown_for_it() {
             let limits: Row = from_fn(|_| [f64::INFINITY, size][random.below(2)]);
             let shown = vec![vec![false; count]; rays.len()];
             let mut noted = Noted { order: &order, shown, limits };
-            tree.visit_together(&Rays::new(rays.iter()), &mut noted);
+            tree.visit_together(&Rays::new(rays.iter()), 0.0, &mut noted);
             for ((ray, limit), shown) in rays.iter().zip(limits).zip(noted.shown) {
                 for (bounds, shown) in all.iter().zip(shown) {
                     let met = is_met(bounds, ray, 0.0, limit);

@@ -346,8 +346,13 @@ impl Geometry {
 
     #[inline(never)]
     fn first_met(&self, i: u32, sides: Sides, ray: &Ray, limit: f64) -> Option<Met> {
+        self.first_of(i, sides, ray, limit, &self.placed[i as usize].first_crossings(ray, limit))
+    }
+
+    /// The first crossing that is seen among the first ones of a body.
+    #[inline(always)]
+    fn first_of(&self, i: u32, sides: Sides, ray: &Ray, limit: f64, first: &[Met]) -> Option<Met> {
         let placed = &self.placed[i as usize];
-        let first = placed.first_crossings(ray, limit);
         let met = match first.iter().find(|met| sides.see(met)) {
             Some(met) => *met,
             // A body ends its search at the first that is seen from either side; from here it is not.

@@ -7,9 +7,11 @@ use super::nearest::Race;
 use super::search::RowSeeker;
 use super::work::Tally;
 use super::{EASY, Entry, Geometry, Hit, Sides, Solid};
+use crate::bvh::packet;
 use crate::math::wide::*;
-use crate::shape::First;
-use crate::shape::local::Met;
+use crate::shape::local::{Local, Met};
+use crate::shape::{First, Ray};
+use smallvec::SmallVec;
 
 /// A [`Race`] for each ray.
 pub(super) struct Races<'a, T> {
@@ -88,7 +90,31 @@ impl<'a, T: Tally> Races<'a, T> {
     #[inline(never)]
     fn look_alone(&mut self, entry: &Entry, number: usize) {
         let (ray, limit) = (self.rays.at(number), self.limits[number]);
-        let Some(hit) = self.geometry.first_crossing::<EASY>(entry, &ray, limit) else { return };
+        if let Some(hit) = self.geometry.first_crossing::<EASY>(entry, &ray, limit) {
+            self.take_one(number, hit);
+        }
+    }
+
+    /// Looks at a body for the rays whose bits are set.
+    #[inline(never)]
+    fn look_together(&mut self, entry: &Entry, body: u32, mask: u32) {
+        let rays: SmallVec<[Ray; ROW]> = numbers(mask).map(|number| self.rays.at(number)).collect();
+        let limits: SmallVec<[f64; ROW]> =
+            numbers(mask).map(|number| self.limits[number]).collect();
+        let geometry = self.geometry;
+        let found = geometry.placed[body as usize].first_crossings_together(&rays, &limits);
+        for (number, (found, (ray, limit))) in
+            numbers(mask).zip(found.iter().zip(rays.iter().zip(&limits)))
+        {
+            if let Some(met) = geometry.first_of(body, entry.sides, ray, *limit, found) {
+                self.take_one(number, entry.hit(met));
+            }
+        }
+    }
+
+    /// Takes note of where the ray of this number first meets an entry.
+    #[inline(always)]
+    fn take_one(&mut self, number: usize, hit: Hit) {
         if hit.t < self.t[number] {
             self.rival_t[number] = self.t[number];
             self.limits[number] = hit.t + 2.0 * hit.error;
@@ -155,6 +181,12 @@ impl<T: Tally> RowSeeker for Races<'_, T> {
                     let first = plane.first_of_four(simd, &ray, shows, limit);
                     self.take(simd, entry, group, first);
                 }
+            }
+            Solid::Placed(i)
+                if mask.count_ones() >= packet::LEAST
+                    && geometry.placed[*i as usize].body.goes_together() =>
+            {
+                self.look_together(entry, *i, mask);
             }
             _ => numbers(mask).for_each(|number| self.look_alone(entry, number)),
         }

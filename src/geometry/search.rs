@@ -130,7 +130,7 @@ impl Geometry {
             }
             return;
         };
-        tree.visit_together(rays, &mut PacketEntries { seeker, geometry: self });
+        tree.visit_together(rays, 0.0, &mut PacketEntries { seeker, geometry: self });
     }
 }
 

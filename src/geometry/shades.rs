@@ -7,8 +7,11 @@ use super::occluder::Occluder;
 use super::search::RowSeeker;
 use super::work::Tally;
 use super::{Entry, Geometry, Sides, Solid};
+use crate::bvh::packet;
 use crate::math::wide::*;
-use crate::shape::First;
+use crate::shape::local::{Local, Met};
+use crate::shape::{First, Ray};
+use smallvec::SmallVec;
 
 /// Looks for anything that shadows each ray.
 pub(super) struct Shades<'a, T> {
@@ -58,6 +61,22 @@ impl<'a, T: Tally> Shades<'a, T> {
         }
     }
 
+    /// Looks at a body that is seen from both sides for the rays whose bits are set.
+    #[inline(never)]
+    fn look_together(&mut self, place: usize, body: u32, mask: u32) {
+        let rays: SmallVec<[Ray; ROW]> = numbers(mask).map(|number| self.rays.at(number)).collect();
+        let distances: SmallVec<[f64; ROW]> =
+            numbers(mask).map(|number| self.distances[number]).collect();
+        let shadows = |number: usize, met: &Met| {
+            Sides::Both.see(met) && met.t + met.error < distances[number]
+        };
+        let body = &self.geometry.placed[body as usize];
+        let crossed = body.crosses_together(&rays, &distances, shadows);
+        let shadowed = numbers(mask).enumerate().filter(|(nth, _)| crossed >> nth & 1 == 1);
+        let shadowed = shadowed.fold(0, |all, (_, number)| all | 1 << number);
+        self.found(place, shadowed);
+    }
+
     /// Takes note of where the rays of a group first meet an entry.
     #[inline(always)]
     fn take<S: Simd>(&mut self, simd: S, place: usize, group: usize, first: First<S>) {
@@ -104,6 +123,13 @@ impl<T: Tally> RowSeeker for Shades<'_, T> {
                     let first = plane.first_of_four(simd, &ray, shows, limit);
                     self.take(simd, place, group, first);
                 }
+            }
+            Solid::Placed(i)
+                if mask.count_ones() >= packet::LEAST
+                    && entry.sides == Sides::Both
+                    && geometry.placed[*i as usize].body.goes_together() =>
+            {
+                self.look_together(place, *i, mask);
             }
             _ => numbers(mask).for_each(|number| self.look_alone(place, number)),
         }

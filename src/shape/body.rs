@@ -74,6 +74,34 @@ macro_rules! bodies {
                 }
             }
 
+            fn first_crossings_together(
+                &self,
+                lines: &[LocalRay],
+                between: &[(f64, f64)],
+                found: &mut [Crossings],
+            ) {
+                match self {
+                    $(Self::$kind(body) => body.first_crossings_together(lines, between, found),)*
+                }
+            }
+
+            fn crosses_together(
+                &self,
+                lines: &[LocalRay],
+                between: &[(f64, f64)],
+                accepts: &dyn Fn(usize, &Met) -> bool,
+            ) -> u32 {
+                match self {
+                    $(Self::$kind(body) => body.crosses_together(lines, between, accepts),)*
+                }
+            }
+
+            fn goes_together(&self) -> bool {
+                match self {
+                    $(Self::$kind(body) => body.goes_together(),)*
+                }
+            }
+
             fn part_at(&self, ray: &LocalRay, s: f64, leaving: bool) -> Option<u32> {
                 match self {
                     $(Self::$kind(body) => body.part_at(ray, s, leaving),)*

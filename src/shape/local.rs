@@ -27,6 +27,33 @@ pub trait Local {
         self.crossings(ray, found);
     }
 
+    /// As [`Local::first_crossings`] for lines side by side, no more than a row, each with its range.
+    fn first_crossings_together(
+        &self,
+        lines: &[LocalRay],
+        between: &[(f64, f64)],
+        found: &mut [Crossings],
+    ) {
+        for ((line, between), found) in lines.iter().zip(between).zip(found) {
+            self.first_crossings(line, *between, found);
+        }
+    }
+
+    /// As [`Local::crosses`] for lines side by side: a bit for each.
+    fn crosses_together(
+        &self,
+        lines: &[LocalRay],
+        between: &[(f64, f64)],
+        accepts: &dyn Fn(usize, &Met) -> bool,
+    ) -> u32 {
+        crosses_one_by_one(self, lines, between, accepts)
+    }
+
+    /// Returns whether lines side by side are found sooner than one by one.
+    fn goes_together(&self) -> bool {
+        false
+    }
+
     /// Returns the part of the surface through which the line enters or leaves at `s`, where that is cheap to
     /// determine.
     fn part_at(&self, _ray: &LocalRay, _s: f64, _leaving: bool) -> Option<u32> {
@@ -86,6 +113,19 @@ pub trait Local {
     fn shading_normal(&self, _part: u32, _point: Vector) -> Option<Vector> {
         None
     }
+}
+
+/// Returns a bit for each line of which [`Local::crosses`] is true.
+pub(super) fn crosses_one_by_one(
+    body: &(impl Local + ?Sized),
+    lines: &[LocalRay],
+    between: &[(f64, f64)],
+    accepts: &dyn Fn(usize, &Met) -> bool,
+) -> u32 {
+    lines.iter().zip(between).enumerate().fold(0, |crossed, (number, (line, between))| {
+        let is_crossed = body.crosses(line, *between, &|met| accepts(number, met));
+        crossed | u32::from(is_crossed) << number
+    })
 }
 
 /// The height of a local point over a part of a surface; 0 on the surface.

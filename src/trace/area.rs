@@ -244,13 +244,13 @@ fn search(tracer: &Tracer, walk: &mut Walk, of: AreaLight, ground: &Ground, node
             reaches[number] = reach;
         }
         let shadowed = shadow::shadowed_together(tracer, walk, of.number, &rays, &reaches);
-        for number in 0..asked.len() {
+        for (number, &reach) in reaches.iter().enumerate().take(asked.len()) {
             let there = |bits: u32| bits >> number & 1 == 1;
             factors.push(if there(shadowed) {
                 Rgb::BLACK
             } else if tracer.filters_shadows && there(rays.mask) {
                 let Ray { origin, direction: to_light } = rays.at(number);
-                let aim = Aim { to_light, reach: reaches[number] };
+                let aim = Aim { to_light, reach };
                 tracer.filtered(walk, ground.place.within, origin, &aim)
             } else {
                 Rgb::WHITE

@@ -26,9 +26,10 @@ impl Tracer<'_> {
                 let mut places = [[0.0; ROW]; 2];
                 let fill = |rays: &mut Rays| {
                     rays.mask = 0;
-                    for number in 0..ROW {
+                    let [all_u, all_v] = &mut places;
+                    for (number, (at_u, at_v)) in all_u.iter_mut().zip(all_v).enumerate() {
                         let Some(Point { u, v, .. }) = points.next() else { break };
-                        (places[0][number], places[1][number]) = (u, v);
+                        (*at_u, *at_v) = (u, v);
                         rays.mask |= 1 << number;
                     }
                     flat.find(instructions, &places, rays);

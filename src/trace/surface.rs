@@ -237,10 +237,11 @@ impl<'a> Tracer<'a> {
             let Some(finish) = stands.finish(number) else { continue };
             let Some(reflection) = &finish.reflection else { continue };
             let object = &self.world.objects[stands.hits[number].object as usize];
-            let is_plain = finish.extras.is_none()
+            let parts =
+                self.bends && reflection.fresnel || self.clear && stands.paints[number].is_clear();
+            let is_plain = !parts
+                && finish.extras.is_none()
                 && !object.double_illuminate
-                && !(self.bends && reflection.fresnel)
-                && !(self.clear && stands.paints[number].is_clear())
                 && reflection.minimum == reflection.maximum
                 && reflection.metallic == 0.0;
             mirrors |= if is_plain { 1 << number } else { 0 };

@@ -5,16 +5,19 @@
 
 pub(super) mod pierce;
 mod skin;
+mod together;
 
 use std::ops::Range;
 
-use super::local::{Crossings, Facet, Height, Local, LocalRay, Met};
+use super::local::{self, Crossings, Facet, Height, Local, LocalRay, Met};
 use super::{Bounds, U};
 use crate::bvh::Tree;
 use crate::math::ray::Ray;
+use crate::math::wide::ROW;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
 use pierce::View;
 pub use skin::Skin;
+use smallvec::SmallVec;
 
 /// A triangle. The surface faces a viewer who sees the corners turn left, where x points right, y up and z
 /// away. **Source:** behaviour of POV-Ray 3.7, measured with `trace`.
@@ -223,6 +226,56 @@ impl Local for Mesh {
         });
         found.retain(|met| met.t <= limit);
         sort(found);
+    }
+
+    fn first_crossings_together(
+        &self,
+        lines: &[LocalRay],
+        between: &[(f64, f64)],
+        found: &mut [Crossings],
+    ) {
+        let mut limits: SmallVec<[f64; ROW]> = between.iter().map(|(_, to)| *to).collect();
+        let search = |number: usize, met: Met| {
+            let limit = &mut limits[number];
+            if met.t <= *limit {
+                found[number].push(met);
+                if met.t - met.error > lines[number].ahead_of(between[number].0) {
+                    *limit = met.t;
+                }
+            }
+            *limit
+        };
+        if self.inside.is_some() || !self.pierced_together(lines, between, search) {
+            for ((line, between), found) in lines.iter().zip(between).zip(found) {
+                self.first_crossings(line, *between, found);
+            }
+            return;
+        }
+        for (found, limit) in found.iter_mut().zip(limits) {
+            found.retain(|met| met.t <= limit);
+            sort(found);
+        }
+    }
+
+    fn crosses_together(
+        &self,
+        lines: &[LocalRay],
+        between: &[(f64, f64)],
+        accepts: &dyn Fn(usize, &Met) -> bool,
+    ) -> u32 {
+        let mut crossed = 0;
+        let search = |number: usize, met: Met| {
+            crossed |= u32::from(accepts(number, &met)) << number;
+            if crossed >> number & 1 == 1 { f64::NEG_INFINITY } else { between[number].1 }
+        };
+        if self.inside.is_some() || !self.pierced_together(lines, between, search) {
+            return local::crosses_one_by_one(self, lines, between, accepts);
+        }
+        crossed
+    }
+
+    fn goes_together(&self) -> bool {
+        self.inside.is_none()
     }
 
     fn crosses(&self, ray: &LocalRay, between: (f64, f64), accepts: &dyn Fn(&Met) -> bool) -> bool {

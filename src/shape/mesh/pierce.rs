@@ -83,6 +83,16 @@ impl<'a> View<'a> {
         Self { across, doubt, in_world, is_in_a_plane: Cell::new(false) }
     }
 
+    /// Returns the line's dominant axis, followed by the other two in cyclic order.
+    pub fn axes(&self) -> [usize; 3] {
+        self.across.axes
+    }
+
+    /// Returns a point of the line, and its slope across the dominant axis.
+    pub fn line(&self) -> (Vector, [f64; 2]) {
+        (self.across.start, self.across.shear)
+    }
+
     /// Returns whether the line pierces the triangle: `Some(true)` if it goes in the direction that the
     /// surface faces.
     #[inline]

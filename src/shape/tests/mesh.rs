@@ -73,6 +73,39 @@ fn crossings(mesh: &Mesh, ray: &LocalRay) -> Crossings {
 }
 
 #[test]
+fn lines_side_by_side_meet_what_each_meets_alone() {
+    let mut random = Random(82);
+    let mesh = ball(4, false);
+    let (mut met, mut together) = (0, 0);
+    for _ in 0..tries_in(10) {
+        let (toward, through) = (random.direction().get(), random.point(1.2));
+        let spread = random.size(-6.0, 0.0);
+        let lines: Vec<LocalRay> = (0..1 + random.below(16))
+            .map(|_| line(through + random.point(spread), toward + random.point(spread)))
+            .collect();
+        let ends =
+            |random: &mut Random| (random.number(-3.0, 0.5), [random.number(-1.0, 3.0), 9.0]);
+        let between: Vec<(f64, f64)> =
+            lines.iter().map(|_| ends(&mut random)).map(|(a, b)| (a, b[random.below(2)])).collect();
+        let mut found = vec![Crossings::new(); lines.len()];
+        mesh.first_crossings_together(&lines, &between, &mut found);
+        let accepts =
+            |number: usize, met: &Met| met.t > between[number].0 && met.t < between[number].1;
+        let crossed = mesh.crosses_together(&lines, &between, &accepts);
+        for (number, (line, between)) in lines.iter().zip(&between).enumerate() {
+            let mut alone = Crossings::new();
+            mesh.first_crossings(line, *between, &mut alone);
+            assert_eq!(found[number], alone, "{line:?} {between:?}");
+            let is_crossed = mesh.crosses(line, *between, &|met| accepts(number, met));
+            assert_eq!(crossed >> number & 1 == 1, is_crossed, "{line:?} {between:?}");
+            met += usize::from(!alone.is_empty());
+            together += usize::from(lines.len() > 3);
+        }
+    }
+    assert!(met.min(together) > tries() / 20, "{met} {together}");
+}
+
+#[test]
 fn a_tetrahedron_is_crossed_where_exact_arithmetic_crosses_it() {
     let mut random = Random(81);
     let mut crossed = 0;

@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
+use crate::math::wide::Instructions;
 
 #[test]
 fn the_film_has_the_same_bits_for_any_number_of_threads() {
@@ -14,6 +15,19 @@ fn the_film_has_the_same_bits_for_any_number_of_threads() {
     for threads in [2, 3, 7] {
         let shared = trace(&world, &plan, &TraceOptions::on_threads(threads), &Unwatched);
         assert_eq!(shared, alone);
+    }
+}
+
+#[test]
+fn the_film_has_the_same_bits_whatever_the_instructions() {
+    let world = varied();
+    let options = options(70, 50, Antialias::default());
+    let plan = plan(&world, &Origins::default(), &options);
+    let alone = traced_by(&world, &plan);
+    for instructions in Instructions::all() {
+        let geometry = geometry(&world, &plan, &TraceOptions::default()).with(instructions);
+        let traced = trace_in(&world, &geometry, &plan, &TraceOptions::default(), &Unwatched);
+        assert_eq!(traced.film, alone.film, "{instructions:?}");
     }
 }
 
