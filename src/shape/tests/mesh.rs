@@ -83,10 +83,9 @@ fn lines_side_by_side_meet_what_each_meets_alone() {
         let lines: Vec<LocalRay> = (0..1 + random.below(16))
             .map(|_| line(through + random.point(spread), toward + random.point(spread)))
             .collect();
-        let ends =
-            |random: &mut Random| (random.number(-3.0, 0.5), [random.number(-1.0, 3.0), 9.0]);
-        let between: Vec<(f64, f64)> =
-            lines.iter().map(|_| ends(&mut random)).map(|(a, b)| (a, b[random.below(2)])).collect();
+        let mut ends =
+            || (random.number(-3.0, 0.5), [random.number(-1.0, 3.0), 9.0][random.below(2)]);
+        let between: Vec<(f64, f64)> = lines.iter().map(|_| ends()).collect();
         let mut found = vec![Crossings::new(); lines.len()];
         mesh.first_crossings_together(&lines, &between, &mut found);
         let accepts =

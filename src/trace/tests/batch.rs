@@ -1,6 +1,7 @@
 //! Rays see the same alone and in a batch, and a batch takes no more memory than it says.
 
 use super::*;
+use crate::math::wide::{ROW, Rays};
 
 /// What the camera sees along the rays of a picture, each by itself or all together.
 fn seen(world: &World, plan: &Plan, together: bool) -> (Vec<Rgb>, usize) {
@@ -13,7 +14,9 @@ fn seen(world: &World, plan: &Plan, together: bool) -> (Vec<Rgb>, usize) {
     let rays: Vec<_> = lens.rays(&points).into_iter().flatten().collect();
     let (mut walk, mut all) = (Walk::default(), Vec::new());
     for part in rays.chunks(if together { rays.len() } else { 1 }) {
-        tracer.each_seen(&mut walk, part.iter().copied(), |seen| all.push(seen));
+        let mut rows = part.chunks(ROW);
+        let fill = |rays: &mut Rays| *rays = Rays::new(rows.next().unwrap_or(&[]).iter());
+        tracer.each_seen(&mut walk, fill, |seen| all.push(seen));
     }
     (all, walk.batch.room())
 }
