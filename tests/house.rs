@@ -121,6 +121,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 const DOORS: &[(&str, &[&str])] = &[
     ("pest", &["syntax/"]),
     ("pest_derive", &["syntax/"]),
+    ("fearless_simd", &["math/wide.rs"]),
     ("glam", &["math/vector.rs"]),
     ("libm", &["math/elementary.rs"]),
     ("miette", &["diagnostic/render"]),

@@ -50,20 +50,21 @@ impl<'a, T: Tally> Races<'a, T> {
     /// Adds the first surface that each ray meets.
     #[inline(always)]
     pub fn finish(mut self, hits: &mut Vec<Hit>) {
-        for number in numbers(self.rays.mask) {
+        let first = hits.len();
+        hits.resize(first + self.rays.mask.count_ones() as usize, Hit::NOTHING);
+        for (number, hit) in numbers(self.rays.mask).zip(&mut hits[first..]) {
             let (t, limit) = (self.t[number], self.limits[number]);
             let may_differ = self.rival_t[number] <= limit || self.is_contested >> number & 1 == 1;
-            hits.push(match may_differ && t != f64::INFINITY {
-                true => self.decided(number),
-                false => Hit {
-                    object: self.object[number],
-                    t,
-                    error: (limit - t) / 2.0,
-                    leaving: self.leaving >> number & 1 == 1,
-                    part: self.part[number],
-                    contested: false,
-                },
-            });
+            if may_differ && t != f64::INFINITY {
+                *hit = self.decided(number);
+                continue;
+            }
+            // Field by field: a whole hit would be read before its parts are written.
+            hit.object = self.object[number];
+            hit.t = t;
+            hit.error = (limit - t) / 2.0;
+            hit.leaving = self.leaving >> number & 1 == 1;
+            hit.part = self.part[number];
         }
     }
 

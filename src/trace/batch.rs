@@ -92,6 +92,15 @@ struct Return {
     back: Back,
 }
 
+impl Return {
+    /// Of a ray of the camera.
+    const NOTHING: Self = Self {
+        seen: Rgb::BLACK,
+        clamped: false,
+        back: Back { to: 0, factor: Rgb::WHITE, exponent: 1.0 },
+    };
+}
+
 /// Rays that left the surfaces of the generation before.
 #[derive(Debug, Clone, Copy)]
 struct Generation {
@@ -148,16 +157,18 @@ impl Batch {
         self.veils.clear();
         self.hits.clear();
         self.generations.clear();
-        let back = Back { to: 0, factor: Rgb::WHITE, exponent: 1.0 };
-        self.add(self.ways.len(), std::iter::repeat(back), 0);
+        self.add(self.ways.len(), std::iter::empty(), 0);
     }
 
     /// Adds a generation whose rays are the last of the list.
     fn add(&mut self, count: usize, backs: impl Iterator<Item = Back>, solids: usize) {
         let (first, rays) = (self.returns.len(), self.ways.len() - count);
-        let returns =
-            backs.take(count).map(|back| Return { seen: Rgb::BLACK, clamped: false, back });
-        self.returns.extend(returns);
+        self.returns.resize(first + count, Return::NOTHING);
+        self.returns[first..].iter_mut().zip(backs).for_each(|(one, back)| {
+            one.back.to = back.to;
+            one.back.factor = back.factor;
+            one.back.exponent = back.exponent;
+        });
         self.generations.push(Generation { first, count, shaded: 0, rays, solids });
     }
 
