@@ -128,6 +128,7 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         | Effect::FocalBlur
         | Effect::CameraNormal
         | Effect::Fog
+        | Effect::Rainbows
         | Effect::Antialiasing => None,
     }
 }

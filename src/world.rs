@@ -9,6 +9,7 @@ mod csg_solid;
 mod fog;
 mod light;
 pub mod print;
+mod rainbow;
 mod solid;
 
 use crate::color::{Clearness, Gamma, Rgb};
@@ -20,6 +21,8 @@ pub use camera::{Camera, CameraKind, Focus};
 pub use csg_solid::{CsgSolid, Cutaway};
 pub use fog::{Churn, Fog, Ground};
 pub use light::{Area, Attenuation, Beam, Fade, Light, LightKind};
+
+pub use rainbow::Rainbow;
 
 pub use crate::texture::{
     Extras, Finish, Irid, Lobe, LobeKind, Pigment, Plain, Reflection, Texture,
@@ -34,6 +37,8 @@ pub struct World {
     pub sky: Option<Sky>,
     /// In written order; each changes the picture.
     pub fogs: Vec<Fog>,
+    /// Likewise.
+    pub rainbows: Vec<Rainbow>,
     pub lights: Vec<Light>,
     /// The lights that light an object, in order; see `Object::lights`. Empty if all light every object.
     pub light_sets: Vec<Vec<u32>>,
@@ -63,6 +68,13 @@ pub struct World {
     pub faces: Vec<FaceCoordinates>,
 }
 
+impl World {
+    /// Returns whether fog or rainbows veil what rays meet.
+    pub fn has_haze(&self) -> bool {
+        !self.fogs.is_empty() || !self.rainbows.is_empty()
+    }
+}
+
 /// The origins of the World's parts, one list for each of its lists. Never compared.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Origins {
@@ -90,6 +102,8 @@ pub struct Origins {
     pub sky: Option<SkyOrigin>,
     /// The whole item of each fog.
     pub fogs: Vec<Site>,
+    /// Likewise of each rainbow.
+    pub rainbows: Vec<Site>,
     pub max_trace_level: Option<Site>,
     /// Parts that lowering left out, with the reasons.
     pub dropped: Vec<Dropped>,

@@ -70,6 +70,7 @@ pub struct Evaluations {
     pub focal_blur: u64,
     pub camera_normal: u64,
     pub fog: u64,
+    pub rainbows: u64,
 }
 
 impl From<trace::Evaluations> for Evaluations {
@@ -90,6 +91,7 @@ impl From<trace::Evaluations> for Evaluations {
             focal_blur,
             camera_normal,
             fog,
+            rainbows,
         } = counted;
         Self {
             diffuse,
@@ -107,6 +109,7 @@ impl From<trace::Evaluations> for Evaluations {
             focal_blur,
             camera_normal,
             fog,
+            rainbows,
         }
     }
 }
@@ -180,6 +183,7 @@ impl Stats {
             count("through a lens", self.evaluations.focal_blur),
             count("camera normal", self.evaluations.camera_normal),
             count("fog", self.evaluations.fog),
+            count("rainbows", self.evaluations.rainbows),
         ]
         .concat()
     }

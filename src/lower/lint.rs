@@ -70,7 +70,7 @@ impl Lowering<'_, '_> {
         self.lint_emptied();
         let is_telescope = !self.is_blind && self.lint_angle();
         let world = &self.world;
-        let empty_sky = world.sky.is_none() && world.background.is_black();
+        let empty_sky = world.sky.is_none() && world.background.is_black() && !world.has_haze();
         if world.objects.is_empty() {
             return self.lint_empty(empty_sky);
         }

@@ -34,6 +34,7 @@ mod pigment;
 mod place;
 mod points;
 mod quadric;
+mod rainbow;
 mod shape;
 mod surface;
 mod sweep;
@@ -112,6 +113,7 @@ pub fn lower(
     lowering.camera();
     lowering.sky();
     lowering.fogs();
+    lowering.rainbows();
     lowering.objects();
     lowering.light_sets();
     if lowering.sees_nothing {

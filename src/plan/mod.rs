@@ -141,12 +141,14 @@ pub enum Effect {
     CameraNormal,
     /// Fog between surfaces.
     Fog,
+    /// Coloured arcs around a direction.
+    Rainbows,
     Antialiasing,
 }
 
 impl Effect {
     /// All effects, in the order in which the plan lists them.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::Diffuse,
         Self::Highlights,
         Self::Shadows,
@@ -165,6 +167,7 @@ impl Effect {
         Self::FocalBlur,
         Self::CameraNormal,
         Self::Fog,
+        Self::Rainbows,
         Self::Antialiasing,
     ];
 
@@ -189,6 +192,7 @@ impl Effect {
             Self::FocalBlur => "focal blur",
             Self::CameraNormal => "camera normal",
             Self::Fog => "fog",
+            Self::Rainbows => "rainbows",
             Self::Antialiasing => "antialiasing",
         }
     }

@@ -4,14 +4,15 @@
 //! shared child is shown in full once and by name afterwards, so the text exceeds the Scene only by its
 //! indentation. The printer does not recurse: the nesting depth is unlimited.
 
+mod haze;
 mod texture;
 
 use std::fmt::{self, Write};
 
 use super::{
-    Area, Beam, CameraItemKind, CameraKind, CylinderForm, Fade, Finish, FogTurbulence, Interior,
-    Irid, LightKind, LightSource, Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings,
-    TextureId, TransformId,
+    Area, Beam, CameraItemKind, CameraKind, CylinderForm, Fade, Finish, Interior, Irid, LightKind,
+    LightSource, Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings, TextureId,
+    TransformId,
 };
 use crate::color::Clearness;
 use crate::math::transform::Step as TransformStep;
@@ -70,6 +71,7 @@ impl Printer<'_> {
             }
         }
         self.fogs(out)?;
+        self.rainbows(out)?;
         for root in &self.scene.roots {
             self.object(out, root.object)?;
         }
@@ -80,29 +82,6 @@ impl Printer<'_> {
         for id in defaults {
             writeln!(out, "default texture {}", id.0)?;
             self.texture(out, id, "  ")?;
-        }
-        Ok(())
-    }
-
-    fn fogs(&self, out: &mut String) -> fmt::Result {
-        for fog in &self.scene.fogs {
-            writeln!(out, "fog  ({})", self.sources.place(fog.site.span))?;
-            writeln!(out, "  color {}", fog.color)?;
-            writeln!(out, "  distance {}", fog.distance)?;
-            if fog.is_ground {
-                writeln!(out, "  fog_type 2")?;
-                writeln!(out, "  fog_offset {}", fog.offset)?;
-                writeln!(out, "  fog_alt {}", fog.alt)?;
-                writeln!(out, "  up {}", vector(fog.up))?;
-                for &id in &fog.transforms {
-                    self.transform(out, id, "  ")?;
-                }
-            }
-            if let Some(FogTurbulence { scale, octaves, lambda, omega }) = fog.turbulence {
-                write!(out, "  turbulence {} octaves {octaves}", vector(scale))?;
-                writeln!(out, " lambda {lambda} omega {omega}")?;
-                writeln!(out, "  turb_depth {} {:?}", fog.turb_depth, fog.noise)?;
-            }
         }
         Ok(())
     }

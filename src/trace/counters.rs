@@ -79,6 +79,8 @@ pub struct Evaluations {
     pub camera_normal: u64,
     /// Fogs on the ways of rays.
     pub fog: u64,
+    /// Rainbows on the ways of rays.
+    pub rainbows: u64,
 }
 
 impl Evaluations {
@@ -118,5 +120,6 @@ impl AddAssign for Evaluations {
         self.focal_blur += other.focal_blur;
         self.camera_normal += other.camera_normal;
         self.fog += other.fog;
+        self.rainbows += other.rainbows;
     }
 }

@@ -27,6 +27,7 @@ mod layers;
 mod media;
 mod metal;
 mod pixels;
+mod rainbow;
 mod reflection;
 mod refraction;
 mod samples;

@@ -9,7 +9,7 @@ use std::fmt::{self, Write};
 
 use super::{
     Absorption, Area, Attenuation, Beam, CameraKind, Churn, Coat, CsgSolid, Cutaway, Dispersion,
-    Fade, Focus, Ground, LightKind, Object, Origins, World,
+    Fade, Focus, Ground, LightKind, Object, Origins, Rainbow, World,
 };
 use crate::color::Clearness;
 use crate::math::placement::{Map, Placement};
@@ -57,6 +57,7 @@ impl Printer<'_> {
             }
         }
         self.fogs(out)?;
+        self.rainbows(out)?;
         self.lights(out)?;
         writeln!(out, "objects {}", self.world.objects.len())?;
         for (i, object) in self.world.objects.iter().enumerate() {
@@ -158,6 +159,21 @@ impl Printer<'_> {
             if let Some(Churn { scale, depth, turbulence, noise }) = fog.churn {
                 write!(out, "  turbulence {} turb_depth {depth}", vector(scale))?;
                 writeln!(out, " {turbulence:?} {noise:?}")?;
+            }
+        }
+        Ok(())
+    }
+
+    fn rainbows(&self, out: &mut String) -> fmt::Result {
+        for (i, rainbow) in self.world.rainbows.iter().enumerate() {
+            let site = self.at(self.origins.rainbows.get(i).copied());
+            let Rainbow { direction, up, inner, width, distance, colors, jitter, arc, fade } =
+                rainbow;
+            write!(out, "rainbow direction {} up {}", unit(*direction), unit(*up))?;
+            writeln!(out, " inner {inner} width {width} distance {distance}{site}")?;
+            writeln!(out, "  jitter {jitter} arc {arc} fade {fade}")?;
+            for (position, color) in colors {
+                writeln!(out, "  [{position} {color}]")?;
             }
         }
         Ok(())
