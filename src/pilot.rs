@@ -118,6 +118,7 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         | Effect::Highlights
         | Effect::Attenuation
         | Effect::AreaLights
+        | Effect::Projections
         | Effect::DoubleIllumination
         | Effect::Hiding
         | Effect::Absorption

@@ -31,7 +31,7 @@ pub use camera::{Camera, CameraItem, CameraItemKind, CameraKind, CylinderForm};
 pub use finish::{ClassicFinish, Finish, FinishOrigin, Irid, Reflection};
 pub use fog::{Fog, FogTurbulence};
 pub use julia_fractal::JuliaFractal;
-pub use light::{Area, Beam, Fade, LightKind, LightSource, LooksLike};
+pub use light::{Area, Beam, Fade, LightKind, LightSource, LooksLike, ProjectedThrough};
 pub use rainbow::Rainbow;
 pub use solid::{Container, Solid};
 pub use texture::{

@@ -42,6 +42,8 @@ pub struct World {
     pub lights: Vec<Light>,
     /// The lights that light an object, in order; see `Object::lights`. Empty if all light every object.
     pub light_sets: Vec<Vec<u32>>,
+    /// Objects that lights shine through, each in a World of its own; see `Light::through`.
+    pub projections: Vec<World>,
     /// In written order.
     pub objects: Vec<Object>,
     pub spheres: Vec<Sphere>,
@@ -87,6 +89,8 @@ pub struct Origins {
     pub attenuation: Vec<Site>,
     /// Each `area_light`, with its values.
     pub area_lights: Vec<Site>,
+    /// Each `projected_through`, with its object.
+    pub projections: Vec<Site>,
     pub textures: Vec<TextureOrigin>,
     /// What all textures and the sky consist of, each place once.
     pub surfaces: Vec<SurfaceOrigin>,

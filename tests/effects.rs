@@ -124,6 +124,7 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         highlights,
         attenuation,
         area_lights,
+        projections,
         from_behind,
         refraction,
         absorption,
@@ -143,6 +144,7 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         Effect::Shadows => counters.shadow,
         Effect::Attenuation => attenuation,
         Effect::AreaLights => area_lights,
+        Effect::Projections => projections,
         Effect::DoubleIllumination => from_behind,
         Effect::Reflection => counters.reflection,
         Effect::Transparency => counters.transmission,
@@ -305,7 +307,7 @@ sphere { 0, 1 no_shadow }";
     let filter = format!("sphere {{ x, 1 pigment {{ rgbf <1, 0, 0, 1> }} {dull} }}");
     // Of the same window, so that no other piece of text calls for transparency.
     let filled = "sphere { 3*x, 0.5 texture { Window } interior { ior 1.5 } no_shadow }";
-    let cases: [(&str, &str, Effect, &str); 22] = [
+    let cases: [(&str, &str, Effect, &str); 23] = [
         (
             unlit,
             "light_source { 9, rgb 1 shadowless }",
@@ -351,6 +353,12 @@ sphere { 0, 1 no_shadow }";
             "checker",
         ),
         (BARE, "sky_sphere { pigment { rgb 1 } }", Effect::Sky, "pigment { rgb 1 }"),
+        (
+            LIT,
+            "light_source { y, 1 projected_through { sphere { x, 1 } } }",
+            Effect::Projections,
+            "projected_through { sphere { x, 1 } }",
+        ),
         (LIT, "fog { distance 9 rgb 1 }", Effect::Fog, "fog { distance 9 rgb 1 }"),
         (
             LIT,

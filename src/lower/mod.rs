@@ -36,6 +36,7 @@ mod points;
 mod quadric;
 mod rainbow;
 mod shape;
+mod single;
 mod surface;
 mod sweep;
 mod texture;
@@ -45,6 +46,7 @@ mod unseen;
 mod uv;
 mod view;
 
+pub use single::single;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
@@ -81,11 +83,22 @@ pub fn lower(
     options: &LowerOptions,
     diagnostics: &mut Diagnostics,
 ) -> (World, Origins) {
+    lower_at(scene, transform::Affine::IDENTITY, options, diagnostics)
+}
+
+/// As [`lower`], with all objects moved by `place`.
+fn lower_at(
+    scene: Scene,
+    place: transform::Affine,
+    options: &LowerOptions,
+    diagnostics: &mut Diagnostics,
+) -> (World, Origins) {
     let is_sound = !diagnostics.has_errors();
     let mut lowering = Lowering {
         is_sound,
         is_blind: false,
         sees_nothing: false,
+        place,
         world: World::default(),
         origins: Origins::default(),
         reporter: Reporter::new(&scene, diagnostics),
@@ -142,6 +155,8 @@ struct Lowering<'s, 'd> {
     is_blind: bool,
     /// The camera's rays hit no object.
     sees_nothing: bool,
+    /// Moves all objects.
+    place: transform::Affine,
     world: World,
     origins: Origins,
     reporter: Reporter<'s, 'd>,

@@ -55,7 +55,8 @@ impl<'s> Lowering<'s, '_> {
                 let Some(surface) = self.set_surface(default_texture, Affine::IDENTITY) else {
                     continue;
                 };
-                last = Some((default_texture, Inherited::root(surface)));
+                let root = Inherited { world_from_here: self.place, ..Inherited::root(surface) };
+                last = Some((default_texture, root));
             }
             let Some((_, inherited)) = &last else { continue };
             if !self.may_visit(object, &mut visits) {

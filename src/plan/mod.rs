@@ -118,6 +118,8 @@ pub enum Effect {
     Attenuation,
     /// Soft shadows from lights that are a grid of lights.
     AreaLights,
+    /// Lights that shine through an object, and nowhere else.
+    Projections,
     /// Light on one side of a surface that also illuminates the other side.
     DoubleIllumination,
     Reflection,
@@ -148,12 +150,13 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order in which the plan lists them.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Diffuse,
         Self::Highlights,
         Self::Shadows,
         Self::Attenuation,
         Self::AreaLights,
+        Self::Projections,
         Self::DoubleIllumination,
         Self::Reflection,
         Self::Transparency,
@@ -179,6 +182,7 @@ impl Effect {
             Self::Shadows => "shadows",
             Self::Attenuation => "beams and fading",
             Self::AreaLights => "area lights",
+            Self::Projections => "projected lights",
             Self::DoubleIllumination => "light from behind",
             Self::Reflection => "reflection",
             Self::Transparency => "transparency",

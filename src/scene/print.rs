@@ -175,8 +175,10 @@ impl Printer<'_> {
                         }
                         ObjectKind::LightSource(source) => {
                             light(out, source)?;
-                            let looks_like = source.looks_like.iter();
-                            stack.extend(looks_like.map(|one| Task::Open(one.object, depth + 1)));
+                            let like = source.looks_like.iter().map(|one| one.object);
+                            let through = source.projected_through.iter().map(|one| one.object);
+                            let objects = like.chain(through);
+                            stack.extend(objects.map(|object| Task::Open(object, depth + 1)));
                         }
                     }
                     writeln!(out, "  ({place})")?;

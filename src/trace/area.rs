@@ -181,7 +181,7 @@ pub(super) fn visible(
     if tracer.counts {
         walk.counters.evaluations.area_lights += 1;
     }
-    if !tracer.shadows || !of.light.casts_shadows {
+    if !(tracer.shadows && of.light.casts_shadows) && of.light.through.is_none() {
         return Rgb::WHITE;
     }
     let area = of.area;
@@ -240,19 +240,27 @@ fn search(tracer: &Tracer, walk: &mut Walk, of: AreaLight, ground: &Ground, node
             let toward = shadow::aim(&kind, ground.place.point)?.to_light;
             let origin = ground.start(toward);
             let aim = shadow::aim(&kind, origin)?;
-            Some((Ray { origin, direction: aim.to_light }, aim))
+            let through = tracer.shone_through(walk, of.light, origin, &aim);
+            // Where nothing is looked for, all is free.
+            let is_free = through.is_none() || !of.light.casts_shadows;
+            let missed = through.is_none();
+            let aim = match is_free {
+                true => Aim { reach: 0.0, ..aim },
+                false => through.unwrap_or(aim),
+            };
+            Some((Ray { origin, direction: aim.to_light }, aim, missed))
         });
-        let aimed: SmallVec<[Option<(Ray, Aim)>; SLICE]> = aimed.collect();
-        let rays: SmallVec<[&Ray; SLICE]> = aimed.iter().flatten().map(|(ray, _)| ray).collect();
+        let aimed: SmallVec<[Option<(Ray, Aim, bool)>; SLICE]> = aimed.collect();
+        let rays: SmallVec<[&Ray; SLICE]> = aimed.iter().flatten().map(|(ray, ..)| ray).collect();
         let reaches: SmallVec<[f64; SLICE]> =
-            aimed.iter().flatten().map(|(_, aim)| aim.reach).collect();
+            aimed.iter().flatten().map(|(_, aim, _)| aim.reach).collect();
         let mut shadowed = shadow::occluded(tracer, walk, of.number, &rays, &reaches);
         for aimed in &aimed {
-            let Some((ray, aim)) = aimed else {
+            let Some((ray, aim, missed)) = aimed else {
                 factors.push(Rgb::WHITE);
                 continue;
             };
-            let is_shadowed = shadowed & 1 == 1;
+            let is_shadowed = shadowed & 1 == 1 || *missed;
             shadowed >>= 1;
             factors.push(match (is_shadowed, tracer.filters_shadows) {
                 (true, _) => Rgb::BLACK,

@@ -57,6 +57,8 @@ pub struct Evaluations {
     pub attenuation: u64,
     /// Area lights, asked what of their shadows falls on a place.
     pub area_lights: u64,
+    /// Ways to a light, searched for the object that it shines through.
+    pub projections: u64,
     /// Surfaces asked what the lights on their other side add.
     pub from_behind: u64,
     /// Borders between media, asked where a ray goes on.
@@ -109,6 +111,7 @@ impl AddAssign for Evaluations {
         self.highlights += other.highlights;
         self.attenuation += other.attenuation;
         self.area_lights += other.area_lights;
+        self.projections += other.projections;
         self.from_behind += other.from_behind;
         self.refraction += other.refraction;
         self.absorption += other.absorption;

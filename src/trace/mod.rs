@@ -27,6 +27,7 @@ mod layers;
 mod media;
 mod metal;
 mod pixels;
+mod projection;
 mod rainbow;
 mod reflection;
 mod refraction;

@@ -186,7 +186,7 @@ impl Tracer<'_> {
     pub(super) fn light(&self, walk: &mut Walk, stands: &mut [Stand]) {
         let mut rays: SmallVec<[Arriving; SLICE]> = SmallVec::new();
         for (number, light) in self.world.lights.iter().enumerate() {
-            if light.area.is_some() || !self.world.light_sets.is_empty() {
+            if !light.is_plain() || !self.world.light_sets.is_empty() {
                 self.light_one_by_one(walk, stands, (number, light));
                 continue;
             }
@@ -348,6 +348,7 @@ fn searched(
         let color = color * area::visible(tracer, walk, of, ground, color);
         return (!color.is_black()).then_some(color);
     }
+    let aim = &tracer.shone_through(walk, light, origin, aim)?;
     if tracer.shadows && light.casts_shadows {
         if shadow::shadowed(tracer, walk, number, origin, aim) {
             return None;

@@ -336,7 +336,7 @@ vocabulary! {
         MediaInteraction "media_interaction" statement built "with `off`, `media_attenuation` has no effect; default on";
         Parallel "parallel" statement built "all rays run parallel, from the light's location toward `point_at`";
         PointAt "point_at" statement built "the target of a parallel light or a spotlight; default <0, 0, 0>, in a `.pov` z";
-        ProjectedThrough "projected_through" statement later "only light through this object counts";
+        ProjectedThrough "projected_through" statement built "`projected_through { … }`: the light shines only where a ray to it meets this object, which casts no shadow itself; nor does what is behind it";
         Radius "radius" statement built "the bright centre of a spotlight in degrees, default 30; of a `cylinder` light in units, default 0.75";
         Shadowless "shadowless" statement built "objects cast no shadows from this light";
         Spotlight "spotlight" statement built "a light with a cone around the line to `point_at`";

@@ -193,8 +193,15 @@ impl Printer<'_> {
             let site = self.at(self.origins.lights.get(i).copied());
             let attenuation = light.attenuation.as_ref().map_or(String::new(), attenuation);
             let area = light.area.as_ref().map_or(String::new(), area);
+            let through = light.through.map_or(String::new(), |at| format!(" through {at}"));
             let color = light.color;
-            writeln!(out, "  {i} {kind} color {color}{attenuation}{area}{shadows}{site}")?;
+            writeln!(out, "  {i} {kind} color {color}{attenuation}{area}{through}{shadows}{site}")?;
+        }
+        for (i, world) in self.world.projections.iter().enumerate() {
+            writeln!(out, "projection {i} objects {}", world.objects.len())?;
+            for (j, object) in world.objects.iter().enumerate() {
+                Printer { world, ..*self }.object(out, j, object)?;
+            }
         }
         Ok(())
     }

@@ -20,6 +20,7 @@ fn words(effect: Effect) -> &'static [&'static str] {
         Effect::Highlights => &["phong", "specular", "ks"],
         Effect::Attenuation => &["spotlight", "cylinder", "fade_distance", "media_attenuation"],
         Effect::AreaLights => &["area_light"],
+        Effect::Projections => &["projected_through"],
         Effect::DoubleIllumination => &["double_illuminate", "diffuse"],
         Effect::Reflection => &["reflection", "ks"],
         // Also every colour's word.

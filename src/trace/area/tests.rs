@@ -54,6 +54,7 @@ fn wall(area: Option<Area>) -> World {
             casts_shadows: true,
             attenuation: None,
             area,
+            through: None,
         }],
         ..World::default()
     }
