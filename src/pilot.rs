@@ -119,6 +119,7 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         | Effect::Attenuation
         | Effect::AreaLights
         | Effect::Projections
+        | Effect::LightGroups
         | Effect::DoubleIllumination
         | Effect::Hiding
         | Effect::Absorption

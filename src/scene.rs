@@ -27,7 +27,9 @@ pub use crate::math::transform::TransformId;
 use crate::source::{Expansions, Site, Span};
 pub use crate::vocabulary::Dialect;
 use crate::vocabulary::Word;
-pub use camera::{Camera, CameraItem, CameraItemKind, CameraKind, CylinderForm};
+pub use camera::{
+    Camera, CameraItem, CameraItemKind, CameraKind, CylinderForm, Distribution, MeshCamera,
+};
 pub use finish::{ClassicFinish, Finish, FinishOrigin, Irid, Reflection};
 pub use fog::{Fog, FogTurbulence};
 pub use julia_fractal::JuliaFractal;

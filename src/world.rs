@@ -17,7 +17,7 @@ use crate::math::placement::Map;
 use crate::shape::uv::Mapping;
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
 use crate::source::{Expansions, Site, Span};
-pub use camera::{Camera, CameraKind, Focus};
+pub use camera::{Camera, CameraKind, Face, Faces, Focus, MeshCamera, UnwrappedFace};
 pub use csg_solid::{CsgSolid, Cutaway};
 pub use fog::{Churn, Fog, Ground};
 pub use light::{Area, Attenuation, Beam, Fade, Light, LightKind};
@@ -89,6 +89,8 @@ pub struct Origins {
     pub attenuation: Vec<Site>,
     /// Each `area_light`, with its values.
     pub area_lights: Vec<Site>,
+    /// Each `light_group` that is in no other.
+    pub light_groups: Vec<Site>,
     /// Each `projected_through`, with its object.
     pub projections: Vec<Site>,
     pub textures: Vec<TextureOrigin>,

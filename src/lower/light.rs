@@ -153,7 +153,9 @@ fn area(
     let from = &light.area;
     let is_point =
         from.nodes.into_iter().zip(from.sides).all(|(n, side)| n == 1 || side == Vector::ZERO);
-    if is_point || (light.shadowless && !from.illuminates) {
+    // Without shadows, only what it shines through may keep a part of it away.
+    let is_whole = light.shadowless && light.projected_through.is_none();
+    if is_point || (is_whole && !from.illuminates) {
         return Ok(None);
     }
     let target = match light.kind {

@@ -254,9 +254,9 @@ impl Lowering<'_, '_> {
         else {
             return;
         };
-        use CameraKind::{Cylinder, Panoramic, Spherical};
+        use CameraKind::{Cylinder, Mesh, Panoramic, Spherical};
         // Their screens have no proportion: sides are angles, or an angle and a length.
-        if matches!(self.world.camera.kind, Panoramic | Cylinder { .. } | Spherical { .. }) {
+        if matches!(self.world.camera.kind, Mesh | Panoramic | Cylinder { .. } | Spherical { .. }) {
             return;
         }
         let (width, height) = (f64::from(width), f64::from(height));

@@ -26,6 +26,7 @@ mod light;
 mod light_group;
 mod lining;
 mod lint;
+mod mesh_camera;
 mod modifier;
 mod normal;
 mod object;

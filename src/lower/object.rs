@@ -153,7 +153,10 @@ impl<'s> Lowering<'s, '_> {
             unseen: inherited.unseen,
             cut,
             light_group: match modified.light_group {
-                Some(global) => Some(self.begin_light_group(inherited, global)),
+                Some(global) => {
+                    let item = own.unwrap_or(object.site);
+                    Some(self.begin_light_group(inherited, global, item))
+                }
                 None => inherited.light_group,
             },
             filling: Some(filling),

@@ -5,6 +5,7 @@
 //! everything from it. Visibility is not estimated.
 
 mod haze;
+mod kept_light;
 
 use super::dropped::dropped;
 use super::kinds::kinds;
@@ -92,6 +93,7 @@ impl Census<'_> {
             Effect::Attenuation => self.attenuation(),
             Effect::AreaLights => self.area_lights(),
             Effect::Projections => self.projections(),
+            Effect::LightGroups => self.light_groups(),
             Effect::DoubleIllumination => self.double_illumination(),
             Effect::Reflection => self.reflection(),
             Effect::Transparency => self.transparency(),
@@ -183,17 +185,6 @@ impl Census<'_> {
             _ => format!("{most} rays a light and lit hit"),
         };
         Ok((self.origins.area_lights.clone(), cost))
-    }
-
-    fn projections(&self) -> Decision {
-        if self.world.projections.is_empty() {
-            return because("no light has a `projected_through`", None);
-        }
-        if !self.any(|plain| scatters(plain) || shines(plain)) {
-            return because("no surface answers a light", None);
-        }
-        let cost = "one more ray a projected light and lit hit".to_owned();
-        Ok((self.origins.projections.clone(), cost))
     }
 
     fn double_illumination(&self) -> Decision {

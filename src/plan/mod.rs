@@ -120,6 +120,8 @@ pub enum Effect {
     AreaLights,
     /// Lights that shine through an object, and nowhere else.
     Projections,
+    /// Lights that do not light all objects.
+    LightGroups,
     /// Light on one side of a surface that also illuminates the other side.
     DoubleIllumination,
     Reflection,
@@ -150,13 +152,14 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order in which the plan lists them.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 22] = [
         Self::Diffuse,
         Self::Highlights,
         Self::Shadows,
         Self::Attenuation,
         Self::AreaLights,
         Self::Projections,
+        Self::LightGroups,
         Self::DoubleIllumination,
         Self::Reflection,
         Self::Transparency,
@@ -183,6 +186,7 @@ impl Effect {
             Self::Attenuation => "beams and fading",
             Self::AreaLights => "area lights",
             Self::Projections => "projected lights",
+            Self::LightGroups => "light groups",
             Self::DoubleIllumination => "light from behind",
             Self::Reflection => "reflection",
             Self::Transparency => "transparency",

@@ -4,6 +4,7 @@
 //! shared child is shown in full once and by name afterwards, so the text exceeds the Scene only by its
 //! indentation. The printer does not recurse: the nesting depth is unlimited.
 
+mod camera;
 mod haze;
 mod texture;
 
@@ -100,8 +101,10 @@ impl Printer<'_> {
                 CameraKind::Cylinder(CylinderForm::UprightMoving) => "cylinder 3",
                 CameraKind::Cylinder(CylinderForm::LevelMoving) => "cylinder 4",
                 CameraKind::Spherical => "spherical",
+                CameraKind::Mesh => "mesh_camera",
             };
             writeln!(out, "camera {kind}  ({})", self.sources.place(camera.site.span))?;
+            self.camera_meshes(out, camera)?;
             for item in &camera.items {
                 match item.kind {
                     CameraItemKind::Location(v) => writeln!(out, "  location {}", vector(v))?,

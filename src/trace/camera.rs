@@ -9,6 +9,7 @@ mod cylinder;
 mod fisheye;
 mod flat;
 mod focus;
+mod mesh;
 mod omnimax;
 mod panoramic;
 mod spherical;
@@ -30,6 +31,7 @@ use cylinder::Cylinder;
 use fisheye::Fisheye;
 use flat::Flat;
 pub(super) use focus::Focus;
+use mesh::Meshes;
 use omnimax::Omnimax;
 use panoramic::Panoramic;
 use spherical::Spherical;
@@ -57,6 +59,7 @@ enum Kind {
     Panoramic(Panoramic),
     Cylinder(Cylinder),
     Spherical(Spherical),
+    Meshes(Meshes),
 }
 
 /// A camera and the picture it makes.
@@ -90,6 +93,10 @@ impl Lens {
             CameraKind::Cylinder { upright, moving, angle } => {
                 Kind::Cylinder(Cylinder::new(camera, upright, moving, angle))
             }
+            CameraKind::Mesh => match &camera.meshes {
+                Some(meshes) => Kind::Meshes(Meshes::new(meshes.clone(), width, height)),
+                None => Kind::Flat(Flat::new(camera)),
+            },
             CameraKind::Spherical { across, down } => {
                 Kind::Spherical(Spherical::new(camera, across, down))
             }
@@ -143,7 +150,15 @@ impl Lens {
         }
     }
 
-    /// Returns the rays through points of the screen.
+    /// Returns how many rays there are for each point of the screen.
+    pub fn rays_of_a_point(&self) -> usize {
+        match &self.kind {
+            Kind::Meshes(meshes) => meshes.rays_of_a_place(),
+            _ => 1,
+        }
+    }
+
+    /// Returns the rays through points of the screen; for a point of several, they are neighbours.
     pub fn rays(&self, points: &[Point]) -> Vec<Option<Ray>> {
         match &self.kind {
             Kind::Flat(kind) => self.each(kind, points),
@@ -153,6 +168,7 @@ impl Lens {
             Kind::Panoramic(kind) => self.each(kind, points),
             Kind::Cylinder(kind) => self.each(kind, points),
             Kind::Spherical(kind) => self.each(kind, points),
+            Kind::Meshes(kind) => points.iter().flat_map(|p| kind.rays(p.u, p.v)).collect(),
         }
     }
 

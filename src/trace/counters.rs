@@ -59,6 +59,8 @@ pub struct Evaluations {
     pub area_lights: u64,
     /// Ways to a light, searched for the object that it shines through.
     pub projections: u64,
+    /// Lights of groups, asked whether they light an object.
+    pub light_groups: u64,
     /// Surfaces asked what the lights on their other side add.
     pub from_behind: u64,
     /// Borders between media, asked where a ray goes on.
@@ -112,6 +114,7 @@ impl AddAssign for Evaluations {
         self.attenuation += other.attenuation;
         self.area_lights += other.area_lights;
         self.projections += other.projections;
+        self.light_groups += other.light_groups;
         self.from_behind += other.from_behind;
         self.refraction += other.refraction;
         self.absorption += other.absorption;

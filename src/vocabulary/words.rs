@@ -310,7 +310,7 @@ vocabulary! {
         FocalPoint "focal_point" statement built "a point whose distance from the camera is in focus under an `aperture`; default <0, 0, 0>";
         Location "location" statement built "the position of the camera; default <0, 0, 0>";
         LookAt "look_at" statement built "the point in the centre of the picture";
-        MeshCamera "mesh_camera" statement later "a camera whose rays start on a mesh";
+        MeshCamera "mesh_camera" statement built "`mesh_camera { rays distribution [max_distance] mesh { … } … [smooth] }`: a camera whose rays start on the faces of meshes, one face a pixel; distribution 0: a mesh for each ray of a pixel; 1: all meshes in turn; 2: meshes side by side; 3: by texture coordinates, with `smooth` along the normals of the corners. Its `location.z` is how far off the face they start";
         Omnimax "omnimax" statement built "a camera for dome screens: a fisheye of 180 degrees without its lower part";
         Orthographic "orthographic" statement built "a camera with parallel rays; `right` and `up` are the picture's sides";
         Panoramic "panoramic" statement built "a camera that sees 180 degrees from left to right and from bottom to top";

@@ -124,6 +124,7 @@ impl Printer<'_> {
                 let number = 1 + u32::from(!upright) + 2 * u32::from(moving);
                 format!("cylinder {number}, {angle} turns")
             }
+            CameraKind::Mesh => "mesh_camera".to_owned(),
             CameraKind::Spherical { across, down } => {
                 format!("spherical, {across} by {down} turns")
             }
@@ -141,6 +142,9 @@ impl Printer<'_> {
             if let Some(pigment) = bokeh {
                 writeln!(out, "  bokeh {pigment:?}")?;
             }
+        }
+        if let Some(meshes) = &camera.meshes {
+            writeln!(out, "  {meshes:?}")?;
         }
         if let Some(normal) = &camera.normal {
             writeln!(out, "  normal {normal:?}")?;

@@ -21,6 +21,7 @@ fn words(effect: Effect) -> &'static [&'static str] {
         Effect::Attenuation => &["spotlight", "cylinder", "fade_distance", "media_attenuation"],
         Effect::AreaLights => &["area_light"],
         Effect::Projections => &["projected_through"],
+        Effect::LightGroups => &["light_group"],
         Effect::DoubleIllumination => &["double_illuminate", "diffuse"],
         Effect::Reflection => &["reflection", "ks"],
         // Also every colour's word.

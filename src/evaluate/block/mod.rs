@@ -29,6 +29,7 @@ mod light;
 mod light_group;
 mod matrix;
 mod mesh;
+mod mesh_camera;
 mod misplaced;
 mod missing;
 mod missing_keyword;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::math::UnitVector;
-use crate::math::elementary::RADIANS_PER_DEGREE;
+use crate::math::elementary::{RADIANS_PER_DEGREE, cos, sin};
 use crate::math::random::Random;
 use crate::trace::fog::SKY;
 
@@ -101,7 +101,7 @@ fn jitter_is_the_same_for_a_ray_and_keeps_the_mean() {
     let jittered = Rainbow { jitter: 0.25, ..gray };
     let ray = |i: u32| {
         let angle = (12.0 + 16.0 * f64::from(i % 64) / 63.0) * RADIANS_PER_DEGREE;
-        unit(Vector::new(0.0, angle, 1.0)).get()
+        unit(Vector::new(0.0, sin(angle), cos(angle))).get()
     };
     let at = |i: u32| {
         let start = Vector::X * f64::from(i / 64);
@@ -110,7 +110,7 @@ fn jitter_is_the_same_for_a_ray_and_keeps_the_mean() {
     let values: Vec<f64> = (0..4096).filter_map(at).collect();
     assert!((0..64).all(|i| at(i) == at(i)) && at(0) != at(64));
     // Few are moved out of the band at its edges; POV-Ray 3.7 loses as many.
-    assert!((3900..4000).contains(&values.len()), "{}", values.len());
+    assert!((3810..3920).contains(&values.len()), "{}", values.len());
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     assert!((mean - 0.5).abs() < 0.01, "{mean}");
 }
