@@ -120,7 +120,11 @@ impl Lowering<'_, '_> {
             return Err((Fault::not_finite("this camera").refused(), camera.site));
         }
         let [location, forward, right, up] = [location, forward, right, up].map(|v| v.round());
-        let (focus, normal) = self.lens(&words.lens, words.location)?;
+        // No lens is before faces.
+        let (focus, normal) = match kind {
+            world::CameraKind::Mesh => (None, None),
+            _ => self.lens(&words.lens, words.location)?,
+        };
         let meshes = match camera.meshes.as_ref().filter(|_| kind == world::CameraKind::Mesh) {
             Some(meshes) => Some(Arc::new(self.mesh_camera(meshes, location, forward)?)),
             None => None,

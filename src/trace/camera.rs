@@ -18,9 +18,10 @@ mod ultra_wide_angle;
 #[cfg(test)]
 mod tests;
 
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
-use crate::math::elementary::sin_cos_degrees;
+use crate::math::elementary::{atan2, sin_cos_degrees};
 use crate::math::{UnitVector, Vector};
 use crate::shape::Ray;
 use crate::texture::Normal;
@@ -213,6 +214,13 @@ impl Axes {
 fn length(v: Vector) -> f64 {
     let largest = v.abs().max_element();
     if largest == 0.0 || !largest.is_finite() { largest } else { (v / largest).length() * largest }
+}
+
+/// Returns the angle of (x, y) from x toward y in radians, −π/2 … 3π/2, as POV-Ray 3.7 measures it for a camera's
+/// normal.
+fn polar_angle(x: f64, y: f64) -> f64 {
+    let angle = atan2(y, x);
+    if angle < -FRAC_PI_2 { angle + TAU } else { angle }
 }
 
 /// Returns the sine and cosine of an angle in turns: exact at quarters.
