@@ -44,8 +44,8 @@ impl Meshes {
 
     /// Returns the rays of the place (`u`, `v`), −½ … ½ from left to right and from bottom to top.
     pub fn rays(&self, u: f64, v: f64) -> Rays {
-        let x = ((u + 0.5) * self.width).min(self.width - 1.0);
-        let y = ((0.5 - v) * self.height - 1.0).max(0.0);
+        let x = snapped((u + 0.5) * self.width).min(self.width - 1.0);
+        let y = (snapped((0.5 - v) * self.height) - 1.0).max(0.0);
         let number = |row: f64| (y.floor() * row + x.floor()) as usize;
         let of_face = |list: &Vec<crate::world::Face>, number: usize| {
             let face = list.get(number)?;
@@ -71,6 +71,12 @@ impl Meshes {
             }
         }
     }
+}
+
+/// Returns a place in pixels without what rounding adds: the middle of a pixel may lie on the edge of a face.
+fn snapped(pixels: f64) -> f64 {
+    const STEPS: f64 = (1u32 << 24) as f64;
+    (pixels * STEPS).round() / STEPS
 }
 
 impl UnwrappedFace {
