@@ -181,7 +181,8 @@ pub(super) fn visible(
     if tracer.counts {
         walk.counters.evaluations.area_lights += 1;
     }
-    if !(tracer.shadows && of.light.casts_shadows) && of.light.through.is_none() {
+    let casts = tracer.shadows && of.light.casts_shadows;
+    if !casts && of.light.through.is_none() {
         return Rgb::WHITE;
     }
     let area = of.area;
@@ -228,6 +229,7 @@ fn differ(corners: &[Rgb; 4], color: Rgb) -> bool {
 /// Finds the factors of the nodes that are asked for.
 fn search(tracer: &Tracer, walk: &mut Walk, of: AreaLight, ground: &Ground, nodes: &mut Nodes) {
     let Nodes { factors, asked, .. } = nodes;
+    let casts = tracer.shadows && of.light.casts_shadows;
     for asked in asked.chunks(SLICE) {
         // Of no meaning any more, as all of the batch.
         if walk.patience.is_over_after(asked.len() as u32, tracer.watch) {
@@ -241,20 +243,18 @@ fn search(tracer: &Tracer, walk: &mut Walk, of: AreaLight, ground: &Ground, node
             let origin = ground.start(toward);
             let aim = shadow::aim(&kind, origin)?;
             let through = tracer.shone_through(walk, of.light, origin, &aim);
-            // Where nothing is looked for, all is free.
-            let is_free = through.is_none() || !of.light.casts_shadows;
             let missed = through.is_none();
-            let aim = match is_free {
-                true => Aim { reach: 0.0, ..aim },
-                false => through.unwrap_or(aim),
-            };
+            let aim = through.unwrap_or(aim);
             Some((Ray { origin, direction: aim.to_light }, aim, missed))
         });
         let aimed: SmallVec<[Option<(Ray, Aim, bool)>; SLICE]> = aimed.collect();
         let rays: SmallVec<[&Ray; SLICE]> = aimed.iter().flatten().map(|(ray, ..)| ray).collect();
         let reaches: SmallVec<[f64; SLICE]> =
             aimed.iter().flatten().map(|(_, aim, _)| aim.reach).collect();
-        let mut shadowed = shadow::occluded(tracer, walk, of.number, &rays, &reaches);
+        let mut shadowed = match casts {
+            true => shadow::occluded(tracer, walk, of.number, &rays, &reaches),
+            false => 0,
+        };
         for aimed in &aimed {
             let Some((ray, aim, missed)) = aimed else {
                 factors.push(Rgb::WHITE);
@@ -262,7 +262,7 @@ fn search(tracer: &Tracer, walk: &mut Walk, of: AreaLight, ground: &Ground, node
             };
             let is_shadowed = shadowed & 1 == 1 || *missed;
             shadowed >>= 1;
-            factors.push(match (is_shadowed, tracer.filters_shadows) {
+            factors.push(match (is_shadowed, casts && tracer.filters_shadows) {
                 (true, _) => Rgb::BLACK,
                 (false, false) => Rgb::WHITE,
                 (false, true) => tracer.filtered(walk, ground.place.within, ray.origin, aim),

@@ -118,7 +118,8 @@ fn jitter_is_the_same_for_a_ray_and_keeps_the_mean() {
 #[test]
 fn a_ray_at_more_than_a_right_angle_sees_none() {
     let wide = Rainbow { inner: 0.0, width: 3.0, ..band(&[(0.0, Color::WHITE)]) };
-    let shows = |direction| veil(&[wide.clone()], Vector::ZERO, direction, SKY).is_some();
+    let shows =
+        |direction| veil(std::slice::from_ref(&wide), Vector::ZERO, direction, SKY).is_some();
     assert!(shows(Vector::X) && shows(unit(Vector::new(1.0, 0.0, 1e-9)).get()));
     assert!(!shows(-Vector::Z) && !shows(unit(Vector::new(1.0, 0.0, -1e-9)).get()));
 }
