@@ -118,6 +118,8 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         | Effect::Highlights
         | Effect::Attenuation
         | Effect::AreaLights
+        | Effect::Projections
+        | Effect::LightGroups
         | Effect::DoubleIllumination
         | Effect::Hiding
         | Effect::Absorption
@@ -128,6 +130,7 @@ fn sent(effect: Effect, counters: &Counters) -> Option<u64> {
         | Effect::FocalBlur
         | Effect::CameraNormal
         | Effect::Fog
+        | Effect::Rainbows
         | Effect::Antialiasing => None,
     }
 }

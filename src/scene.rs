@@ -15,6 +15,7 @@ pub mod mesh;
 pub mod outline;
 pub mod polygon;
 pub mod print;
+pub mod rainbow;
 pub mod solid;
 pub mod sweep;
 pub mod text;
@@ -26,11 +27,14 @@ pub use crate::math::transform::TransformId;
 use crate::source::{Expansions, Site, Span};
 pub use crate::vocabulary::Dialect;
 use crate::vocabulary::Word;
-pub use camera::{Camera, CameraItem, CameraItemKind, CameraKind, CylinderForm};
+pub use camera::{
+    Camera, CameraItem, CameraItemKind, CameraKind, CylinderForm, Distribution, MeshCamera,
+};
 pub use finish::{ClassicFinish, Finish, FinishOrigin, Irid, Reflection};
 pub use fog::{Fog, FogTurbulence};
 pub use julia_fractal::JuliaFractal;
-pub use light::{Area, Beam, Fade, LightKind, LightSource, LooksLike};
+pub use light::{Area, Beam, Fade, LightKind, LightSource, LooksLike, ProjectedThrough};
+pub use rainbow::Rainbow;
 pub use solid::{Container, Solid};
 pub use texture::{
     ColorMap, Colors, Normal, NormalKind, Pattern, Pigment, PigmentKind, Source, Step, Texture,
@@ -63,6 +67,8 @@ pub struct Scene {
     pub sky_sphere: Option<SkySphere>,
     /// In written order.
     pub fogs: Vec<Fog>,
+    /// In written order.
+    pub rainbows: Vec<Rainbow>,
     /// The lights and solids placed in the scene itself, in written order.
     pub roots: Vec<Root>,
     pub objects: Vec<Object>,

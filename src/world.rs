@@ -9,6 +9,7 @@ mod csg_solid;
 mod fog;
 mod light;
 pub mod print;
+mod rainbow;
 mod solid;
 
 use crate::color::{Clearness, Gamma, Rgb};
@@ -16,10 +17,12 @@ use crate::math::placement::Map;
 use crate::shape::uv::Mapping;
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
 use crate::source::{Expansions, Site, Span};
-pub use camera::{Camera, CameraKind, Focus};
+pub use camera::{Camera, CameraKind, Face, Faces, Focus, MeshCamera, UnwrappedFace};
 pub use csg_solid::{CsgSolid, Cutaway};
 pub use fog::{Churn, Fog, Ground};
 pub use light::{Area, Attenuation, Beam, Fade, Light, LightKind};
+
+pub use rainbow::Rainbow;
 
 pub use crate::texture::{
     Extras, Finish, Irid, Lobe, LobeKind, Pigment, Plain, Reflection, Texture,
@@ -34,9 +37,13 @@ pub struct World {
     pub sky: Option<Sky>,
     /// In written order; each changes the picture.
     pub fogs: Vec<Fog>,
+    /// Likewise.
+    pub rainbows: Vec<Rainbow>,
     pub lights: Vec<Light>,
     /// The lights that light an object, in order; see `Object::lights`. Empty if all light every object.
     pub light_sets: Vec<Vec<u32>>,
+    /// Objects that lights shine through, each in a World of its own; see `Light::through`.
+    pub projections: Vec<World>,
     /// In written order.
     pub objects: Vec<Object>,
     pub spheres: Vec<Sphere>,
@@ -63,6 +70,13 @@ pub struct World {
     pub faces: Vec<FaceCoordinates>,
 }
 
+impl World {
+    /// Returns whether fog or rainbows veil what rays meet.
+    pub fn has_haze(&self) -> bool {
+        !self.fogs.is_empty() || !self.rainbows.is_empty()
+    }
+}
+
 /// The origins of the World's parts, one list for each of its lists. Never compared.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Origins {
@@ -75,6 +89,10 @@ pub struct Origins {
     pub attenuation: Vec<Site>,
     /// Each `area_light`, with its values.
     pub area_lights: Vec<Site>,
+    /// Each `light_group` that is in no other.
+    pub light_groups: Vec<Site>,
+    /// Each `projected_through`, with its object.
+    pub projections: Vec<Site>,
     pub textures: Vec<TextureOrigin>,
     /// What all textures and the sky consist of, each place once.
     pub surfaces: Vec<SurfaceOrigin>,
@@ -90,6 +108,8 @@ pub struct Origins {
     pub sky: Option<SkyOrigin>,
     /// The whole item of each fog.
     pub fogs: Vec<Site>,
+    /// Likewise of each rainbow.
+    pub rainbows: Vec<Site>,
     pub max_trace_level: Option<Site>,
     /// Parts that lowering left out, with the reasons.
     pub dropped: Vec<Dropped>,

@@ -124,6 +124,8 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         highlights,
         attenuation,
         area_lights,
+        projections,
+        light_groups,
         from_behind,
         refraction,
         absorption,
@@ -135,6 +137,7 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         focal_blur,
         camera_normal,
         fog,
+        rainbows,
     } = counters.evaluations;
     match effect {
         Effect::Diffuse => diffuse,
@@ -142,6 +145,8 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         Effect::Shadows => counters.shadow,
         Effect::Attenuation => attenuation,
         Effect::AreaLights => area_lights,
+        Effect::Projections => projections,
+        Effect::LightGroups => light_groups,
         Effect::DoubleIllumination => from_behind,
         Effect::Reflection => counters.reflection,
         Effect::Transparency => counters.transmission,
@@ -155,6 +160,7 @@ fn counted(effect: Effect, counters: &Counters) -> u64 {
         Effect::FocalBlur => focal_blur,
         Effect::CameraNormal => camera_normal,
         Effect::Fog => fog,
+        Effect::Rainbows => rainbows,
         Effect::Antialiasing => {
             let pixels = OPTIONS.frame.width * OPTIONS.frame.height;
             counters.camera.saturating_sub(u64::from(pixels).max(focal_blur))
@@ -303,7 +309,7 @@ sphere { 0, 1 no_shadow }";
     let filter = format!("sphere {{ x, 1 pigment {{ rgbf <1, 0, 0, 1> }} {dull} }}");
     // Of the same window, so that no other piece of text calls for transparency.
     let filled = "sphere { 3*x, 0.5 texture { Window } interior { ior 1.5 } no_shadow }";
-    let cases: [(&str, &str, Effect, &str); 21] = [
+    let cases: [(&str, &str, Effect, &str); 23] = [
         (
             unlit,
             "light_source { 9, rgb 1 shadowless }",
@@ -349,7 +355,19 @@ sphere { 0, 1 no_shadow }";
             "checker",
         ),
         (BARE, "sky_sphere { pigment { rgb 1 } }", Effect::Sky, "pigment { rgb 1 }"),
+        (
+            LIT,
+            "light_source { y, 1 projected_through { sphere { x, 1 } } }",
+            Effect::Projections,
+            "projected_through { sphere { x, 1 } }",
+        ),
         (LIT, "fog { distance 9 rgb 1 }", Effect::Fog, "fog { distance 9 rgb 1 }"),
+        (
+            LIT,
+            "rainbow { direction -z angle 9 width 20 color_map { [0 rgb 1] } }",
+            Effect::Rainbows,
+            "rainbow { direction -z angle 9 width 20 color_map { [0 rgb 1] } }",
+        ),
         (LIT, "sphere { x, 1 finish { phong 0.4 phong_size 9 } }", Effect::Highlights, "phong 0.4"),
         (
             LIT,

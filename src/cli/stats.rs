@@ -59,6 +59,8 @@ pub struct Evaluations {
     pub highlights: u64,
     pub attenuation: u64,
     pub area_lights: u64,
+    pub projections: u64,
+    pub light_groups: u64,
     pub from_behind: u64,
     pub refraction: u64,
     pub absorption: u64,
@@ -70,6 +72,7 @@ pub struct Evaluations {
     pub focal_blur: u64,
     pub camera_normal: u64,
     pub fog: u64,
+    pub rainbows: u64,
 }
 
 impl From<trace::Evaluations> for Evaluations {
@@ -79,6 +82,8 @@ impl From<trace::Evaluations> for Evaluations {
             highlights,
             attenuation,
             area_lights,
+            projections,
+            light_groups,
             from_behind,
             refraction,
             absorption,
@@ -90,12 +95,15 @@ impl From<trace::Evaluations> for Evaluations {
             focal_blur,
             camera_normal,
             fog,
+            rainbows,
         } = counted;
         Self {
             diffuse,
             highlights,
             attenuation,
             area_lights,
+            projections,
+            light_groups,
             from_behind,
             refraction,
             absorption,
@@ -107,6 +115,7 @@ impl From<trace::Evaluations> for Evaluations {
             focal_blur,
             camera_normal,
             fog,
+            rainbows,
         }
     }
 }
@@ -169,6 +178,8 @@ impl Stats {
             count("highlights", self.evaluations.highlights),
             count("beams and fading", self.evaluations.attenuation),
             count("area lights", self.evaluations.area_lights),
+            count("projected lights", self.evaluations.projections),
+            count("light groups", self.evaluations.light_groups),
             count("light from behind", self.evaluations.from_behind),
             count("borders that bend", self.evaluations.refraction),
             count("ways dimmed", self.evaluations.absorption),
@@ -180,6 +191,7 @@ impl Stats {
             count("through a lens", self.evaluations.focal_blur),
             count("camera normal", self.evaluations.camera_normal),
             count("fog", self.evaluations.fog),
+            count("rainbows", self.evaluations.rainbows),
         ]
         .concat()
     }

@@ -60,6 +60,7 @@ mod fog;
 mod internal;
 mod made;
 mod promotion;
+mod rainbow;
 mod repetition;
 
 facts! {

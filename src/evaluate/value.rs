@@ -104,6 +104,7 @@ pub enum Value {
     Function(FunctionId),
     SkySphere(Arc<crate::scene::SkySphere>),
     Fog(Arc<crate::scene::Fog>),
+    Rainbow(Arc<crate::scene::Rainbow>),
     /// A file opened by `#fopen`.
     File(FileHandle),
     Macro(super::scope::MacroId),
@@ -154,6 +155,7 @@ impl Value {
         match self {
             Self::String(text) => text.len() as u64,
             Self::ColorMap(map) => size_of_val(&map.map.0[..]) as u64,
+            Self::Rainbow(rainbow) => rainbow.bytes(),
             Self::BlendMap(map) => size_of_val(&map.entries[..]) as u64,
             Self::Array(array) => size_of_val(array.elements()) as u64,
             Self::Spline(spline) => size_of_val(spline.spline.knots()) as u64,
@@ -189,6 +191,7 @@ impl Value {
             Self::Function(_) => "a function",
             Self::SkySphere(_) => "a sky_sphere",
             Self::Fog(_) => "a fog",
+            Self::Rainbow(_) => "a rainbow",
             Self::File(_) => "a file",
             Self::Macro(_) => "a macro",
             Self::Poison(_) => "something not built yet",

@@ -70,6 +70,8 @@ pub struct Geometry {
     in_image: Option<Box<Geometry>>,
     /// What mirrored rays meet, likewise.
     in_reflections: Option<Box<Geometry>>,
+    /// The objects that lights shine through.
+    projections: Vec<Geometry>,
 }
 
 /// An object, as far as rays ask.
@@ -107,8 +109,14 @@ impl Geometry {
         Self {
             in_image: part(|object| object.in_image),
             in_reflections: part(|object| object.in_reflections),
+            projections: world.projections.iter().map(Self::build).collect(),
             ..Self::of(world, |_| true)
         }
+    }
+
+    /// Returns what a light shines through, by its number.
+    pub fn projection(&self, number: u32) -> &Self {
+        &self.projections[number as usize]
     }
 
     /// What the camera's rays meet, as long as nothing has mirrored them.
@@ -149,6 +157,7 @@ impl Geometry {
             instructions: Instructions::best(),
             in_image: None,
             in_reflections: None,
+            projections: Vec::new(),
         };
         for object in unbounded.into_iter().chain(order) {
             geometry.append(world, object);

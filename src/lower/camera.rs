@@ -8,6 +8,8 @@
 //! **Invariant:** forward, right and up span space, or there is a diagnostic.
 //! **Source:** POV-Ray manual, section 3.4.2 "Camera"; formulas in `docs/world.md`.
 
+use std::sync::Arc;
+
 use super::focus::Lens;
 use super::transform::{Affine, exact};
 use super::{Fault, Lowering};
@@ -118,8 +120,16 @@ impl Lowering<'_, '_> {
             return Err((Fault::not_finite("this camera").refused(), camera.site));
         }
         let [location, forward, right, up] = [location, forward, right, up].map(|v| v.round());
-        let (focus, normal) = self.lens(&words.lens, words.location)?;
-        Ok(Camera { kind, location, forward, right, up, focus, normal })
+        // No lens is before faces.
+        let (focus, normal) = match kind {
+            world::CameraKind::Mesh => (None, None),
+            _ => self.lens(&words.lens, words.location)?,
+        };
+        let meshes = match camera.meshes.as_ref().filter(|_| kind == world::CameraKind::Mesh) {
+            Some(meshes) => Some(Arc::new(self.mesh_camera(meshes, location, forward)?)),
+            None => None,
+        };
+        Ok(Camera { kind, location, forward, right, up, focus, meshes, normal })
     }
 
     /// Applies the keywords as POV-Ray 3.7 reads a scene of version 3.1 or older (measured): each changes the
@@ -217,6 +227,7 @@ impl Words {
                 moving: form.is_moving(),
                 angle,
             },
+            CameraKind::Mesh => world::CameraKind::Mesh,
             CameraKind::Spherical => {
                 let across = across.unwrap_or(1.0);
                 let down = self.vertical_angle.map_or(0.5 * across, |degrees| degrees / 360.0);

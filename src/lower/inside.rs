@@ -27,6 +27,10 @@ impl Lowering<'_, '_> {
             return false;
         }
         let world = &self.world;
+        // Its rays start elsewhere.
+        if world.camera.meshes.is_some() {
+            return false;
+        }
         let is_starless = world.sky.is_none() && world.background.is_black();
         let is_dim = |object: &Object| {
             let is_bright = |plain: &Plain| plain.finish.emission.largest() > DEFAULT_AMBIENT;
@@ -45,7 +49,7 @@ impl Lowering<'_, '_> {
                 && self.holds(solid, world.camera.location)
         };
         let comes_in = |solid: u32, light: &Light| match light.kind {
-            _ if !light.casts_shadows => true,
+            _ if !light.casts_shadows || light.through.is_some() => true,
             LightKind::Point { position } => self.holds(solid, position),
             // Its light may come from below as well.
             LightKind::Directional { .. } | LightKind::Parallel { .. } => is_plane(solid),
@@ -94,7 +98,10 @@ impl Lowering<'_, '_> {
         let is_endless = |solid: u32| self.is_plane(solid) && !self.is_inverse(solid);
         let lights = world.lights.iter().zip(&self.lamps).take(MOST_LIGHTS);
         let lamps = lights.filter_map(|(light, &site)| match light.kind {
-            LightKind::Point { position } if light.casts_shadows => Some((position, site)),
+            // What is behind the object that a light shines through keeps nothing of it in.
+            LightKind::Point { position } if light.casts_shadows && light.through.is_none() => {
+                Some((position, site))
+            }
             // Their light comes from outside.
             LightKind::Point { .. }
             | LightKind::Directional { .. }

@@ -2,13 +2,14 @@
 
 use super::object::Inherited;
 use super::transform::{Affine, exact};
-use super::{Fault, Lowering};
+use super::{Fault, LowerOptions, Lowering, lower_at, single};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::math::double::DoubleVector;
 use crate::math::elementary::cos;
 use crate::math::{UnitVector, Vector};
-use crate::scene::{LightKind, LightSource, LooksLike, ObjectId, TransformId};
+use crate::scene::{LightKind, LightSource, LooksLike, ObjectId, ProjectedThrough, TransformId};
 use crate::source::Site;
-use crate::world::{self, Area, Attenuation, Beam, Fade, Light};
+use crate::world::{self, Area, Attenuation, Beam, Fade, Light, World};
 
 impl<'s> Lowering<'s, '_> {
     /// Places a light; a black one is dropped. `item` is the whole source item that contains it. Returns the object
@@ -60,10 +61,33 @@ impl<'s> Lowering<'s, '_> {
             let sites = [beam.and(beam_site), fade.and(fade_site), fog];
             self.origins.attenuation.extend(sites.into_iter().flatten());
         }
+        if let Some(through) = &light.projected_through {
+            let object = self.projection(through, map);
+            let Some(object) = self.reporter.made(object, through.site) else { return };
+            if object.objects.is_empty() {
+                return self.drop_part(site, "light_source", "it shines through nothing");
+            }
+            placed.through = Some(self.world.projections.len() as u32);
+            self.world.projections.push(object);
+            self.origins.projections.push(through.site);
+        }
         self.world.lights.push(placed);
         self.light_of_group(here.light_group);
         self.lamps.push(site);
         self.origins.lights.push(item);
+    }
+
+    /// Returns a World of the object that a light shines through.
+    fn projection(&mut self, through: &ProjectedThrough, map: &Affine) -> Result<World, Fault> {
+        let place = map.after(&self.undone(&through.after)?);
+        let options = LowerOptions { objects: self.options.objects, ..LowerOptions::default() };
+        let mut told = Diagnostics::new(false);
+        let (world, _) = lower_at(single(self.scene, through.object), place, &options, &mut told);
+        let is_of_object = |one: &&Diagnostic| one.is_error() && one.code != Code::NoCamera;
+        for one in told.iter().filter(is_of_object) {
+            self.reporter.diagnostics.push(one.clone());
+        }
+        Ok(world)
     }
 
     /// Returns the map of the object that a light looks like: from around the origin to the World.
@@ -115,7 +139,8 @@ fn spend(light: &LightSource, map: &Affine, aim: &Affine, sides: &Affine) -> Res
     }
     let attenuation = attenuation(light, map, aim)?;
     let area = area(light, map, aim, sides)?;
-    Ok(Light { kind, color, casts_shadows: !light.shadowless, attenuation, area })
+    let casts_shadows = !light.shadowless;
+    Ok(Light { kind, color, casts_shadows, attenuation, area, through: None })
 }
 
 /// Returns the area of a light if it has an effect.
@@ -128,7 +153,9 @@ fn area(
     let from = &light.area;
     let is_point =
         from.nodes.into_iter().zip(from.sides).all(|(n, side)| n == 1 || side == Vector::ZERO);
-    if is_point || (light.shadowless && !from.illuminates) {
+    // Without shadows, only what it shines through may keep a part of it away.
+    let is_whole = light.shadowless && light.projected_through.is_none();
+    if is_point || (is_whole && !from.illuminates) {
         return Ok(None);
     }
     let target = match light.kind {

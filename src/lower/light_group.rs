@@ -2,6 +2,7 @@
 
 use super::Lowering;
 use super::object::Inherited;
+use crate::source::Site;
 
 /// A visited light group.
 pub(super) struct LightGroup {
@@ -15,9 +16,17 @@ impl Lowering<'_, '_> {
     /// Begins a light group, and returns its number.
     ///
     /// **Source:** measured on POV-Ray 3.7: a group in another has its `global_lights`, and none of its lights.
-    pub(super) fn begin_light_group(&mut self, inherited: &Inherited, global: bool) -> u32 {
+    pub(super) fn begin_light_group(
+        &mut self,
+        inherited: &Inherited,
+        global: bool,
+        item: Site,
+    ) -> u32 {
         let outer = inherited.light_group.map(|outer| &self.light_groups[outer as usize]);
         let global = outer.map_or(global, |outer| outer.global);
+        if outer.is_none() {
+            self.origins.light_groups.push(item);
+        }
         self.light_groups.push(LightGroup { lights: Vec::new(), global });
         self.light_groups.len() as u32 - 1
     }
@@ -53,6 +62,7 @@ impl Lowering<'_, '_> {
         let mut sets: Vec<Vec<u32>> = Vec::new();
         if self.world.objects.iter().all(|object| is_whole(&by_group[object.lights as usize])) {
             self.world.objects.iter_mut().for_each(|object| object.lights = 0);
+            self.origins.light_groups.clear();
             return;
         }
         for object in &mut self.world.objects {

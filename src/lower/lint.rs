@@ -70,7 +70,7 @@ impl Lowering<'_, '_> {
         self.lint_emptied();
         let is_telescope = !self.is_blind && self.lint_angle();
         let world = &self.world;
-        let empty_sky = world.sky.is_none() && world.background.is_black();
+        let empty_sky = world.sky.is_none() && world.background.is_black() && !world.has_haze();
         if world.objects.is_empty() {
             return self.lint_empty(empty_sky);
         }
@@ -254,9 +254,9 @@ impl Lowering<'_, '_> {
         else {
             return;
         };
-        use CameraKind::{Cylinder, Panoramic, Spherical};
+        use CameraKind::{Cylinder, Mesh, Panoramic, Spherical};
         // Their screens have no proportion: sides are angles, or an angle and a length.
-        if matches!(self.world.camera.kind, Panoramic | Cylinder { .. } | Spherical { .. }) {
+        if matches!(self.world.camera.kind, Mesh | Panoramic | Cylinder { .. } | Spherical { .. }) {
             return;
         }
         let (width, height) = (f64::from(width), f64::from(height));

@@ -26,6 +26,7 @@ mod light;
 mod light_group;
 mod lining;
 mod lint;
+mod mesh_camera;
 mod modifier;
 mod normal;
 mod object;
@@ -34,7 +35,9 @@ mod pigment;
 mod place;
 mod points;
 mod quadric;
+mod rainbow;
 mod shape;
+mod single;
 mod surface;
 mod sweep;
 mod texture;
@@ -44,6 +47,7 @@ mod unseen;
 mod uv;
 mod view;
 
+pub use single::single;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
@@ -80,11 +84,22 @@ pub fn lower(
     options: &LowerOptions,
     diagnostics: &mut Diagnostics,
 ) -> (World, Origins) {
+    lower_at(scene, transform::Affine::IDENTITY, options, diagnostics)
+}
+
+/// As [`lower`], with all objects moved by `place`.
+fn lower_at(
+    scene: Scene,
+    place: transform::Affine,
+    options: &LowerOptions,
+    diagnostics: &mut Diagnostics,
+) -> (World, Origins) {
     let is_sound = !diagnostics.has_errors();
     let mut lowering = Lowering {
         is_sound,
         is_blind: false,
         sees_nothing: false,
+        place,
         world: World::default(),
         origins: Origins::default(),
         reporter: Reporter::new(&scene, diagnostics),
@@ -112,6 +127,7 @@ pub fn lower(
     lowering.camera();
     lowering.sky();
     lowering.fogs();
+    lowering.rainbows();
     lowering.objects();
     lowering.light_sets();
     if lowering.sees_nothing {
@@ -140,6 +156,8 @@ struct Lowering<'s, 'd> {
     is_blind: bool,
     /// The camera's rays hit no object.
     sees_nothing: bool,
+    /// Moves all objects.
+    place: transform::Affine,
     world: World,
     origins: Origins,
     reporter: Reporter<'s, 'd>,

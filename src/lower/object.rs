@@ -55,7 +55,8 @@ impl<'s> Lowering<'s, '_> {
                 let Some(surface) = self.set_surface(default_texture, Affine::IDENTITY) else {
                     continue;
                 };
-                last = Some((default_texture, Inherited::root(surface)));
+                let root = Inherited { world_from_here: self.place, ..Inherited::root(surface) };
+                last = Some((default_texture, root));
             }
             let Some((_, inherited)) = &last else { continue };
             if !self.may_visit(object, &mut visits) {
@@ -152,7 +153,10 @@ impl<'s> Lowering<'s, '_> {
             unseen: inherited.unseen,
             cut,
             light_group: match modified.light_group {
-                Some(global) => Some(self.begin_light_group(inherited, global)),
+                Some(global) => {
+                    let item = own.unwrap_or(object.site);
+                    Some(self.begin_light_group(inherited, global, item))
+                }
                 None => inherited.light_group,
             },
             filling: Some(filling),

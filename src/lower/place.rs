@@ -106,7 +106,7 @@ impl Lowering<'_, '_> {
         site: Site,
     ) -> Result<(), Fault> {
         let Flags { no_shadow, no_image, no_reflection, double_illuminate, .. } = here.flags;
-        let hollow = here.flags.hollow && !self.world.fogs.is_empty();
+        let hollow = here.flags.hollow && self.world.has_haze();
         let object = Object {
             casts_shadow: !no_shadow,
             in_image: !no_image,

@@ -42,9 +42,9 @@ impl Lowering<'_, '_> {
         self.drop_part(self.scene.objects[by.index()].site, self.word(by), why);
     }
 
-    /// Returns whether anything in the Scene, placed or not, refracts or absorbs light, or fog is outside of solids.
+    /// Returns whether anything in the Scene, placed or not, refracts or absorbs light, or fog or rainbows are outside of solids.
     pub(super) fn bends_light(&self) -> bool {
-        bends_light(self.scene) || !self.world.fogs.is_empty()
+        bends_light(self.scene) || self.world.has_haze()
     }
 
     /// Returns the keyword of an object, or of the object that it uses.

@@ -4,6 +4,9 @@
 //! left out only if it cannot change a bit of the film: its weight is exactly zero, or flags exclude
 //! everything from it. Visibility is not estimated.
 
+mod haze;
+mod kept_light;
+
 use super::dropped::dropped;
 use super::kinds::kinds;
 use super::numerics::numerics;
@@ -55,7 +58,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
     plan.stages = Stage::ALL.to_vec();
     plan.stages.retain(|stage| match stage {
         Stage::Camera | Stage::Intersect | Stage::Surface => true,
-        Stage::Medium => !world.fogs.is_empty(),
+        Stage::Medium => world.has_haze(),
         Stage::Light => !world.lights.is_empty(),
         Stage::Shadow => plan.effects.iter().any(|called| called.effect == Effect::Shadows),
         Stage::Scatter | Stage::Fold => scatters,
@@ -89,6 +92,8 @@ impl Census<'_> {
             Effect::Shadows => self.shadows(),
             Effect::Attenuation => self.attenuation(),
             Effect::AreaLights => self.area_lights(),
+            Effect::Projections => self.projections(),
+            Effect::LightGroups => self.light_groups(),
             Effect::DoubleIllumination => self.double_illumination(),
             Effect::Reflection => self.reflection(),
             Effect::Transparency => self.transparency(),
@@ -105,6 +110,7 @@ impl Census<'_> {
                 because("the rays of focal blur are spread over the pixel", self.origins.aperture)
             }
             Effect::Fog => self.fog(),
+            Effect::Rainbows => self.rainbows(),
             Effect::Antialiasing => antialiasing(self.options.antialias),
         }
     }
@@ -335,22 +341,6 @@ impl Census<'_> {
             return because("the camera has no `normal`", None);
         }
         Ok((self.origins.camera_normal.into_iter().collect(), "one normal a camera ray".to_owned()))
-    }
-
-    fn fog(&self) -> Decision {
-        let fogs = &self.world.fogs;
-        if fogs.is_empty() {
-            let mut dropped = self.origins.dropped.iter().filter(|part| part.what == "fog");
-            return match dropped.next() {
-                Some(fog) => because("no fog veils anything", Some(fog.site)),
-                None => because("no `fog`", None),
-            };
-        }
-        let ground =
-            if fogs.iter().any(|fog| fog.ground.is_some()) { ", two arc tangents" } else { "" };
-        let churn = if fogs.iter().any(|fog| fog.churn.is_some()) { ", noise" } else { "" };
-        let cost = format!("an exponential{ground}{churn}; {} a ray", count(fogs.len(), "fog"));
-        Ok((self.origins.fogs.clone(), cost))
     }
 
     /// Returns the locations of the lights selected by `calls`.

@@ -118,6 +118,10 @@ pub enum Effect {
     Attenuation,
     /// Soft shadows from lights that are a grid of lights.
     AreaLights,
+    /// Lights that shine through an object, and nowhere else.
+    Projections,
+    /// Lights that do not light all objects.
+    LightGroups,
     /// Light on one side of a surface that also illuminates the other side.
     DoubleIllumination,
     Reflection,
@@ -141,17 +145,21 @@ pub enum Effect {
     CameraNormal,
     /// Fog between surfaces.
     Fog,
+    /// Coloured arcs around a direction.
+    Rainbows,
     Antialiasing,
 }
 
 impl Effect {
     /// All effects, in the order in which the plan lists them.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 22] = [
         Self::Diffuse,
         Self::Highlights,
         Self::Shadows,
         Self::Attenuation,
         Self::AreaLights,
+        Self::Projections,
+        Self::LightGroups,
         Self::DoubleIllumination,
         Self::Reflection,
         Self::Transparency,
@@ -165,6 +173,7 @@ impl Effect {
         Self::FocalBlur,
         Self::CameraNormal,
         Self::Fog,
+        Self::Rainbows,
         Self::Antialiasing,
     ];
 
@@ -176,6 +185,8 @@ impl Effect {
             Self::Shadows => "shadows",
             Self::Attenuation => "beams and fading",
             Self::AreaLights => "area lights",
+            Self::Projections => "projected lights",
+            Self::LightGroups => "light groups",
             Self::DoubleIllumination => "light from behind",
             Self::Reflection => "reflection",
             Self::Transparency => "transparency",
@@ -189,6 +200,7 @@ impl Effect {
             Self::FocalBlur => "focal blur",
             Self::CameraNormal => "camera normal",
             Self::Fog => "fog",
+            Self::Rainbows => "rainbows",
             Self::Antialiasing => "antialiasing",
         }
     }

@@ -8,7 +8,7 @@ pub enum Stage {
     Camera,
     /// Rays find what they meet.
     Intersect,
-    /// What lies between rays' starts and what they meet: fog.
+    /// What lies between rays' starts and what they meet: fog and rainbows.
     Medium,
     /// Where a ray meets a surface: its point, its normal, its texture; elsewhere the sky.
     Surface,

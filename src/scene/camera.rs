@@ -1,6 +1,6 @@
 //! Cameras as written: the keywords in order, without defaults.
 
-use super::{NormalId, PigmentId, TransformId};
+use super::{NormalId, ObjectId, PigmentId, TransformId};
 use crate::math::Vector;
 use crate::source::Site;
 
@@ -9,6 +9,8 @@ use crate::source::Site;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     pub kind: CameraKind,
+    /// Of a `mesh_camera`.
+    pub meshes: Option<MeshCamera>,
     pub items: Vec<CameraItem>,
     /// Each keyword changes the result of those before it, as in scenes for POV-Ray 3.1 and older.
     pub is_in_order: bool,
@@ -39,6 +41,48 @@ pub enum CameraKind {
     Panoramic,
     Cylinder(CylinderForm),
     Spherical,
+    Mesh,
+}
+
+/// The block of a `mesh_camera`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshCamera {
+    /// At least 1.
+    pub rays: u32,
+    pub distribution: Distribution,
+    /// What is farther away is not seen; 0: all is.
+    pub max_distance: f64,
+    /// At least one.
+    pub meshes: Vec<ObjectId>,
+    pub smooth: bool,
+    pub site: Site,
+}
+
+/// How pixels choose faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Distribution {
+    /// Each ray of a pixel has a mesh of its own.
+    Layers,
+    /// All meshes are one.
+    Sum,
+    /// The meshes are side by side in the picture.
+    Beside,
+    /// By the faces' texture coordinates.
+    Unwrapped,
+}
+
+impl Distribution {
+    const ALL: [Self; 4] = [Self::Layers, Self::Sum, Self::Beside, Self::Unwrapped];
+
+    /// Returns the distribution that the language calls by this number, 0 to 3.
+    pub fn from_number(number: u32) -> Option<Self> {
+        Self::ALL.get(number as usize).copied()
+    }
+
+    /// Returns its number in the language.
+    pub fn number(self) -> usize {
+        self as usize
+    }
 }
 
 impl CameraKind {

@@ -20,6 +20,7 @@ pub struct LightSource {
     pub fade: Option<Fade>,
     pub area: Area,
     pub looks_like: Option<LooksLike>,
+    pub projected_through: Option<ProjectedThrough>,
     /// The last `spotlight` or `cylinder`.
     pub beam_site: Option<Site>,
     /// The last `fade_distance`, with its value.
@@ -42,6 +43,7 @@ impl LightSource {
             fade: None,
             area: Area::default(),
             looks_like: None,
+            projected_through: None,
             beam_site: None,
             fade_site: None,
             media_site: None,
@@ -57,6 +59,16 @@ pub struct LooksLike {
     pub object: ObjectId,
     /// The transforms before it: they move the location, and do not change the object (measured on POV-Ray 3.7).
     pub after: Vec<TransformId>,
+}
+
+/// The object that a light shines through: only where a ray to the light meets it, it shines.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProjectedThrough {
+    pub object: ObjectId,
+    /// The transforms before it: they move the light, and not the object (measured on POV-Ray 3.7).
+    pub after: Vec<TransformId>,
+    /// The word, with its block.
+    pub site: Site,
 }
 
 /// A grid of lights instead of one.

@@ -4,14 +4,16 @@
 //! shared child is shown in full once and by name afterwards, so the text exceeds the Scene only by its
 //! indentation. The printer does not recurse: the nesting depth is unlimited.
 
+mod camera;
+mod haze;
 mod texture;
 
 use std::fmt::{self, Write};
 
 use super::{
-    Area, Beam, CameraItemKind, CameraKind, CylinderForm, Fade, Finish, FogTurbulence, Interior,
-    Irid, LightKind, LightSource, Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings,
-    TextureId, TransformId,
+    Area, Beam, CameraItemKind, CameraKind, CylinderForm, Fade, Finish, Interior, Irid, LightKind,
+    LightSource, Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings, TextureId,
+    TransformId,
 };
 use crate::color::Clearness;
 use crate::math::transform::Step as TransformStep;
@@ -70,6 +72,7 @@ impl Printer<'_> {
             }
         }
         self.fogs(out)?;
+        self.rainbows(out)?;
         for root in &self.scene.roots {
             self.object(out, root.object)?;
         }
@@ -80,29 +83,6 @@ impl Printer<'_> {
         for id in defaults {
             writeln!(out, "default texture {}", id.0)?;
             self.texture(out, id, "  ")?;
-        }
-        Ok(())
-    }
-
-    fn fogs(&self, out: &mut String) -> fmt::Result {
-        for fog in &self.scene.fogs {
-            writeln!(out, "fog  ({})", self.sources.place(fog.site.span))?;
-            writeln!(out, "  color {}", fog.color)?;
-            writeln!(out, "  distance {}", fog.distance)?;
-            if fog.is_ground {
-                writeln!(out, "  fog_type 2")?;
-                writeln!(out, "  fog_offset {}", fog.offset)?;
-                writeln!(out, "  fog_alt {}", fog.alt)?;
-                writeln!(out, "  up {}", vector(fog.up))?;
-                for &id in &fog.transforms {
-                    self.transform(out, id, "  ")?;
-                }
-            }
-            if let Some(FogTurbulence { scale, octaves, lambda, omega }) = fog.turbulence {
-                write!(out, "  turbulence {} octaves {octaves}", vector(scale))?;
-                writeln!(out, " lambda {lambda} omega {omega}")?;
-                writeln!(out, "  turb_depth {} {:?}", fog.turb_depth, fog.noise)?;
-            }
         }
         Ok(())
     }
@@ -121,8 +101,10 @@ impl Printer<'_> {
                 CameraKind::Cylinder(CylinderForm::UprightMoving) => "cylinder 3",
                 CameraKind::Cylinder(CylinderForm::LevelMoving) => "cylinder 4",
                 CameraKind::Spherical => "spherical",
+                CameraKind::Mesh => "mesh_camera",
             };
             writeln!(out, "camera {kind}  ({})", self.sources.place(camera.site.span))?;
+            self.camera_meshes(out, camera)?;
             for item in &camera.items {
                 match item.kind {
                     CameraItemKind::Location(v) => writeln!(out, "  location {}", vector(v))?,
@@ -196,8 +178,10 @@ impl Printer<'_> {
                         }
                         ObjectKind::LightSource(source) => {
                             light(out, source)?;
-                            let looks_like = source.looks_like.iter();
-                            stack.extend(looks_like.map(|one| Task::Open(one.object, depth + 1)));
+                            let like = source.looks_like.iter().map(|one| one.object);
+                            let through = source.projected_through.iter().map(|one| one.object);
+                            let objects = like.chain(through);
+                            stack.extend(objects.map(|object| Task::Open(object, depth + 1)));
                         }
                     }
                     writeln!(out, "  ({place})")?;

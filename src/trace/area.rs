@@ -180,7 +180,8 @@ pub(super) fn visible(
     if tracer.counts {
         walk.counters.evaluations.area_lights += 1;
     }
-    if !tracer.shadows || !of.light.casts_shadows {
+    let casts = tracer.shadows && of.light.casts_shadows;
+    if !casts && of.light.through.is_none() {
         return Rgb::WHITE;
     }
     let area = of.area;
@@ -227,28 +228,36 @@ fn differ(corners: &[Rgb; 4], color: Rgb) -> bool {
 /// Finds the factors of the nodes that are asked for.
 fn search(tracer: &Tracer, walk: &mut Walk, of: AreaLight, ground: &Ground, nodes: &mut Nodes) {
     let Nodes { factors, asked, .. } = nodes;
+    let casts = tracer.shadows && of.light.casts_shadows;
     for asked in asked.chunks(ROW) {
         // Of no meaning any more, as all of the batch.
         if walk.patience.is_over_after(asked.len() as u32, tracer.watch) {
             factors.extend(asked.iter().map(|_| Rgb::BLACK));
             continue;
         }
-        let (mut rays, mut reaches) = (Rays::NONE, [0.0; ROW]);
+        let (mut rays, mut reaches, mut missed) = (Rays::NONE, [0.0; ROW], 0);
         for (number, &node) in asked.iter().enumerate() {
             let kind = node_kind(of, ground.place.point, node);
             // The side is that of the surface's point, and the aim that of where the ray starts.
             let Some(toward) = shadow::aim(&kind, ground.place.point) else { continue };
             let origin = ground.start(toward.to_light);
-            let Some(Aim { to_light, reach }) = shadow::aim(&kind, origin) else { continue };
-            rays.set(number, &Ray { origin, direction: to_light });
-            reaches[number] = reach;
+            let Some(aim) = shadow::aim(&kind, origin) else { continue };
+            let Some(aim) = tracer.shone_through(walk, of.light, origin, &aim) else {
+                missed |= 1 << number;
+                continue;
+            };
+            rays.set(number, &Ray { origin, direction: aim.to_light });
+            reaches[number] = aim.reach;
         }
-        let shadowed = shadow::shadowed_together(tracer, walk, of.number, &rays, &reaches);
+        let shadowed = match casts {
+            true => shadow::shadowed_together(tracer, walk, of.number, &rays, &reaches),
+            false => 0,
+        };
         for (number, &reach) in reaches.iter().enumerate().take(asked.len()) {
             let there = |bits: u32| bits >> number & 1 == 1;
-            factors.push(if there(shadowed) {
+            factors.push(if there(shadowed | missed) {
                 Rgb::BLACK
-            } else if tracer.filters_shadows && there(rays.mask) {
+            } else if casts && tracer.filters_shadows && there(rays.mask) {
                 let Ray { origin, direction: to_light } = rays.at(number);
                 let aim = Aim { to_light, reach };
                 tracer.filtered(walk, ground.place.within, origin, &aim)
@@ -314,11 +323,15 @@ fn node_kind(
     point: Vector,
     node: [u32; 2],
 ) -> LightKind {
-    let moved = |position: Vector| position + offset(area, number, position, point, node);
+    let moved =
+        |position: Vector, facing: Vector| position + offset(area, (number, node), point, facing);
     match light.kind {
-        LightKind::Point { position } => LightKind::Point { position: moved(position) },
+        LightKind::Point { position } => {
+            LightKind::Point { position: moved(position, position - point) }
+        }
         LightKind::Parallel { position, to_light } => {
-            let position = moved(position);
+            // The grid is the same for all points (measured).
+            let position = moved(position, to_light.get());
             let toward = area.target.and_then(|to| UnitVector::from_direction(position - to));
             LightKind::Parallel { position, to_light: toward.unwrap_or(to_light) }
         }
@@ -326,8 +339,8 @@ fn node_kind(
     }
 }
 
-/// Returns where a node is, from the light's position.
-fn offset(area: &Area, light: usize, position: Vector, point: Vector, node: [u32; 2]) -> Vector {
+/// Returns where a node of a light is, from the light's position; a grid that turns faces along `facing`.
+fn offset(area: &Area, (light, node): (usize, [u32; 2]), point: Vector, facing: Vector) -> Vector {
     let [mut u, mut v] = [0, 1].map(|side| match area.nodes[side] {
         1 => 0.0,
         count => f64::from(node[side]) / f64::from(count - 1) - 0.5,
@@ -348,7 +361,7 @@ fn offset(area: &Area, light: usize, position: Vector, point: Vector, node: [u32
             (u, v) = (u * factor, v * factor);
         }
     }
-    let [a, b] = if area.orient { facing(area.sides[0], position - point) } else { area.sides };
+    let [a, b] = if area.orient { turned(area.sides[0], facing) } else { area.sides };
     a * u + b * v
 }
 
@@ -356,7 +369,7 @@ fn offset(area: &Area, light: usize, position: Vector, point: Vector, node: [u32
 /// direction is nearly z.
 ///
 /// **Source:** measured on POV-Ray 3.7: it changes between the cosines 0.980 and 0.992.
-fn facing(side: Vector, direction: Vector) -> [Vector; 2] {
+fn turned(side: Vector, direction: Vector) -> [Vector; 2] {
     let length = UnitVector::from_direction(side).map_or(0.0, |unit| side.dot(unit.get()));
     let is_along_z =
         UnitVector::from_direction(direction).is_some_and(|to| to.get().z.abs() > 0.99);
@@ -399,6 +412,9 @@ impl<'a> Tracer<'a> {
             let normal = place.flat.map_or(place.normal, |flat| flat.normal);
             let behind = place.flat.map_or_else(|| surface.spawn(-normal), |flat| flat.behind);
             let ground = Ground { place: &place, behind, lights: self.lights_of(hit.object) };
+            if self.counts && ground.lights.is_some() {
+                walk.counters.evaluations.light_groups += 1;
+            }
             if shade::answers(place.finish)
                 && ground.is_lit_by(number)
                 && let Some(lit) = shade::before(self, walk, &ground, (number, light))

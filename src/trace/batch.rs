@@ -316,6 +316,9 @@ impl<'a> Tracer<'a> {
     /// Takes the rays of the last generation to what they meet, through what lies between.
     fn advance(&self, walk: &mut Walk, batch: &mut Batch) {
         self.intersect(walk, batch);
+        if self.world.camera.meshes.is_some() && batch.generations.len() == 1 {
+            self.see_near(&mut batch.hits);
+        }
         if self.has_fog {
             let Some(&Generation { rays: first, .. }) = batch.generations.last() else { return };
             let rays = batch.ways[first..].iter().zip(&batch.hits[first..]);

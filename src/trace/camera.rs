@@ -9,6 +9,7 @@ mod cylinder;
 mod fisheye;
 mod flat;
 mod focus;
+mod mesh;
 mod omnimax;
 mod panoramic;
 mod spherical;
@@ -17,9 +18,10 @@ mod ultra_wide_angle;
 #[cfg(test)]
 mod tests;
 
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
-use crate::math::elementary::sin_cos_degrees;
+use crate::math::elementary::{atan2, sin_cos_degrees};
 use crate::math::{UnitVector, Vector};
 use crate::shape::Ray;
 use crate::texture::Normal;
@@ -30,6 +32,7 @@ use cylinder::Cylinder;
 use fisheye::Fisheye;
 use flat::Flat;
 pub(super) use focus::Focus;
+use mesh::Meshes;
 use omnimax::Omnimax;
 use panoramic::Panoramic;
 use spherical::Spherical;
@@ -57,6 +60,7 @@ enum Kind {
     Panoramic(Panoramic),
     Cylinder(Cylinder),
     Spherical(Spherical),
+    Meshes(Meshes),
 }
 
 /// A camera and the picture it makes.
@@ -90,6 +94,10 @@ impl Lens {
             CameraKind::Cylinder { upright, moving, angle } => {
                 Kind::Cylinder(Cylinder::new(camera, upright, moving, angle))
             }
+            CameraKind::Mesh => match &camera.meshes {
+                Some(meshes) => Kind::Meshes(Meshes::new(meshes.clone(), width, height)),
+                None => Kind::Flat(Flat::new(camera)),
+            },
             CameraKind::Spherical { across, down } => {
                 Kind::Spherical(Spherical::new(camera, across, down))
             }
@@ -143,7 +151,15 @@ impl Lens {
         }
     }
 
-    /// Returns the rays through points of the screen.
+    /// Returns how many rays there are for each point of the screen.
+    pub fn rays_of_a_point(&self) -> usize {
+        match &self.kind {
+            Kind::Meshes(meshes) => meshes.rays_of_a_place(),
+            _ => 1,
+        }
+    }
+
+    /// Returns the rays through points of the screen; for a point of several, they are neighbours.
     pub fn rays(&self, points: &[Point]) -> Vec<Option<Ray>> {
         match &self.kind {
             Kind::Flat(kind) => self.each(kind, points),
@@ -153,6 +169,7 @@ impl Lens {
             Kind::Panoramic(kind) => self.each(kind, points),
             Kind::Cylinder(kind) => self.each(kind, points),
             Kind::Spherical(kind) => self.each(kind, points),
+            Kind::Meshes(kind) => points.iter().flat_map(|p| kind.rays(p.u, p.v)).collect(),
         }
     }
 
@@ -197,6 +214,13 @@ impl Axes {
 fn length(v: Vector) -> f64 {
     let largest = v.abs().max_element();
     if largest == 0.0 || !largest.is_finite() { largest } else { (v / largest).length() * largest }
+}
+
+/// Returns the angle of (x, y) from x toward y in radians, −π/2 … 3π/2, as POV-Ray 3.7 measures it for a camera's
+/// normal.
+fn polar_angle(x: f64, y: f64) -> f64 {
+    let angle = atan2(y, x);
+    if angle < -FRAC_PI_2 { angle + TAU } else { angle }
 }
 
 /// Returns the sine and cosine of an angle in turns: exact at quarters.

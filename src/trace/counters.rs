@@ -57,6 +57,10 @@ pub struct Evaluations {
     pub attenuation: u64,
     /// Area lights, asked what of their shadows falls on a place.
     pub area_lights: u64,
+    /// Ways to a light, searched for the object that it shines through.
+    pub projections: u64,
+    /// Lights of groups, asked whether they light an object.
+    pub light_groups: u64,
     /// Surfaces asked what the lights on their other side add.
     pub from_behind: u64,
     /// Borders between media, asked where a ray goes on.
@@ -79,6 +83,8 @@ pub struct Evaluations {
     pub camera_normal: u64,
     /// Fogs on the ways of rays.
     pub fog: u64,
+    /// Rainbows on the ways of rays.
+    pub rainbows: u64,
 }
 
 impl Evaluations {
@@ -107,6 +113,8 @@ impl AddAssign for Evaluations {
         self.highlights += other.highlights;
         self.attenuation += other.attenuation;
         self.area_lights += other.area_lights;
+        self.projections += other.projections;
+        self.light_groups += other.light_groups;
         self.from_behind += other.from_behind;
         self.refraction += other.refraction;
         self.absorption += other.absorption;
@@ -118,5 +126,6 @@ impl AddAssign for Evaluations {
         self.focal_blur += other.focal_blur;
         self.camera_normal += other.camera_normal;
         self.fog += other.fog;
+        self.rainbows += other.rainbows;
     }
 }

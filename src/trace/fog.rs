@@ -19,7 +19,7 @@ pub(super) const SKY: f64 = 2e10;
 const HIGHEST: f64 = 1e150;
 
 /// A fog that brightens what is behind it does so at most by this factor.
-const BRIGHTEST: f64 = 1e30;
+pub(super) const BRIGHTEST: f64 = 1e30;
 
 /// The effect of fogs on what a ray shows: `light·through + added`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +30,12 @@ pub(super) struct Veil {
 
 impl Veil {
     pub const NONE: Self = Self { through: Rgb::WHITE, added: Rgb::BLACK };
+
+    /// Returns the effect of this veil before another one.
+    pub fn before(self, other: Self) -> Self {
+        let through = (self.through * other.through).bounded();
+        Self { through, added: self.added + (self.through * other.added).bounded() }
+    }
 }
 
 /// Returns the veil of several fogs on a ray: the product of what each lets through, and the sum of what each

@@ -148,7 +148,7 @@ impl Tracer<'_> {
         let mut sums = stands.local;
         let grounds = Grounds::of(stands, self.geometry.has_tree());
         for (number, light) in self.world.lights.iter().enumerate() {
-            if light.area.is_some() || !self.world.light_sets.is_empty() {
+            if !light.is_plain() || !self.world.light_sets.is_empty() {
                 self.light_one_by_one(walk, stands, (number, light), &mut sums);
             } else if grounds.answers != 0 {
                 self.light_together(walk, stands, &grounds, (number, light), &mut sums);

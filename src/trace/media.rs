@@ -54,6 +54,7 @@ impl Around {
         let camera = &world.camera;
         let lens = camera.focus.as_ref().map_or(0.0, |focus| focus.radius.abs());
         let half = match camera.has_one_origin() {
+            false if camera.meshes.is_some() => Vector::INFINITY,
             true => Vector::ZERO,
             false => (camera.right.abs() + camera.up.abs()) * 0.5 + Vector::splat(lens),
         };

@@ -28,6 +28,8 @@ mod light;
 mod media;
 mod metal;
 mod pixels;
+mod projection;
+mod rainbow;
 mod reflection;
 mod refraction;
 mod samples;

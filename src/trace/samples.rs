@@ -7,6 +7,7 @@ use super::Walk;
 use super::camera::{Lens, Point};
 use super::tracer::Tracer;
 use crate::color::Rgb;
+use crate::geometry::Hit;
 use crate::math::wide::{ROW, Rays};
 use crate::shape::Ray;
 
@@ -45,11 +46,12 @@ impl Tracer<'_> {
                     evaluations.focal_blur += if lens.focus().is_some() { sent } else { 0 };
                     evaluations.camera_normal += if lens.has_normal() { sent } else { 0 };
                 }
+                let of_a_point = lens.rays_of_a_point();
+                if of_a_point != 1 {
+                    return self.each_mean(walk, rays, of_a_point, look);
+                }
                 let mut next = 0;
-                let sent: Vec<Ray> = rays.iter().flatten().copied().collect();
-                let mut rows = sent.chunks(ROW);
-                let fill = |rays: &mut Rays| *rays = Rays::new(rows.next().unwrap_or(&[]).iter());
-                self.each_seen(walk, fill, |seen| {
+                self.each_of(walk, &rays, |seen| {
                     while rays[next].is_none() {
                         look(Rgb::BLACK);
                         next += 1;
@@ -60,5 +62,43 @@ impl Tracer<'_> {
                 rays[next..].iter().take_while(|ray| ray.is_none()).for_each(|_| look(Rgb::BLACK));
             }
         }
+    }
+
+    /// Shows `look` the radiance along each of the rays that there are.
+    fn each_of(&self, walk: &mut Walk, rays: &[Option<Ray>], look: impl FnMut(Rgb)) {
+        let sent: Vec<Ray> = rays.iter().flatten().copied().collect();
+        let mut rows = sent.chunks(ROW);
+        let fill = |rays: &mut Rays| *rays = Rays::new(rows.next().unwrap_or(&[]).iter());
+        self.each_seen(walk, fill, look);
+    }
+
+    /// Forgets what is beyond the reach of the camera's own rays: behind it is the sky.
+    #[cold]
+    pub(super) fn see_near(&self, hits: &mut [Hit]) {
+        let reach = self.world.camera.meshes.as_ref().map_or(f64::INFINITY, |one| one.reach);
+        hits.iter_mut().filter(|hit| hit.t > reach).for_each(|hit| *hit = Hit::NOTHING);
+    }
+
+    /// Shows `look` the mean of what is seen along each `of_a_point` rays; black where all of them are missing.
+    fn each_mean(
+        &self,
+        walk: &mut Walk,
+        rays: Vec<Option<Ray>>,
+        of_a_point: usize,
+        look: impl FnMut(Rgb),
+    ) {
+        let mut seen = Vec::with_capacity(rays.len());
+        self.each_of(walk, &rays, |one| seen.push(one));
+        let mut seen = seen.into_iter();
+        let means = rays.chunks(of_a_point.max(1)).map_while(|of_point| {
+            let count = of_point.iter().flatten().count();
+            let there = seen.by_ref().take(count).collect::<Vec<_>>();
+            // Otherwise the watch wanted no more.
+            (there.len() == count).then(|| {
+                let sum = there.into_iter().fold(Rgb::BLACK, |sum, one| sum + one);
+                sum * (1.0 / f64::from(count.max(1) as u32))
+            })
+        });
+        means.for_each(look);
     }
 }

@@ -253,6 +253,7 @@ fn searched(
         let color = color * area::visible(tracer, walk, of, ground, color);
         return (!color.is_black()).then_some(color);
     }
+    let aim = &tracer.shone_through(walk, light, origin, aim)?;
     if tracer.shadows && light.casts_shadows {
         if shadow::shadowed(tracer, walk, number, origin, aim) {
             return None;

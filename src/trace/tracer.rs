@@ -31,11 +31,11 @@ pub(super) struct Tracer<'a> {
     pub clear_composites: Vec<bool>,
     /// Rays change in interiors: they are bent, split or dimmed.
     pub bends: bool,
-    /// What rays are in is followed: interiors change them, or fog does not fill all solids.
+    /// What rays are in is followed: interiors change them, or fog and rainbows do not fill all solids.
     pub follows_media: bool,
     /// What the camera may be in, if that is followed.
     around: Around,
-    /// Fog veils what rays meet.
+    /// Fog or rainbows veil what rays meet.
     pub has_fog: bool,
     /// Interiors dim light.
     pub absorbs: bool,

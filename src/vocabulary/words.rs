@@ -299,18 +299,18 @@ vocabulary! {
         Transmit "transmit" statement built "transmitted light that is not tinted, 0 to 1; also a component, `.transmit`";
     }
     Camera {
-        Angle "angle" statement built "the horizontal field of view in degrees, more than 0; of a `spherical` camera also `angle across, down`";
+        Angle "angle" statement built "the horizontal field of view in degrees, more than 0; of a `spherical` camera also `angle across, down`; of a `rainbow`, that between its direction and the middle of its band";
         Aperture "aperture" statement built "`aperture n`: blurs what is not near `focal_point`, by a lens of diameter n/2; needs `blur_samples`";
         BlurSamples "blur_samples" statement built "`blur_samples [least,] most`: the number of rays of a pixel that an `aperture` blurs";
         Bokeh "bokeh" statement built "`bokeh { pigment { … } }`: the shape of blur, by the brightness of the pigment from <0, 0> to <1, 1>";
         Camera "camera" statement built "`camera { … }`: the viewpoint of the picture";
         Confidence "confidence" statement built "with which probability a blurred pixel has the `variance`: 0 or more, and less than 1; default 0.9";
-        Direction "direction" statement built "camera: the axis and length of the lens; light: the direction to the light";
+        Direction "direction" statement built "camera: the axis and length of the lens; light: the direction to the light; rainbow: the direction of the sun's light";
         Fisheye "fisheye" statement built "a camera with a round picture, whose `angle` grows evenly from the middle";
         FocalPoint "focal_point" statement built "a point whose distance from the camera is in focus under an `aperture`; default <0, 0, 0>";
         Location "location" statement built "the position of the camera; default <0, 0, 0>";
         LookAt "look_at" statement built "the point in the centre of the picture";
-        MeshCamera "mesh_camera" statement later "a camera whose rays start on a mesh";
+        MeshCamera "mesh_camera" statement built "`mesh_camera { rays distribution [max_distance] mesh { … } … [smooth] }`: a camera whose rays start on the faces of meshes, one face a pixel; distribution 0: a mesh for each ray of a pixel; 1: all meshes in turn; 2: meshes side by side; 3: by texture coordinates, with `smooth` along the normals of the corners. Its `location.z` is how far off the face they start";
         Omnimax "omnimax" statement built "a camera for dome screens: a fisheye of 180 degrees without its lower part";
         Orthographic "orthographic" statement built "a camera with parallel rays; `right` and `up` are the picture's sides";
         Panoramic "panoramic" statement built "a camera that sees 180 degrees from left to right and from bottom to top";
@@ -319,7 +319,7 @@ vocabulary! {
         Shift "shift" statement built in Camera "`shift <x, y>`: shifts the lens, in widths and heights of the picture";
         Sky "sky" statement built "the upward direction; default y";
         UltraWideAngle "ultra_wide_angle" statement built "a camera like a fisheye, with a rectangular picture";
-        Up "up" statement built "the height of the picture plane; default y";
+        Up "up" statement built "the height of the picture plane; default y; of a `rainbow`, where the middle of its arc is";
         Variance "variance" statement built "the variance at which a blurred pixel gets no more rays; default 1/128";
     }
     Light {
@@ -328,7 +328,7 @@ vocabulary! {
         AreaLight "area_light" statement built "`area_light <a>, <b>, m, n`: m × n lights in a rectangle";
         Circular "circular" statement built "an area light in the shape of a disc";
         GlobalLights "global_lights" statement built "the objects of a `light_group` are lit by the lights of no group, too";
-        Jitter "jitter" statement built "moves the lights of an area light at random";
+        Jitter "jitter" statement built "moves the lights of an area light at random; `jitter n` of a `rainbow`: how far positions in its colours are off at random";
         LightGroup "light_group" statement built "`light_group { … }`: lights, and the objects that they light; no other objects are lit by them";
         LightSource "light_source" statement built "`light_source { <place>, color … }`: a point light";
         LooksLike "looks_like" statement built "`looks_like { … }`: the object that is seen where the light is; it casts no shadow";
@@ -336,7 +336,7 @@ vocabulary! {
         MediaInteraction "media_interaction" statement built "with `off`, `media_attenuation` has no effect; default on";
         Parallel "parallel" statement built "all rays run parallel, from the light's location toward `point_at`";
         PointAt "point_at" statement built "the target of a parallel light or a spotlight; default <0, 0, 0>, in a `.pov` z";
-        ProjectedThrough "projected_through" statement later "only light through this object counts";
+        ProjectedThrough "projected_through" statement built "`projected_through { … }`: the light shines only where a ray to it meets this object, which casts no shadow itself; nor does what is behind it";
         Radius "radius" statement built "the bright centre of a spotlight in degrees, default 30; of a `cylinder` light in units, default 0.75";
         Shadowless "shadowless" statement built "objects cast no shadows from this light";
         Spotlight "spotlight" statement built "a light with a cone around the line to `point_at`";
@@ -368,18 +368,18 @@ vocabulary! {
         Scattering "scattering" statement later "light that media scatter";
     }
     Atmosphere {
-        ArcAngle "arc_angle" statement later "the visible part of a rainbow";
+        ArcAngle "arc_angle" statement built "the degrees of a rainbow that show, 0 to 360, with `up` in their middle; default: all";
         Background "background" statement built "`background { color }`: the colour behind all objects, darkened by its `transmit`; default black";
-        Distance "distance" statement built "how far one can see in a `fog`: after this distance e⁻¹, 37 %, of the light is left; 0: no fog";
+        Distance "distance" statement built "how far one can see in a `fog` or a `rainbow`: after this distance e⁻¹, 37 %, of the light is left; 0: nothing shows; of a rainbow, 10⁷ is the default";
         Fog "fog" statement built "`fog { distance 50 rgb 0.8 }`: haze that covers what is far away; of its colour, `transmit` is the least light that comes through, and `filter` how much of that it tints. A scene may have several. Solids without `hollow` contain none";
         FogAlt "fog_alt" statement built "the height above `fog_offset` at which ground fog is half as dense; 0, the default: it ends there; negative: it is dense above and thins below";
         FogOffset "fog_offset" statement built "the height below which ground fog is uniform; default 0";
         FogType "fog_type" statement built "1, the default: uniform fog; 2: ground fog, which thins with the height along `up`";
-        FalloffAngle "falloff_angle" statement later "the angle at which a rainbow has faded";
-        Rainbow "rainbow" statement later "a rainbow";
+        FalloffAngle "falloff_angle" statement built "the degrees of a rainbow that show in full, at most `arc_angle`, toward which it fades; default: that";
+        Rainbow "rainbow" statement built "`rainbow { direction v angle 42 width 5 color_map { … } }`: a band of colours at an angle around the direction of the sun's light, the first at its inner edge. They veil what is behind like the colours of a `fog`. Where several overlap, their mean shows";
         SkySphere "sky_sphere" statement built "`sky_sphere { pigment … }`: pigments at infinite distance";
         TurbDepth "turb_depth" statement built "how much `turbulence` thins a fog; default 0.5";
-        Width "width" statement later "the width of a rainbow's band";
+        Width "width" statement built "the width of a rainbow's band, in degrees";
     }
     Setting {
         AdcBailout "adc_bailout" statement built "rays that contribute less than this fraction of the pixel are not traced; default 1/255";

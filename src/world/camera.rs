@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::math::Vector;
+use crate::math::{UnitVector, Vector};
 use crate::texture::{Normal, Pigment};
 
 /// The camera. The point (u, v) of the screen, −½ … ½ from left to right and from bottom to top, is seen
@@ -17,6 +17,8 @@ pub struct Camera {
     pub right: Vector,
     pub up: Vector,
     pub focus: Option<Focus>,
+    /// Of a camera whose rays start on meshes.
+    pub meshes: Option<Arc<MeshCamera>>,
     /// Bends the rays.
     pub normal: Option<Arc<Normal>>,
 }
@@ -45,6 +47,41 @@ pub struct Focus {
     pub bokeh: Option<Arc<Pigment>>,
 }
 
+/// A camera whose rays start on faces of meshes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshCamera {
+    pub faces: Faces,
+    /// What is farther away is not seen by its rays; may be infinite.
+    pub reach: f64,
+}
+
+/// The faces that a camera's rays start on.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Faces {
+    /// A pixel has a ray for each list, at the place of its number, and shows the mean of them.
+    Layers(Vec<Vec<Face>>),
+    /// The lists are side by side in the picture.
+    Beside(Vec<Vec<Face>>),
+    /// Rays start where the first face has the place in the picture as texture coordinates, `offset` along their
+    /// directions.
+    Unwrapped { faces: Vec<UnwrappedFace>, offset: f64 },
+}
+
+/// The ray of a face: its direction has length 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    pub origin: Vector,
+    pub direction: UnitVector,
+}
+
+/// A face with the texture coordinates of its corners, and the directions of rays there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnwrappedFace {
+    pub uvs: [[f64; 2]; 3],
+    pub corners: [Vector; 3],
+    pub directions: [UnitVector; 3],
+}
+
 /// How a camera shows space on the screen. Angles are in turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CameraKind {
@@ -69,13 +106,15 @@ pub enum CameraKind {
         across: f64,
         down: f64,
     },
+    /// Rays start on faces; see `Camera::meshes`.
+    Mesh,
 }
 
 impl CameraKind {
     /// Returns whether all rays start at one point, without a lens that blurs.
     fn has_one_origin(self) -> bool {
         match self {
-            Self::Orthographic => false,
+            Self::Orthographic | Self::Mesh => false,
             Self::Cylinder { moving, .. } => !moving,
             _ => true,
         }
@@ -96,6 +135,7 @@ impl Default for Camera {
             right: Vector::X * (4.0 / 3.0),
             up: Vector::Y,
             focus: None,
+            meshes: None,
             normal: None,
         }
     }

@@ -12,6 +12,16 @@ pub struct Light {
     pub attenuation: Option<Attenuation>,
     /// `None`: one point, or one direction.
     pub area: Option<Area>,
+    /// It shines through one of the World's `projections`, and nowhere else.
+    pub through: Option<u32>,
+}
+
+impl Light {
+    /// Returns whether it comes from one point, or one direction, to all that is in sight of it.
+    #[inline(always)]
+    pub fn is_plain(&self) -> bool {
+        self.area.is_none() && self.through.is_none()
+    }
 }
 
 /// Attenuation of a light: the product of all factors.

@@ -9,7 +9,7 @@ use std::fmt::{self, Write};
 
 use super::{
     Absorption, Area, Attenuation, Beam, CameraKind, Churn, Coat, CsgSolid, Cutaway, Dispersion,
-    Fade, Focus, Ground, LightKind, Object, Origins, World,
+    Fade, Focus, Ground, LightKind, Object, Origins, Rainbow, World,
 };
 use crate::color::Clearness;
 use crate::math::placement::{Map, Placement};
@@ -57,6 +57,7 @@ impl Printer<'_> {
             }
         }
         self.fogs(out)?;
+        self.rainbows(out)?;
         self.lights(out)?;
         writeln!(out, "objects {}", self.world.objects.len())?;
         for (i, object) in self.world.objects.iter().enumerate() {
@@ -123,6 +124,7 @@ impl Printer<'_> {
                 let number = 1 + u32::from(!upright) + 2 * u32::from(moving);
                 format!("cylinder {number}, {angle} turns")
             }
+            CameraKind::Mesh => "mesh_camera".to_owned(),
             CameraKind::Spherical { across, down } => {
                 format!("spherical, {across} by {down} turns")
             }
@@ -140,6 +142,9 @@ impl Printer<'_> {
             if let Some(pigment) = bokeh {
                 writeln!(out, "  bokeh {pigment:?}")?;
             }
+        }
+        if let Some(meshes) = &camera.meshes {
+            writeln!(out, "  {meshes:?}")?;
         }
         if let Some(normal) = &camera.normal {
             writeln!(out, "  normal {normal:?}")?;
@@ -163,6 +168,21 @@ impl Printer<'_> {
         Ok(())
     }
 
+    fn rainbows(&self, out: &mut String) -> fmt::Result {
+        for (i, rainbow) in self.world.rainbows.iter().enumerate() {
+            let site = self.at(self.origins.rainbows.get(i).copied());
+            let Rainbow { direction, up, inner, width, distance, colors, jitter, arc, fade } =
+                rainbow;
+            write!(out, "rainbow direction {} up {}", unit(*direction), unit(*up))?;
+            writeln!(out, " inner {inner} width {width} distance {distance}{site}")?;
+            writeln!(out, "  jitter {jitter} arc {arc} fade {fade}")?;
+            for (position, color) in colors {
+                writeln!(out, "  [{position} {color}]")?;
+            }
+        }
+        Ok(())
+    }
+
     fn lights(&self, out: &mut String) -> fmt::Result {
         writeln!(out, "lights {}", self.world.lights.len())?;
         for (i, light) in self.world.lights.iter().enumerate() {
@@ -177,8 +197,15 @@ impl Printer<'_> {
             let site = self.at(self.origins.lights.get(i).copied());
             let attenuation = light.attenuation.as_ref().map_or(String::new(), attenuation);
             let area = light.area.as_ref().map_or(String::new(), area);
+            let through = light.through.map_or(String::new(), |at| format!(" through {at}"));
             let color = light.color;
-            writeln!(out, "  {i} {kind} color {color}{attenuation}{area}{shadows}{site}")?;
+            writeln!(out, "  {i} {kind} color {color}{attenuation}{area}{through}{shadows}{site}")?;
+        }
+        for (i, world) in self.world.projections.iter().enumerate() {
+            writeln!(out, "projection {i} objects {}", world.objects.len())?;
+            for (j, object) in world.objects.iter().enumerate() {
+                Printer { world, ..*self }.object(out, j, object)?;
+            }
         }
         Ok(())
     }

@@ -20,6 +20,8 @@ fn words(effect: Effect) -> &'static [&'static str] {
         Effect::Highlights => &["phong", "specular", "ks"],
         Effect::Attenuation => &["spotlight", "cylinder", "fade_distance", "media_attenuation"],
         Effect::AreaLights => &["area_light"],
+        Effect::Projections => &["projected_through"],
+        Effect::LightGroups => &["light_group"],
         Effect::DoubleIllumination => &["double_illuminate", "diffuse"],
         Effect::Reflection => &["reflection", "ks"],
         // Also every colour's word.
@@ -32,6 +34,7 @@ fn words(effect: Effect) -> &'static [&'static str] {
         Effect::FocalBlur => &["aperture"],
         Effect::CameraNormal => &["normal"],
         Effect::Fog => &["fog"],
+        Effect::Rainbows => &["rainbow"],
         // Also every pattern's word.
         Effect::Patterns => &["object", "material_map"],
         Effect::Antialiasing => &[],
@@ -345,6 +348,17 @@ fn of_a_sky_its_pigments_are_quoted() {
                 &["pigment { rgb 0.5 }"],
             ),
         ],
+    );
+}
+
+#[test]
+fn each_rainbow_is_quoted_that_a_ray_can_see() {
+    assert_quotes(
+        Effect::Rainbows,
+        &[(
+            "#declare R = rainbow { direction z angle 42 width 5 color_map { [0 rgb 1] } }; rainbow { R } rainbow { R angle 95 }",
+            &["rainbow { R }"],
+        )],
     );
 }
 

@@ -35,6 +35,7 @@ impl Sketch {
                 cameras: vec![Camera {
                     is_in_order: false,
                     kind: CameraKind::Perspective,
+                    meshes: None,
                     items: camera.map(|kind| CameraItem { kind, site: SITE }).to_vec(),
                     site: SITE,
                 }],

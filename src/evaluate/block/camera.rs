@@ -54,6 +54,7 @@ impl Block for Camera {
             Some(())
         }),
         Part::Flag(Word::Spherical, |c, (), _| c.kind = CameraKind::Spherical),
+        Part::Special(Word::MeshCamera, |evaluator, token, c| evaluator.mesh_camera(token, c)),
         Part::Vector(Word::Location, "a point", |c, at, site| c.add(Kind::Location(at), site)),
         Part::Vector(Word::LookAt, "a point", |c, point, site| c.add(Kind::LookAt(point), site)),
         Part::Direction(Word::Sky, "the sky's direction", |c, at, site| c.add(Kind::Sky(at), site)),
@@ -103,7 +104,7 @@ impl Evaluator<'_> {
         let site = token.here.site(token.span);
         let is_in_order = self.options.dialect == Dialect::Pov && self.is_before(SORTED_SINCE);
         let (kind, items) = (CameraKind::Perspective, Vec::new());
-        let mut camera = Camera { kind, items, is_in_order, site };
+        let mut camera = Camera { kind, meshes: None, items, is_in_order, site };
         self.value_or_poison(|evaluator| {
             evaluator.block(token, Word::Camera, |evaluator| evaluator.parts(&mut camera))?;
             Ok(Value::Camera(Arc::new(camera)))

@@ -41,6 +41,16 @@ struct Has {
 }
 
 impl Evaluator<'_> {
+    /// Reads a fog of the scene.
+    pub(super) fn placed_fog(&mut self, token: &Token) -> Outcome<()> {
+        if let Value::Fog(fog) = self.fog(token)? {
+            let item = self.whole(token);
+            self.scene.fogs.push(Fog { item, ..fog.as_ref().clone() });
+            return Ok(());
+        }
+        self.needs_poison()
+    }
+
     /// Reads `fog { [Name] … }`.
     pub(super) fn fog(&mut self, token: &Token) -> Outcome<Value> {
         let mut fog = Fog::new(token.here.site(token.span), self.noise);

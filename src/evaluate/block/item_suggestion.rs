@@ -149,6 +149,7 @@ fn begins_with_name(word: Word) -> bool {
             | W::Material
             | W::SkySphere
             | W::Fog
+            | W::Rainbow
             | W::ColorMap
     )
 }

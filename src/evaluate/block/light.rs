@@ -10,7 +10,7 @@ use crate::color::Rgb;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{
     Dialect, LightKind, LightSource, LooksLike, Modifier, ModifierKind, Object, ObjectId,
-    ObjectKind, TransformId,
+    ObjectKind, ProjectedThrough, TransformId,
 };
 use crate::vocabulary::{Family, Word};
 
@@ -206,6 +206,9 @@ impl Evaluator<'_> {
                 TokenKind::Word(Word::LooksLike) => {
                     self.looks_like(&token, light.as_deref_mut(), modifiers)
                 }
+                TokenKind::Word(Word::ProjectedThrough) => {
+                    self.projected_through(&token, light.as_deref_mut(), modifiers)
+                }
                 TokenKind::Word(Word::Shadowless) => {
                     if let Some(light) = &mut light {
                         light.shadowless = true;
@@ -280,6 +283,37 @@ impl Evaluator<'_> {
         let object = self.object_block(token)?;
         if let Some(light) = light {
             light.looks_like = Some(LooksLike { object, after: transforms_of(modifiers) });
+        }
+        Ok(())
+    }
+}
+
+impl Evaluator<'_> {
+    /// Reads the object that the light shines through.
+    fn projected_through(
+        &mut self,
+        token: &Token,
+        light: Option<&mut LightSource>,
+        modifiers: &[Modifier],
+    ) -> Outcome<()> {
+        let has_one = light.as_ref().is_some_and(|light| light.projected_through.is_some());
+        if has_one {
+            let message = "this light has a `projected_through` already";
+            let diagnostic = Diagnostic::new(Code::ExtraPart, message)
+                .at(token.span, "one too many")
+                .help("a `union` of the objects is one: `projected_through { union { … } }`");
+            self.skip_arguments(Word::ProjectedThrough);
+            return Err(self.report(&token.here, diagnostic));
+        }
+        if !self.is_before_block() {
+            self.block_is_missing(token, Word::ProjectedThrough);
+            self.skip_values();
+            return Err(Reported);
+        }
+        let object = self.object_block(token)?;
+        if let Some(light) = light {
+            let (after, site) = (transforms_of(modifiers), self.whole(token));
+            light.projected_through = Some(ProjectedThrough { object, after, site });
         }
         Ok(())
     }

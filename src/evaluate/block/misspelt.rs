@@ -22,6 +22,7 @@ const OPENERS: &[Word] = &[
     Word::ColorMap,
     Word::SkySphere,
     Word::Fog,
+    Word::Rainbow,
     Word::Media,
     Word::Function,
 ];

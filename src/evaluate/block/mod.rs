@@ -29,6 +29,7 @@ mod light;
 mod light_group;
 mod matrix;
 mod mesh;
+mod mesh_camera;
 mod misplaced;
 mod missing;
 mod missing_keyword;
@@ -44,6 +45,7 @@ mod pattern;
 mod pigment;
 mod place;
 mod polynomial;
+mod rainbow;
 mod range;
 mod rising;
 mod settings;
@@ -65,7 +67,7 @@ pub(super) use foreign_value::color_of_string;
 pub(super) use mesh::MeshFiles;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{Fog, ObjectId, Root};
+use crate::scene::{ObjectId, Root};
 use crate::source::Span;
 use crate::syntax::ast::ExpressionKind;
 use crate::vocabulary::{Dialect, Family, Role, Word};
@@ -111,14 +113,8 @@ impl Evaluator<'_> {
                 }
                 self.needs_poison()
             }
-            TokenKind::Word(Word::Fog) => {
-                if let Value::Fog(fog) = self.fog(token)? {
-                    let item = self.whole(token);
-                    self.scene.fogs.push(Fog { item, ..fog.as_ref().clone() });
-                    return Ok(());
-                }
-                self.needs_poison()
-            }
+            TokenKind::Word(Word::Fog) => self.placed_fog(token),
+            TokenKind::Word(Word::Rainbow) => self.placed_rainbow(token),
             // After another directive the `#` is optional, as in POV-Ray.
             TokenKind::Word(Word::Default)
                 if self.options.dialect == Dialect::Pov
@@ -269,6 +265,7 @@ impl Evaluator<'_> {
             Word::Function => self.function(token),
             Word::SkySphere => self.sky_sphere(token),
             Word::Fog => self.fog(token),
+            Word::Rainbow => self.rainbow(token),
             _ if word.family() == Family::Color => self.color_from(token).map(Value::Color),
             _ if opens_object(word) => self.object(token, word),
             _ if !word.is_built() || word == Word::Background => {
@@ -426,5 +423,6 @@ fn opens_value(word: Word) -> bool {
                 | Word::Camera
                 | Word::SkySphere
                 | Word::Fog
+                | Word::Rainbow
         )
 }

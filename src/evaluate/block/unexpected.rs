@@ -253,6 +253,7 @@ impl Evaluator<'_> {
             Value::Camera(_) if place.word.is_none() => Some("camera"),
             Value::SkySphere(_) if place.word.is_none() => Some("sky_sphere"),
             Value::Fog(_) if place.word.is_none() => Some("fog"),
+            Value::Rainbow(_) if place.word.is_none() => Some("rainbow"),
             Value::Color(_) if of_texture => Some("pigment"),
             _ => None,
         };

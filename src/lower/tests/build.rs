@@ -36,6 +36,7 @@ impl Build {
         build.0.cameras.push(Camera {
             is_in_order: false,
             kind: CameraKind::Perspective,
+            meshes: None,
             items: vec![],
             site: site(0),
         });

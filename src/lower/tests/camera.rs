@@ -26,7 +26,8 @@ fn camera(dialect: Dialect, kind: CameraKind, words: &[Word]) -> Build {
     }
     let Words { mut build, items } = all;
     build.0.dialect = dialect;
-    build.0.cameras = vec![Camera { kind, items, is_in_order: false, site: site(600) }];
+    build.0.cameras =
+        vec![Camera { kind, meshes: None, items, is_in_order: false, site: site(600) }];
     build
 }
 

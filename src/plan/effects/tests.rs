@@ -48,6 +48,7 @@ fn lit_mirror() -> (World, Origins) {
             casts_shadows: true,
             attenuation: None,
             area: None,
+            through: None,
         }],
         ..World::default()
     };

@@ -54,6 +54,7 @@ fn wall(area: Option<Area>) -> World {
             casts_shadows: true,
             attenuation: None,
             area,
+            through: None,
         }],
         ..World::default()
     }
@@ -170,6 +171,35 @@ fn any_grid_at_any_place_gives_finite_light() {
                 world.lights[0].kind = kind;
                 assert!(red(&world, 3, 2).iter().all(|red| red.is_finite()), "{area:?}");
             }
+        }
+    }
+}
+
+#[test]
+fn a_grid_of_parallel_light_that_turns_faces_all_points_alike() {
+    use crate::road::{Options, Road};
+    use crate::source::NoFiles;
+    // What POV-Ray 3.7 shows of the edge of a board's shadow.
+    let across = "box { <0, 1, -99>, <99, 1.01, 99> no_image }";
+    let skewed = "box { <-99, 1, 0>, <99, 1.01, 99> no_image rotate 20*y }";
+    for (place, board, theirs) in [
+        ("<3, 10, -4>", across, [1.0, 1.0, 1.0, 0.1563, 0.0, 0.0, 0.0, 0.0]),
+        ("<3, 10, -4>", skewed, [1.0, 1.0, 1.0, 1.0, 1.0, 0.7422, 0.375, 0.043]),
+        ("<0, 10, -4>", skewed, [1.0, 1.0, 1.0, 1.0, 1.0, 0.9687, 0.6797, 0.3047]),
+        ("<-6, 8, 3>", skewed, [1.0, 0.9687, 0.7187, 0.4219, 0.1289, 0.0, 0.0, 0.0]),
+    ] {
+        let text = format!(
+            "#version 3.7; global_settings {{ assumed_gamma 1 }}
+             camera {{ orthographic location 3.5*y direction -y up 0.01*z right 3*x }}
+             plane {{ y, 0 pigment {{ rgb 1 }} finish {{ diffuse 1 brilliance 0 ambient 0 }} }}
+             light_source {{
+               {place} rgb 1 parallel point_at 0 area_light 4*x, 4*y, 9, 9 circular orient
+             }} {board}"
+        );
+        let mut road = Road::new(&NoFiles, Options::new(crate::scene::Dialect::Pov));
+        let (world, _) = road.compile("a.pov", text.into_bytes());
+        for (ours, theirs) in red(&world, 8, 1).into_iter().zip(theirs) {
+            assert!((ours - theirs).abs() < 1e-4, "{place} {board}: {ours} {theirs}");
         }
     }
 }

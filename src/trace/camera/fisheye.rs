@@ -2,7 +2,9 @@
 //!
 //! **Source:** POV-Ray manual, section 3.4.2.2 "Types of Projection"; measured on POV-Ray 3.7.
 
-use super::{Axes, Projection, around, length, sin_cos};
+use std::f64::consts::TAU;
+
+use super::{Axes, Projection, around, length, polar_angle, sin_cos};
 use crate::math::Vector;
 use crate::math::elementary::hypot;
 use crate::shape::Ray;
@@ -33,5 +35,10 @@ impl Projection for Fisheye {
             origin: self.origin,
             direction: around(&self.axes, sin_cos(radius * self.angle), (x, y), radius),
         })
+    }
+
+    fn film(&self, u: f64, v: f64) -> (f64, f64) {
+        let (x, y) = (u * self.size[0], v * self.size[1]);
+        (polar_angle(x, y), TAU * self.angle * hypot(x, y))
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! **Source:** POV-Ray manual, section 3.4.2.2 "Types of Projection"; measured on POV-Ray 3.7.
 
-use super::{Axes, Projection, around, length};
+use super::{Axes, Projection, around, length, polar_angle};
 use crate::math::Vector;
 use crate::math::elementary::{cos, hypot, sin};
 use crate::shape::Ray;
@@ -22,6 +22,12 @@ pub(super) struct Omnimax {
 /// The width of a screen, in its heights, from which the disc ends at the top and 45 degrees below its middle.
 const WIDEST: f64 = 1.283458;
 
+/// Returns the angle from `forward` at a distance from the middle of the disc, in radians.
+fn from_axis(radius: f64) -> f64 {
+    let square = radius * radius;
+    radius * (1.411269 + square * (square * 0.25674 - 0.09439))
+}
+
 impl Omnimax {
     pub fn new(camera: &Camera) -> Self {
         let wide = length(camera.right) / length(camera.up);
@@ -39,8 +45,7 @@ impl Projection for Omnimax {
         if radius.is_nan() || radius > 1.0 {
             return None;
         }
-        let square = radius * radius;
-        let angle = radius * (1.411269 + square * (square * 0.25674 - 0.09439));
+        let angle = from_axis(radius);
         let (sine, cosine) = (sin(angle), cos(angle));
         // Upward and forward.
         let (above, ahead) = if radius == 0.0 { (0.0, 1.0) } else { (sine * y / radius, cosine) };
@@ -49,5 +54,10 @@ impl Projection for Omnimax {
             origin: self.origin,
             direction: around(&self.axes, (sine, cosine), (x, y), radius),
         })
+    }
+
+    fn film(&self, u: f64, v: f64) -> (f64, f64) {
+        let (x, y) = (u * self.size[0], v * self.size[1] + self.rise);
+        (polar_angle(x, y), from_axis(hypot(x, y)))
     }
 }

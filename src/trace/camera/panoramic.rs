@@ -2,6 +2,8 @@
 //!
 //! **Source:** POV-Ray manual, section 3.4.2.2 "Types of Projection"; measured on POV-Ray 3.7.
 
+use std::f64::consts::PI;
+
 use super::{Projection, sin_cos};
 use crate::math::Vector;
 use crate::shape::Ray;
@@ -28,5 +30,9 @@ impl Projection for Panoramic {
         let ((sine, cosine), (above, level)) = (sin_cos(0.5 * u), sin_cos(0.5 * v));
         let direction = (self.right * sine + self.forward * cosine) * level + self.up * above;
         Some(Ray { origin: self.origin, direction })
+    }
+
+    fn film(&self, u: f64, v: f64) -> (f64, f64) {
+        (PI * (0.5 - u), PI * v)
     }
 }

@@ -1,7 +1,10 @@
 //! Rays of each kind of camera, with POV-Ray 3.7's.
 
 use super::*;
-use crate::world;
+use crate::road::{Options, Road};
+use crate::scene::Dialect;
+use crate::source::NoFiles;
+use crate::world::{self, World};
 
 /// Rays of POV-Ray 3.7 from cameras at the origin, each line with: the kind and its angles in degrees (0 for none);
 /// `direction`, `right` and `up`; u and v; the point of the ball of radius 100 about the origin, over 100, that is
@@ -170,4 +173,60 @@ fn mirrored_samples_have_exactly_mirrored_coordinates() {
             }
         }
     }
+}
+
+fn world(text: &str) -> World {
+    let mut road = Road::new(&NoFiles, Options::new(Dialect::Pov));
+    let (world, _) = road.compile("a.pov", text.as_bytes().to_vec());
+    assert!(!road.diagnostics.has_errors(), "{text}");
+    world
+}
+
+/// Where a ray leaves the sphere, or comes into it from outside; `None` if it misses.
+fn met(ray: &Ray) -> Option<Vector> {
+    let (b, c) = (ray.origin.dot(ray.direction), ray.origin.length_squared() - 1e4);
+    let root = (b * b - c).max(0.0).sqrt();
+    let t = if -b - root > 0.0 { -b - root } else { -b + root };
+    (t > 0.0).then(|| ray.origin + ray.direction * t)
+}
+
+/// Asserts where the rays of cameras meet a sphere of radius 100 around the origin. Each line of `measured`: the width
+/// and the height of a picture, a camera's items, and for each pixel the mean of where its rays meet the sphere; `-` for
+/// black pixels.
+pub(super) fn assert_meets(measured: &str, count: u32) {
+    let is_case = |line: &&str| line.contains(';') && !line.starts_with('#');
+    let declared: Vec<&str> = measured.lines().filter(|line| line.starts_with('#')).collect();
+    let mut pixels = 0u32;
+    for case in measured.lines().filter(is_case) {
+        let parts: Vec<&str> = case.split("; ").collect();
+        let sizes: Vec<u32> = parts[0].split(' ').map(|n| n.parse().expect("a size")).collect();
+        let text = format!(
+            "#version 3.7; global_settings {{ assumed_gamma 1 }} {} camera {{ {} }}",
+            declared.join("\n"),
+            parts[1]
+        );
+        let lens = Lens::new(&world(&text).camera, sizes[0], sizes[1]);
+        let places = (0..sizes[1]).flat_map(|y| (0..sizes[0]).map(move |x| (x, y)));
+        for (place, theirs) in places.zip(parts[2].split(' ')) {
+            let points = [lens.point(place, (0, 0), 1)];
+            let rays = lens.rays(&points);
+            let met: Vec<Vector> = rays.iter().flatten().filter_map(met).collect();
+            pixels += 1;
+            if theirs == "-" {
+                assert!(met.is_empty(), "{} {place:?}", parts[1]);
+                continue;
+            }
+            let theirs: Vec<f64> =
+                theirs.split(',').map(|n| n.parse().expect("a coordinate")).collect();
+            let theirs = Vector::new(theirs[0], theirs[1], theirs[2]);
+            let mean = met.iter().fold(Vector::ZERO, |sum, &one| sum + one) / met.len() as f64;
+            assert!((mean - theirs).length() < 0.006, "{} {place:?}: {mean} {theirs}", parts[1]);
+        }
+    }
+    assert_eq!(pixels, count);
+}
+
+#[test]
+fn a_normal_of_a_bent_screen_is_evaluated_where_pov_ray_does() {
+    assert_meets(include_str!("normals.txt"), 125);
 }

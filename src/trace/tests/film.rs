@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 use crate::math::wide::Instructions;
+use crate::world::Focus;
 
 #[test]
 fn the_film_has_the_same_bits_for_any_number_of_threads() {
@@ -29,6 +30,36 @@ fn the_film_has_the_same_bits_whatever_the_instructions() {
         let traced = trace_in(&world, &geometry, &plan, &TraceOptions::default(), &Unwatched);
         assert_eq!(traced.film, alone.film, "{instructions:?}");
     }
+}
+
+#[test]
+fn blurred_pixels_have_the_same_bits_for_any_threads_and_tiles_and_in_any_region() {
+    let mut world = varied();
+    let focus = Focus {
+        radius: 0.3,
+        distance: 4.0,
+        least: 4,
+        most: 30,
+        confidence: 0.9,
+        variance: 1.0 / 512.0,
+        bokeh: None,
+    };
+    world.camera.focus = Some(focus);
+    let mut options = options(36, 25, Antialias::Off);
+    let traced = |options: &PlanOptions, threads, tile_side| {
+        let plan = plan(&world, &Origins::default(), options);
+        let trace_options = TraceOptions { tile_side, ..TraceOptions::on_threads(threads) };
+        trace(&world, &plan, &trace_options, &Unwatched)
+    };
+    let first = traced(&options, 1, None);
+    let samples = &first.film.samples;
+    assert!(samples.iter().any(|&count| count < 30) && samples.contains(&30));
+    for (threads, tile_side) in [(2, None), (5, None), (1, Some(1)), (2, Some(7)), (5, Some(64))] {
+        assert_eq!(traced(&options, threads, tile_side), first, "{threads} {tile_side:?}");
+    }
+    let region = Region { x: 5, y: 9, width: 20, height: 3 };
+    options.frame.region = region;
+    assert_eq!(traced(&options, 2, Some(3)).film, first.film.crop(region));
 }
 
 #[test]

@@ -151,8 +151,14 @@ fn a_surface_is_lit_on_the_side_it_is_seen_from() {
 fn a_parallel_light_throws_shadows_from_its_plane_only() {
     let with_ball_at = |z: f64| {
         let kind = LightKind::Parallel { position: Vector::ZERO, to_light: UnitVector::Z };
-        let light =
-            Light { kind, color: Rgb::WHITE, casts_shadows: true, attenuation: None, area: None };
+        let light = Light {
+            kind,
+            color: Rgb::WHITE,
+            casts_shadows: true,
+            attenuation: None,
+            area: None,
+            through: None,
+        };
         let wall = Built::default().plane(UnitVector::Z, -3.0, matte(1.0, 1.0, 1.0)).sphere(
             [1.5, 0.0, z],
             0.5,

@@ -5,6 +5,7 @@ mod film;
 mod fog;
 mod glass;
 mod light;
+mod projection;
 mod single;
 mod work;
 
@@ -135,6 +136,7 @@ impl Built {
             casts_shadows: true,
             attenuation: None,
             area: None,
+            through: None,
         });
         self
     }

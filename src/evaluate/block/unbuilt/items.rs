@@ -33,7 +33,6 @@ fn numbers(item: Word, block: Word) -> Option<(usize, usize)> {
         (W::Media, W::Jitter | W::AaLevel | W::AaThreshold) => (1, 1),
         (W::Media, W::Samples) => (1, 2),
         (W::Scattering, W::Eccentricity | W::Extinction) => (1, 1),
-        (W::Rainbow, W::ArcAngle | W::FalloffAngle | W::Width | W::Angle | W::Distance) => (1, 1),
         _ => return None,
     })
 }
@@ -45,7 +44,6 @@ fn is_also_of(item: Word, block: Word) -> bool {
         Word::ImageMap => Place::IMAGE.holds(item),
         Word::Media => item == Word::Density || item.family() == Family::Transform,
         Word::Radiosity => item == Word::Normal || item == Word::Media,
-        Word::Rainbow => item == Word::ColorMap,
         _ => false,
     }
 }
@@ -58,10 +56,7 @@ fn takes_color(item: Word, block: Word) -> bool {
 impl Evaluator<'_> {
     /// Returns whether the items of an unsupported block are known.
     pub(in crate::evaluate::block) fn knows_items(block: Word) -> bool {
-        matches!(
-            block,
-            Word::Radiosity | Word::Photons | Word::Media | Word::Scattering | Word::Rainbow
-        )
+        matches!(block, Word::Radiosity | Word::Photons | Word::Media | Word::Scattering)
     }
 
     /// Reads the items of an unsupported block.
