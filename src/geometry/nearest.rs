@@ -67,20 +67,14 @@ impl Geometry {
     }
 
     /// As [`Geometry::nearest_counted`] for rays side by side: adds a hit for each to `hits`.
-    pub fn nearest_together(&self, rays: &Rays, hits: &mut Vec<Hit>, work: &mut Work) {
-        match self.counts {
-            true => self.race_together(rays, hits, work),
-            false if rays.mask.count_ones() < packet::LEAST => {
-                let alone = |number| self.nearest_with(&rays.at(number), Uncounted);
-                hits.extend(numbers(rays.mask).map(alone));
-            }
-            false => self.race_together(rays, hits, Uncounted),
-        }
-    }
-
     #[inline(never)]
-    fn race_together<T: Tally>(&self, rays: &Rays, hits: &mut Vec<Hit>, tally: T) {
-        let mut races = Races::new(self, rays, tally);
+    pub fn nearest_together(&self, rays: &Rays, hits: &mut Vec<Hit>, work: &mut Work) {
+        if !self.counts && rays.mask.count_ones() < packet::LEAST {
+            let alone = |number| self.nearest_with(&rays.at(number), Uncounted);
+            hits.extend(numbers(rays.mask).map(alone));
+            return;
+        }
+        let mut races = Races::new(self, rays, self.counts.then_some(work));
         self.search_together(rays, &mut races);
         races.finish(hits);
     }

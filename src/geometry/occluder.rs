@@ -39,6 +39,7 @@ impl Geometry {
 
     /// Whether [`Geometry::occluded`], for rays side by side, each with its distance: a bit for each. `guess` becomes
     /// what shadowed the last of them.
+    #[inline(never)]
     pub fn occluded_together(
         &self,
         rays: &Rays,
@@ -47,10 +48,14 @@ impl Geometry {
         work: &mut Work,
     ) -> u32 {
         if rays.mask.count_ones() >= packet::LEAST {
-            return match self.counts {
-                true => self.shadows_together(rays, distances, guess, work),
-                false => self.shadows_together(rays, distances, guess, Uncounted),
-            };
+            let mut shades = Shades::new(self, rays, distances, self.counts.then_some(work));
+            if guess.0 < self.entries.len() {
+                dispatch!(self.instructions.level(), simd => shades.look(simd, guess.0, rays.mask));
+            }
+            if shades.open() != 0 {
+                self.search_together(rays, &mut shades);
+            }
+            return shades.finish(guess);
         }
         let mut found = 0;
         for number in numbers(rays.mask) {
@@ -61,24 +66,6 @@ impl Geometry {
             }
         }
         found
-    }
-
-    #[inline(never)]
-    fn shadows_together<T: Tally>(
-        &self,
-        rays: &Rays,
-        distances: &Row,
-        guess: &mut Occluder,
-        tally: T,
-    ) -> u32 {
-        let mut shades = Shades::new(self, rays, distances, tally);
-        if guess.0 < self.entries.len() {
-            dispatch!(self.instructions.level(), simd => shades.look(simd, guess.0, rays.mask));
-        }
-        if shades.open() != 0 {
-            self.search_together(rays, &mut shades);
-        }
-        shades.finish(guess)
     }
 
     #[inline(never)]

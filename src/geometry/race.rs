@@ -6,7 +6,7 @@
 use super::nearest::Race;
 use super::search::RowSeeker;
 use super::work::Tally;
-use super::{EASY, Entry, Geometry, Hit, Sides, Solid};
+use super::{EASY, Entry, Geometry, Hit, Sides, Solid, Work};
 use crate::bvh::packet;
 use crate::math::wide::*;
 use crate::shape::local::{Local, Met};
@@ -14,7 +14,7 @@ use crate::shape::{First, Ray};
 use smallvec::SmallVec;
 
 /// A [`Race`] for each ray.
-pub(super) struct Races<'a, T> {
+pub(super) struct Races<'a> {
     geometry: &'a Geometry,
     rays: &'a Rays,
     object: [u32; ROW],
@@ -25,12 +25,12 @@ pub(super) struct Races<'a, T> {
     t: Row,
     limits: Row,
     rival_t: Row,
-    tally: T,
+    tally: Option<&'a mut Work>,
 }
 
-impl<'a, T: Tally> Races<'a, T> {
+impl<'a> Races<'a> {
     #[inline(always)]
-    pub fn new(geometry: &'a Geometry, rays: &'a Rays, tally: T) -> Self {
+    pub fn new(geometry: &'a Geometry, rays: &'a Rays, tally: Option<&'a mut Work>) -> Self {
         let Hit { object, t, part, .. } = Hit::NOTHING;
         let ([object, part], [t, limits, rival_t]) = ([[object; ROW], [part; ROW]], [[t; ROW]; 3]);
         Self {
@@ -152,7 +152,7 @@ impl<'a, T: Tally> Races<'a, T> {
     }
 }
 
-impl<T: Tally> RowSeeker for Races<'_, T> {
+impl RowSeeker for Races<'_> {
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, place: usize, mask: u32) {
         let geometry = self.geometry;

@@ -6,7 +6,7 @@
 use super::occluder::Occluder;
 use super::search::RowSeeker;
 use super::work::Tally;
-use super::{Entry, Geometry, Sides, Solid};
+use super::{Entry, Geometry, Sides, Solid, Work};
 use crate::bvh::packet;
 use crate::math::wide::*;
 use crate::shape::local::{Local, Met};
@@ -14,7 +14,7 @@ use crate::shape::{First, Ray};
 use smallvec::SmallVec;
 
 /// Looks for anything that shadows each ray.
-pub(super) struct Shades<'a, T> {
+pub(super) struct Shades<'a> {
     geometry: &'a Geometry,
     rays: &'a Rays,
     distances: &'a Row,
@@ -24,12 +24,17 @@ pub(super) struct Shades<'a, T> {
     open: u32,
     /// What was found last.
     last: Occluder,
-    tally: T,
+    tally: Option<&'a mut Work>,
 }
 
-impl<'a, T: Tally> Shades<'a, T> {
+impl<'a> Shades<'a> {
     #[inline(always)]
-    pub fn new(geometry: &'a Geometry, rays: &'a Rays, distances: &'a Row, tally: T) -> Self {
+    pub fn new(
+        geometry: &'a Geometry,
+        rays: &'a Rays,
+        distances: &'a Row,
+        tally: Option<&'a mut Work>,
+    ) -> Self {
         let (open, limits) = (rays.mask, *distances);
         Self { geometry, rays, distances, limits, open, last: Occluder::NONE, tally }
     }
@@ -90,7 +95,7 @@ impl<'a, T: Tally> Shades<'a, T> {
     }
 }
 
-impl<T: Tally> RowSeeker for Shades<'_, T> {
+impl RowSeeker for Shades<'_> {
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, place: usize, mask: u32) {
         let geometry = self.geometry;

@@ -61,6 +61,22 @@ impl Tally for Work {
     }
 }
 
+/// Takes note where work is counted; for searches whose code would be long twice.
+impl Tally for Option<&mut Work> {
+    #[inline(always)]
+    fn box_visit(&mut self) {
+        if let Some(work) = self {
+            work.box_visit();
+        }
+    }
+    #[inline(always)]
+    fn root_solves(&mut self, count: u32, price: impl FnOnce() -> u64) {
+        if let Some(work) = self {
+            work.root_solves(count, price);
+        }
+    }
+}
+
 impl<T: Tally> Tally for &mut T {
     #[inline(always)]
     fn box_visit(&mut self) {
