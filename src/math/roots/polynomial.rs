@@ -67,6 +67,11 @@ type Marks = SmallVec<[f64; 16]>;
 /// Number of times that a piece is halved before its extrema are computed.
 const HALVED: u32 = 3;
 
+/// Ends of the requested range up to this many sizes away are covered by the inner search, whose pieces are then
+/// halved more often. Affects only the running time.
+const COVERED: f64 = 16.0;
+const HALVED_MORE: u32 = 3;
+
 /// A polynomial with its error bounds.
 #[derive(Debug, Clone)]
 pub struct Polynomial {
@@ -111,6 +116,10 @@ impl Polynomial {
             }
             return;
         }
+        let is_covered = |far: &f64| *far > size && *far <= COVERED * size;
+        let farthest = [-from, to].into_iter().filter(is_covered).fold(0.0, f64::max);
+        let is_wider = farthest > 0.0 && size < end;
+        let (size, halved) = if is_wider { (1.5 * farthest, HALVED_MORE) } else { (size, 0) };
         let Some((near, scale)) = self.parted(size) else { return };
         let far = OnceCell::new();
         let outer = |ends| far.get_or_init(|| near.reversed()).all_between(ends).into_iter().rev();
@@ -124,7 +133,7 @@ impl Polynomial {
         }
         let asked = (from / scale, to / scale);
         let within = &mut |bracket: Bracket| show(bracket.root(scale));
-        if !near.between((-1.0, 1.0), tolerance / scale, asked, within) {
+        if !near.between((-1.0, 1.0), tolerance / scale, asked, HALVED + halved, within) {
             return;
         }
         if scale < end && to > scale {
@@ -187,7 +196,7 @@ impl Polynomial {
     /// Returns all certain changes of sign between two ends, each of which is −1, 0 or 1, in order.
     fn all_between(&self, ends: (f64, f64)) -> Brackets {
         let mut all = Brackets::new();
-        self.between(ends, 0.0, (f64::NEG_INFINITY, f64::INFINITY), &mut |bracket| {
+        self.between(ends, 0.0, (f64::NEG_INFINITY, f64::INFINITY), HALVED, &mut |bracket| {
             all.push(bracket);
             true
         });
@@ -201,6 +210,7 @@ impl Polynomial {
         (low, high): (f64, f64),
         tolerance: f64,
         (from, to): (f64, f64),
+        halved: u32,
         show: &mut impl FnMut(Bracket) -> bool,
     ) -> bool {
         let mut before = None;
@@ -216,7 +226,7 @@ impl Polynomial {
             } else {
                 let all = ..=self.degree;
                 let form = Form::of(&self.values[all], &self.slack[all], way);
-                self.mark(&form, ends, HALVED, &mut marks);
+                self.mark(&form, ends, halved, &mut marks);
             }
             for at in marks {
                 let change = self.advance(&mut before, at).filter(|change| change.high >= from);
