@@ -279,7 +279,7 @@ impl Polynomial {
         let values = &self.values[..=self.degree];
         // That of a parabola is no guess.
         let is_exact = self.degree == 2 && !guess.is_nan();
-        let s = if is_exact { guess } else { root_near(values, guess, change, tolerance) };
+        let s = if is_exact { guess } else { root_near(values, guess, change, tolerance, U) };
         let tolerance = if is_exact { 0.0 } else { tolerance };
         let Change { low, high, rising } = change;
         let (_, slope) = value_and_slope(values, s);
@@ -343,10 +343,10 @@ impl Bracket {
     }
 }
 
-/// Returns the root between two positions with opposite signs, to about `tolerance`, starting at `guess` if
-/// that is in range: by Newton's method while each step is at most half as long as the previous one and stays
+/// Returns the root between two positions with opposite signs, to about `tolerance` or, relative to itself,
+/// `finest`, starting at `guess` if that is in range: by Newton's method while each step is at most half as long as the previous one and stays
 /// in the bracket, else by bisection.
-fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64) -> f64 {
+fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64, finest: f64) -> f64 {
     let Change { mut low, mut high, rising } = change;
     let mut s = if low < guess && guess < high { guess } else { 0.5 * (low + high) };
     let mut step = high - low;
@@ -364,7 +364,7 @@ fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64) -> f64 
         let middle = 0.5 * (low + high);
         let is_fast = 2.0 * (newton - s).abs() <= step && newton > low && newton < high;
         let next = if is_fast { newton } else { middle };
-        if (newton - s).abs() <= (U * s.abs()).max(0.5 * tolerance)
+        if (newton - s).abs() <= (finest * s.abs()).max(0.5 * tolerance)
             || next == low && middle == low
             || next == high
         {
@@ -380,7 +380,7 @@ fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64) -> f64 
 pub fn root_between_ends(values: &[f64], (low, high): (f64, f64)) -> Option<f64> {
     let (below, above) = (value(values, low), value(values, high));
     let change = Change { low, high, rising: above > 0.0 };
-    (below * above < 0.0).then(|| root_near(values, f64::NAN, change, 0.0))
+    (below * above < 0.0).then(|| root_near(values, f64::NAN, change, 0.0, U))
 }
 
 fn value(values: &[f64], s: f64) -> f64 {
