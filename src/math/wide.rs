@@ -35,16 +35,9 @@ impl Instructions {
         Self(Level::new())
     }
 
-    /// Returns all that the processor has.
-    pub fn all() -> Vec<Self> {
-        let best = Level::new();
-        let mut all = vec![Self(Level::baseline()), Self(best)];
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        {
-            all.extend(best.as_sse4_2().map(|set| Self(Level::Sse4_2(set))));
-            all.extend(best.as_avx2().map(|set| Self(Level::Avx2(set))));
-        }
-        all
+    /// Returns the narrowest and the widest that the processor has.
+    pub fn all() -> [Self; 2] {
+        [Self(Level::baseline()), Self::best()]
     }
 
     /// Returns what [`dispatch`] takes.

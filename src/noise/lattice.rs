@@ -13,7 +13,7 @@
 pub(super) type Lanes<const L: usize> = [[f64; L]; 3];
 
 /// Adding this rounds a number to an integer, and moves it to the low bits: 1.5 · 2⁵².
-pub(super) const ROUNDING: f64 = 6_755_399_441_055_744.0;
+const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
 /// Below this, the sum with [`ROUNDING`] plus an origin is exact: 2⁵⁰.
 const FAR: f64 = 1_125_899_906_842_624.0;

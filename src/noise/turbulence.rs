@@ -8,7 +8,7 @@ use super::{NoiseGenerator, bounds, noises_at, planar_noise, vector_noise};
 use crate::math::Vector;
 use crate::math::finite::single;
 use crate::math::interval::Interval;
-use crate::math::wide::{Instructions, Simd, dispatch};
+use crate::math::wide::{Instructions, dispatch};
 
 /// The most layers.
 const MOST: usize = 10;
@@ -74,19 +74,18 @@ impl Turbulence {
     /// is clamped to 0 … 1.
     #[inline(never)]
     pub fn number(&self, generator: NoiseGenerator, point: Vector) -> f64 {
-        dispatch!(Instructions::best().level(), simd => self.number_at(simd, generator, point))
+        dispatch!(Instructions::best().level(), _ => self.number_at(generator, point))
     }
 
     #[inline(always)]
-    fn number_at<S: Simd>(&self, simd: S, generator: NoiseGenerator, point: Vector) -> f64 {
+    fn number_at(&self, generator: NoiseGenerator, point: Vector) -> f64 {
         let mut layers = [(0.0, 0.0); MOST];
         let mut count = 0;
         for layer in self.layers() {
             layers[count] = layer;
             count += 1;
         }
-        let noises: [f64; MOST] =
-            noises_at(simd, generator, |layer| point * layers[layer].0, count);
+        let noises: [f64; MOST] = noises_at(generator, |layer| point * layers[layer].0, count);
         let mut sum = 0.0;
         for number in 0..count {
             sum += layers[number].1 * layer(generator, noises[number], number == 0);

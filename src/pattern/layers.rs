@@ -3,7 +3,7 @@
 use super::Setting;
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::math::wide::{Instructions, Simd, dispatch};
+use crate::math::wide::{Instructions, dispatch};
 use crate::noise::{self, NoiseGenerator, noises_at};
 
 /// The most layers.
@@ -46,14 +46,14 @@ impl Layers {
     /// Returns the sum of the layers.
     #[inline(never)]
     pub fn value(&self, point: Vector, setting: &Setting) -> f64 {
-        dispatch!(Instructions::best().level(), simd => self.sum_at(simd, point, setting.noise))
+        dispatch!(Instructions::best().level(), _ => self.sum_at(point, setting.noise))
     }
 
     #[inline(always)]
-    fn sum_at<S: Simd>(&self, simd: S, point: Vector, generator: NoiseGenerator) -> f64 {
+    fn sum_at(&self, point: Vector, generator: NoiseGenerator) -> f64 {
         let count = (2 * self.pairs as usize).min(MOST);
         let at = |layer: usize| point * (self.frequency * f64::from(1u32 << layer));
-        let noises: [f64; MOST] = noises_at(simd, generator, at, count);
+        let noises: [f64; MOST] = noises_at(generator, at, count);
         let mut sum = 0.0;
         for (layer, noise) in noises.into_iter().enumerate().take(count) {
             let noise = spread(generator, noise);

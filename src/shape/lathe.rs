@@ -122,7 +122,11 @@ impl Lathe {
 
     fn walls_of_flat(&self, line: &Line, ray: &LocalRay) -> Walls {
         let mut walls = Walls::new();
-        for arm in Arm::both(line) {
+        let arms = Arm::both(line);
+        if arms.iter().all(|arm| arm.misses(&self.outline.hull())) {
+            return walls;
+        }
+        for arm in arms {
             for run in &self.outline.runs {
                 for path in arm.paths(&self.outline, run) {
                     walk(path, &arm, ray.tolerance, |change| {

@@ -182,6 +182,13 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         self.note(to, Some(negative));
     }
 
+    /// Returns whether the function is negative at a position that is searched next; `None` if uncertain.
+    pub fn sign_at(&mut self, s: f64) -> Option<bool> {
+        let end = self.look_again(s);
+        self.end = Some(end);
+        end.sign()
+    }
+
     fn look_again(&self, s: f64) -> End {
         self.end.filter(|end| end.s == s).unwrap_or_else(|| self.look(s))
     }

@@ -24,8 +24,8 @@ pub struct Walk<S> {
     sample: S,
     /// Error that a root may have in addition to that caused by the errors of the samples.
     tolerance: f64,
-    /// The last position with a certain sign, and whether it was positive.
-    last: Option<(f64, bool)>,
+    /// The last position with a certain sign, whether it was positive, and the value there; NaN if unknown.
+    last: Option<(f64, bool, f64)>,
 }
 
 impl<S: Fn(f64) -> Sample> Walk<S> {
@@ -38,24 +38,36 @@ impl<S: Fn(f64) -> Sample> Walk<S> {
     pub fn advance(&mut self, s: f64, found: &mut impl FnMut(Root, bool)) {
         let here = (self.sample)(s);
         if here.is_outside() || here.is_inside() {
-            self.note(s, here.is_outside(), found);
+            self.note_value(s, here.is_outside(), here.value, found);
         }
     }
 
     /// Advances to `s`, where the sign is known.
     pub fn note(&mut self, s: f64, is_outside: bool, found: &mut impl FnMut(Root, bool)) {
-        if let Some((before, was_outside)) = self.last.replace((s, is_outside))
+        self.note_value(s, is_outside, f64::NAN, found);
+    }
+
+    fn note_value(
+        &mut self,
+        s: f64,
+        is_outside: bool,
+        value: f64,
+        found: &mut impl FnMut(Root, bool),
+    ) {
+        if let Some((before, was_outside, old)) = self.last.replace((s, is_outside, value))
             && was_outside != is_outside
         {
             let ends = if is_outside { (s, before) } else { (before, s) };
-            found(root(&self.sample, ends, f64::NAN, self.tolerance), is_outside);
+            // As if it were straight between the two.
+            let start = before + old / (old - value) * (s - before);
+            found(root(&self.sample, ends, start, self.tolerance), is_outside);
         }
     }
 
     /// Returns whether the function is positive at `s`, if `s` is the last position and the sign there is
     /// certain.
     pub fn sign_at(&self, s: f64) -> Option<bool> {
-        self.last.filter(|(last, _)| *last == s).map(|(_, is_outside)| is_outside)
+        self.last.filter(|(last, ..)| *last == s).map(|(_, is_outside, _)| is_outside)
     }
 
     /// Advances from `low`, the current position, to `high`, by pieces in which the function has a constant

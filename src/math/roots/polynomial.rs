@@ -67,6 +67,11 @@ type Marks = SmallVec<[f64; 16]>;
 /// Number of times that a piece is halved before its extrema are computed.
 const HALVED: u32 = 3;
 
+/// Ends of the requested range up to this many sizes away are covered by the inner search, whose pieces are then
+/// halved more often. Affects only the running time.
+const COVERED: f64 = 16.0;
+const HALVED_MORE: u32 = 3;
+
 /// A polynomial with its error bounds.
 #[derive(Debug, Clone)]
 pub struct Polynomial {
@@ -111,6 +116,10 @@ impl Polynomial {
             }
             return;
         }
+        let is_covered = |far: &f64| *far > size && *far <= COVERED * size;
+        let farthest = [-from, to].into_iter().filter(is_covered).fold(0.0, f64::max);
+        let is_wider = farthest > 0.0 && size < end;
+        let (size, halved) = if is_wider { (1.5 * farthest, HALVED_MORE) } else { (size, 0) };
         let Some((near, scale)) = self.parted(size) else { return };
         let far = OnceCell::new();
         let outer = |ends| far.get_or_init(|| near.reversed()).all_between(ends).into_iter().rev();
@@ -124,7 +133,7 @@ impl Polynomial {
         }
         let asked = (from / scale, to / scale);
         let within = &mut |bracket: Bracket| show(bracket.root(scale));
-        if !near.between((-1.0, 1.0), tolerance / scale, asked, within) {
+        if !near.between((-1.0, 1.0), tolerance / scale, asked, HALVED + halved, within) {
             return;
         }
         if scale < end && to > scale {
@@ -187,7 +196,7 @@ impl Polynomial {
     /// Returns all certain changes of sign between two ends, each of which is −1, 0 or 1, in order.
     fn all_between(&self, ends: (f64, f64)) -> Brackets {
         let mut all = Brackets::new();
-        self.between(ends, 0.0, (f64::NEG_INFINITY, f64::INFINITY), &mut |bracket| {
+        self.between(ends, 0.0, (f64::NEG_INFINITY, f64::INFINITY), HALVED, &mut |bracket| {
             all.push(bracket);
             true
         });
@@ -201,6 +210,7 @@ impl Polynomial {
         (low, high): (f64, f64),
         tolerance: f64,
         (from, to): (f64, f64),
+        halved: u32,
         show: &mut impl FnMut(Bracket) -> bool,
     ) -> bool {
         let mut before = None;
@@ -216,7 +226,7 @@ impl Polynomial {
             } else {
                 let all = ..=self.degree;
                 let form = Form::of(&self.values[all], &self.slack[all], way);
-                self.mark(&form, ends, HALVED, &mut marks);
+                self.mark(&form, ends, halved, &mut marks);
             }
             for at in marks {
                 let change = self.advance(&mut before, at).filter(|change| change.high >= from);
@@ -269,7 +279,7 @@ impl Polynomial {
         let values = &self.values[..=self.degree];
         // That of a parabola is no guess.
         let is_exact = self.degree == 2 && !guess.is_nan();
-        let s = if is_exact { guess } else { root_near(values, guess, change, tolerance) };
+        let s = if is_exact { guess } else { root_near(values, guess, change, tolerance, U) };
         let tolerance = if is_exact { 0.0 } else { tolerance };
         let Change { low, high, rising } = change;
         let (_, slope) = value_and_slope(values, s);
@@ -333,10 +343,10 @@ impl Bracket {
     }
 }
 
-/// Returns the root between two positions with opposite signs, to about `tolerance`, starting at `guess` if
-/// that is in range: by Newton's method while each step is at most half as long as the previous one and stays
+/// Returns the root between two positions with opposite signs, to about `tolerance` or, relative to itself,
+/// `finest`, starting at `guess` if that is in range: by Newton's method while each step is at most half as long as the previous one and stays
 /// in the bracket, else by bisection.
-fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64) -> f64 {
+fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64, finest: f64) -> f64 {
     let Change { mut low, mut high, rising } = change;
     let mut s = if low < guess && guess < high { guess } else { 0.5 * (low + high) };
     let mut step = high - low;
@@ -354,7 +364,7 @@ fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64) -> f64 
         let middle = 0.5 * (low + high);
         let is_fast = 2.0 * (newton - s).abs() <= step && newton > low && newton < high;
         let next = if is_fast { newton } else { middle };
-        if (newton - s).abs() <= (U * s.abs()).max(0.5 * tolerance)
+        if (newton - s).abs() <= (finest * s.abs()).max(0.5 * tolerance)
             || next == low && middle == low
             || next == high
         {
@@ -370,7 +380,7 @@ fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64) -> f64 
 pub fn root_between_ends(values: &[f64], (low, high): (f64, f64)) -> Option<f64> {
     let (below, above) = (value(values, low), value(values, high));
     let change = Change { low, high, rising: above > 0.0 };
-    (below * above < 0.0).then(|| root_near(values, f64::NAN, change, 0.0))
+    (below * above < 0.0).then(|| root_near(values, f64::NAN, change, 0.0, U))
 }
 
 fn value(values: &[f64], s: f64) -> f64 {

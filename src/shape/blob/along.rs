@@ -157,8 +157,11 @@ impl<'a> Line<'a> {
             if to < start {
                 continue;
             }
-            if from > end || is_enough.get() {
-                break;
+            if is_enough.get() {
+                return;
+            }
+            if from > end {
+                return walk.advance(from, &mut note);
             }
             let most: f64 = open.iter().map(|&i| self.parts[i].component.strength.max(0.0)).sum();
             if from == to || most < 1.0 {
@@ -171,10 +174,18 @@ impl<'a> Line<'a> {
                 self.parts[i].add(middle, half, &mut field);
             }
             walk.advance(from, &mut note);
-            if !has_one_sign(&field) {
-                for turn in turning_points(&field, -1.0, 1.0) {
-                    walk.advance(middle + turn * half, &mut note);
-                }
+            let far = from.abs().max(to.abs());
+            let blur = self.ray.blur_at(far) + 8.0 * U * (1.0 + far);
+            let errors = open.iter().map(|&i| {
+                let Part { component, stretch, .. } = self.parts[i];
+                component.greatest_error(stretch * blur)
+            });
+            let rounding = 64.0 * U * field.iter().map(|term| term.abs()).sum::<f64>();
+            let piece = Piece { field: &field, slack: rounding + 2.0 * errors.sum::<f64>() };
+            let mut marks = Marks::new();
+            piece.mark(bernstein(&field), (-1.0, 1.0), HALVED, &mut marks);
+            for mark in marks {
+                walk.advance(middle + mark * half, &mut note);
             }
         }
         if let Some(&last) = joints.last().filter(|_| !is_enough.get()) {
@@ -183,13 +194,54 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Returns whether a polynomial of degree 4 has a constant sign from −1 to 1: whether all of its Bernstein
-/// coefficients do.
-fn has_one_sign(&[a, b, c, d, e]: &[f64; 5]) -> bool {
+/// Positions in a piece.
+type Marks = SmallVec<[f64; 16]>;
+
+/// Number of times that a piece is halved before its extrema are computed.
+const HALVED: u32 = 3;
+
+/// A field less 1, as a polynomial over a piece.
+struct Piece<'a> {
+    field: &'a [f64; 5],
+    /// Bound on the error of its Bernstein coefficients, and of the field at any position in the piece.
+    slack: f64,
+}
+
+impl Piece<'_> {
+    /// Adds positions in a part of the piece, in order, such that at most one root lies between any two of
+    /// them and the ends; `form` are the Bernstein coefficients over the part.
+    fn mark(&self, form: [f64; 5], (low, high): (f64, f64), halved: u32, marks: &mut Marks) {
+        let is_told = form.iter().all(|c| c.abs() > self.slack);
+        let changes = form.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0));
+        if is_told && changes.count() <= 1 {
+            return;
+        }
+        if halved == 0 {
+            return marks.extend(turning_points(self.field, low, high));
+        }
+        let middle = 0.5 * (low + high);
+        let [first, second] = halves(form);
+        self.mark(first, (low, middle), halved - 1, marks);
+        marks.push(middle);
+        self.mark(second, (middle, high), halved - 1, marks);
+    }
+}
+
+/// Returns the Bernstein coefficients of a polynomial of degree 4 from −1 to 1.
+fn bernstein(&[a, b, c, d, e]: &[f64; 5]) -> [f64; 5] {
     let (even, odd) = (a + c + e, b + d);
     let (half_even, half_odd) = (a - e, 0.5 * (b - d));
-    let coefficients =
-        [even - odd, half_even - half_odd, a - c / 3.0 + e, half_even + half_odd, even + odd];
-    let slack = 64.0 * U * (a.abs() + b.abs() + c.abs() + d.abs() + e.abs());
-    coefficients.iter().all(|c| *c > slack) || coefficients.iter().all(|c| *c < -slack)
+    [even - odd, half_even - half_odd, a - c / 3.0 + e, half_even + half_odd, even + odd]
+}
+
+/// Returns the Bernstein coefficients over both halves.
+fn halves(form: [f64; 5]) -> [[f64; 5]; 2] {
+    let (mut first, mut second) = (form, form);
+    for (row, first) in first.iter_mut().enumerate().skip(1) {
+        for i in 0..5 - row {
+            second[i] = 0.5 * (second[i] + second[i + 1]);
+        }
+        *first = second[0];
+    }
+    [first, second]
 }

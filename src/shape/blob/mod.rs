@@ -81,6 +81,12 @@ impl Component {
         Seen { from_bar, inner: 1.0 - from_bar.length_squared() }
     }
 
+    /// The greatest [`Self::error`] within the component.
+    fn greatest_error(&self, off: f64) -> f64 {
+        let square = 2.0 * off + off * off + 4.0 * U;
+        self.strength.abs() * (2.0 * square + square * square + 4.0 * U)
+    }
+
     /// Error of the field for a point that is off by `off` in the component's space.
     fn error(&self, Seen { from_bar, inner }: &Seen, off: f64) -> f64 {
         let square = 2.0 * from_bar.length() * off + off * off + 4.0 * U;

@@ -9,7 +9,7 @@ mod walk;
 
 pub(super) use boxes::Hull;
 pub use outline::{Outline, Run};
-pub(super) use walk::{Change, Path, Side, walk};
+pub(super) use walk::{Change, Course, Path, Side, walk};
 
 use smallvec::SmallVec;
 

@@ -13,6 +13,16 @@ use super::{Outline, Piece, Point, Run};
 use crate::math::roots::bracket::{Root, Sample, root};
 use crate::shape::U;
 
+/// What is known of the sides along a piece.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Course {
+    /// All of it is certainly on one side.
+    Side(bool),
+    /// The value has at most one root.
+    OneRoot,
+    Unknown,
+}
+
 /// A division of the plane into two sides.
 pub trait Side {
     /// Returns the value, positive on one side and negative on the other, with its slope by u.
@@ -21,20 +31,14 @@ pub trait Side {
     /// Returns the side that a box is certainly on entirely.
     fn of_box(&self, hull: &Hull) -> Option<bool>;
 
-    /// Returns the side that a piece is certainly on entirely, where its box is inconclusive and its ends do
-    /// not suffice.
-    fn of_piece(&self, _piece: &Piece) -> Option<bool> {
-        None
-    }
+    /// Returns what is known of an entire piece, where its box is inconclusive.
+    fn course(&self, piece: &Piece) -> Course;
 
     /// Whether the value is linear along a straight piece.
     const IS_LINEAR: bool = false;
 
     /// Called when rounding hides the side of both ends of a straight piece.
     fn holds(&self, _piece: &Piece) {}
-
-    /// Returns whether the value certainly has at most one root in a piece.
-    fn has_one_root(&self, piece: &Piece) -> bool;
 
     /// Returns where the value may have extrema within a piece.
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]>;
@@ -287,7 +291,8 @@ pub fn walk<'a, S: Side>(
         }
         let piece = &path.pieces[from as usize % path.pieces.len()];
         let is_linear = S::IS_LINEAR && piece.is_straight();
-        if !is_linear && let Some(outside) = side.of_piece(piece) {
+        let course = if is_linear { Course::OneRoot } else { side.course(piece) };
+        if let Course::Side(outside) = course {
             advance(Certain::new(low, outside));
             advance(Certain::new(high, outside));
             return false;
@@ -299,7 +304,7 @@ pub fn walk<'a, S: Side>(
             side.holds(piece);
         }
         // What has one root at most, the ends tell if they are told.
-        let is_known = is_linear || (ends.iter().all(is_told) && side.has_one_root(piece));
+        let is_known = is_linear || (ends.iter().all(is_told) && course == Course::OneRoot);
         if !is_known {
             let mut before = low;
             for v in side.turns(piece).into_iter().map(|u| from + u).chain([high]) {

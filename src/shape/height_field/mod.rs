@@ -7,6 +7,7 @@
 //! **Source:** for the traversal, J. Amanatides, A. Woo, "A fast voxel traversal algorithm for ray tracing",
 //! Eurographics 1987; for which points are inside and visible, `inside` and `trace` of POV-Ray 3.7.
 
+mod normal;
 mod walk;
 
 use std::cell::Cell;
@@ -95,10 +96,22 @@ impl HeightField {
         f64::from(self.heights[j * (self.cells[0] + 1) + i])
     }
 
+    /// Returns the range of heights of a cell.
+    fn range_of_cell(&self, [i, j]: [usize; 2]) -> [f32; 2] {
+        let across = self.cells[0] + 1;
+        let first = &self.heights[j * across + i..][..across + 2];
+        let [a, b, c, d] = [first[0], first[1], first[across], first[across + 1]];
+        [a.min(b).min(c.min(d)), a.max(b).max(c.max(d))]
+    }
+
+    /// Returns x or z of a row of corners.
+    fn along(&self, axis: usize, number: usize) -> f64 {
+        number as f64 / self.cells[axis] as f64 - 0.5
+    }
+
     /// Returns a corner of the grid.
     fn corner(&self, place: [usize; 2]) -> Vector {
-        let along = |axis: usize| place[axis] as f64 / self.cells[axis] as f64 - 0.5;
-        Vector::new(along(0), self.height_of(place), along(1))
+        Vector::new(self.along(0, place[0]), self.height_of(place), self.along(1, place[1]))
     }
 
     /// Returns the corners of a triangle, which faces up: the first triangle of a cell contains its corner
@@ -135,17 +148,17 @@ impl HeightField {
             f64::from(low) > heights[1] || f64::from(high) < heights[0]
         };
         let all = Cells { from: [0; 2], to: self.cells };
-        track.blocks(all, BLOCK, &limit, |block, heights| {
+        track.blocks::<BLOCK>(all, &limit, |block, heights| {
             if apart(self.blocks[self.number_of(block, BLOCK)], heights) {
                 return;
             }
-            track.blocks(block, SMALL, &limit, |block, heights| {
+            track.blocks::<SMALL>(block, &limit, |block, heights| {
                 if apart(self.small[self.number_of(block, SMALL)], heights) {
                     return;
                 }
-                track.blocks(block, 1, &limit, |cell, heights| {
-                    if !apart(self.range_of(cell), heights) {
-                        self.pierced_in(cell, ray, &view, &mut found);
+                track.blocks::<1>(block, &limit, |cell, heights| {
+                    if !apart(self.range_of_cell(cell.from), heights) {
+                        self.pierced_in(cell.from, ray, &view, &mut found);
                     }
                 });
             });
@@ -153,10 +166,20 @@ impl HeightField {
     }
 
     /// Calls `found` with the triangles of a cell that a line pierces.
-    fn pierced_in(&self, cell: Cells, ray: &LocalRay, view: &View, found: &mut impl FnMut(Met)) {
-        let number = (cell.from[1] * self.cells[0] + cell.from[0]) as u32;
-        for part in [2 * number, 2 * number + 1] {
-            let corners = self.triangle(part);
+    fn pierced_in(
+        &self,
+        [i, j]: [usize; 2],
+        ray: &LocalRay,
+        view: &View,
+        found: &mut impl FnMut(Met),
+    ) {
+        let number = (j * self.cells[0] + i) as u32;
+        let (x, z) = ([i, i + 1].map(|i| self.along(0, i)), [j, j + 1].map(|j| self.along(1, j)));
+        let corner = |a: usize, b: usize| Vector::new(x[a], self.height_of([i + a, j + b]), z[b]);
+        let [first, last, right, up] = [corner(0, 0), corner(1, 1), corner(1, 0), corner(0, 1)];
+        for (part, corners) in
+            [(2 * number, [first, right, up]), (2 * number + 1, [last, up, right])]
+        {
             if let Some(leaving) = view.pierces(corners) {
                 found(pierce::met(ray, corners, leaving, part));
             }
@@ -274,29 +297,6 @@ impl HeightField {
                 + (1.0 - z) * (height(i + 1, j) - corner)
         })
     }
-
-    /// Returns the normal at a corner of the grid: the mean of the normals of the four triangles that it
-    /// forms with its neighbours along x and z. Heights are scaled so that flatter triangles count more.
-    ///
-    /// **Source:** `trace` of POV-Ray 3.7, measured; except that POV-Ray quantizes the mean to steps of
-    /// 1/32767.
-    fn normal(&self, place: [usize; 2]) -> Vector {
-        const STRETCHED: f64 = 65536.0;
-        let sides = |axis: usize| {
-            let rise = |other: usize| {
-                let mut beside = place;
-                beside[axis] = other;
-                (self.height_of(beside) - self.height_of(place)) * STRETCHED
-            };
-            let after = (place[axis] < self.cells[axis]).then(|| rise(place[axis] + 1));
-            let before = place[axis].checked_sub(1).map(|other| -rise(other));
-            [after, before].into_iter().flatten()
-        };
-        let corners = sides(0).flat_map(|x| sides(1).map(move |z| Vector::new(-x, 1.0, -z)));
-        let mean: Vector = corners.map(Vector::normalize).sum();
-        let [x, z] = self.cells.map(|count| count as f64);
-        (mean * Vector::new(x, STRETCHED, z)).normalize_or(Vector::Y)
-    }
 }
 
 fn by_place(a: &Met, b: &Met) -> std::cmp::Ordering {
@@ -403,18 +403,7 @@ impl Local for HeightField {
         self.ground(point).is_some_and(|ground| point.y < ground.max(self.water))
     }
 
-    /// Interpolated between the corners of its cell.
     fn shading_normal(&self, part: u32, point: Vector) -> Option<Vector> {
-        if !self.smooth {
-            return None;
-        }
-        let cell = self.cell(part);
-        let share = |axis: usize, place: f64| {
-            ((place + 0.5) * self.cells[axis] as f64 - cell[axis] as f64).clamp(0.0, 1.0)
-        };
-        let (x, z) = (share(0, point.x), share(1, point.z));
-        let normal = |i: usize, j: usize| self.normal([cell[0] + i, cell[1] + j]);
-        let row = |j: usize| normal(0, j).lerp(normal(1, j), x);
-        Some(row(0).lerp(row(1), z))
+        self.smooth.then(|| self.smooth_normal(part, point))
     }
 }

@@ -58,6 +58,7 @@ impl Track {
     }
 
     /// Returns the part of the span where a coordinate may be between two values.
+    #[inline(always)]
     fn within(&self, axis: usize, low: f64, high: f64) -> Option<[f64; 2]> {
         let (start, inverse, slack) = (self.start[axis], self.inverse[axis], self.slack[axis]);
         let (low, high) = (low - slack - start, high + slack - start);
@@ -66,43 +67,42 @@ impl Track {
             return (low <= 0.0 && 0.0 <= high).then_some(self.span);
         }
         let [first, last] = self.span;
-        let span = [first.max(a.min(b)), last.min(a.max(b))];
+        let span = [most(first, least(a, b)), least(last, most(a, b))];
         (span[0] <= span[1]).then_some(span)
     }
 
     /// Returns the range of a coordinate over a part of the span.
+    #[inline(always)]
     fn range(&self, axis: usize, span: [f64; 2]) -> [f64; 2] {
         let [a, b] = span.map(|s| self.start[axis] + self.step[axis] * s);
-        [a.min(b) - self.slack[axis], a.max(b) + self.slack[axis]]
+        [least(a, b) - self.slack[axis], most(a, b) + self.slack[axis]]
     }
 
-    /// Calls `found` with the blocks of `size` cells of a region that the line may pass over, and with the
+    /// Calls `found` with the blocks of `SIZE` cells of a region that the line may pass over, and with the
     /// range of the line's heights there; column by column as the line goes, up to the limit, which `found`
     /// may lower.
-    pub fn blocks(
+    pub fn blocks<const SIZE: usize>(
         &self,
         region: Cells,
-        size: usize,
         limit: &Cell<f64>,
         mut found: impl FnMut(Cells, [f64; 2]),
     ) {
         let main = usize::from(self.step[1].abs() > self.step[0].abs());
         let other = 1 - main;
-        // The numbers of the blocks that hold a range of places along an axis.
+        let froms = region.from.map(|from| from as i32);
+        // The numbers of the blocks that hold a range of places along an axis: no field is as wide as `i32`.
         let numbers = |axis: usize, [low, high]: [f64; 2]| {
-            let within = |place: f64| {
-                (place.max(region.from[axis] as f64) as usize).min(region.to[axis] - 1) / size
-            };
-            within(low)..=within(high)
+            let last = region.to[axis] as i32 - 1;
+            let within = |place: f64| (place as i32).max(froms[axis]).min(last) as usize / SIZE;
+            (within(low), within(high))
         };
         let block = |axis: usize, number: usize| {
-            let from = (number * size).max(region.from[axis]);
-            (from, ((number + 1) * size).min(region.to[axis]))
+            let from = (number * SIZE).max(region.from[axis]);
+            (from, ((number + 1) * SIZE).min(region.to[axis]))
         };
-        let columns = numbers(main, self.range(main, self.span));
-        let (first, last) = (*columns.start(), *columns.end());
+        let (first, last) = numbers(main, self.range(main, self.span));
         let is_backward = self.step[main] < 0.0;
-        for column in columns {
+        for column in first..=last {
             let column = if is_backward { first + (last - column) } else { column };
             let (from, to) = block(main, column);
             let Some(span) = self.within(main, from as f64, to as f64) else { continue };
@@ -110,12 +110,27 @@ impl Track {
                 return;
             }
             let heights = self.range(2, span);
-            for row in numbers(other, self.range(other, span)) {
+            let (lowest, highest) = numbers(other, self.range(other, span));
+            for row in lowest..=highest {
                 let (begin, end) = block(other, row);
-                let (mut first, mut last) = ([0; 2], [0; 2]);
-                (first[main], last[main], first[other], last[other]) = (from, to, begin, end);
-                found(Cells { from: first, to: last }, heights);
+                let cells = match main {
+                    0 => Cells { from: [from, begin], to: [to, end] },
+                    _ => Cells { from: [begin, from], to: [end, to] },
+                };
+                found(cells, heights);
             }
         }
     }
+}
+
+/// The lesser of two numbers, in one instruction: neither is NaN, or it does not matter.
+#[inline(always)]
+fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The greater of two numbers, as [`least`].
+#[inline(always)]
+fn most(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }

@@ -64,9 +64,19 @@ impl Clone for Cells {
     }
 }
 
+/// Evaluates the function over boxes.
+pub(super) struct Evaluate<B, V> {
+    /// Bounds of the value and the gradient; `None` where it is undefined.
+    pub bounds: B,
+    pub value: V,
+}
+
 impl Known {
     fn new(
-        bounds: &impl Fn([Interval; 3]) -> Option<Sloped<3>>,
+        evaluate: &Evaluate<
+            impl Fn([Interval; 3]) -> Option<Sloped<3>>,
+            impl Fn([Interval; 3]) -> Interval,
+        >,
         middle: Vector,
         half: Vector,
         margin: f64,
@@ -75,7 +85,7 @@ impl Known {
             let (at, far) = (middle[axis], half[axis] + margin);
             Interval { low: at - far, high: at + far }
         };
-        let (all, undefined) = match bounds([0, 1, 2].map(around)) {
+        let (all, undefined) = match (evaluate.bounds)([0, 1, 2].map(around)) {
             Some(all) => (all, false),
             None => (Sloped::anyhow(Interval::EVERYTHING, false), true),
         };
@@ -85,8 +95,7 @@ impl Known {
         let mut known =
             Self { negative: sign(all), undefined, value: Interval::EVERYTHING, slopes };
         if known.negative.is_none() {
-            let middle = bounds(middle.to_array().map(Interval::point));
-            known.value = middle.map_or(Interval::EVERYTHING, |all| all.value);
+            known.value = (evaluate.value)(middle.to_array().map(Interval::point));
             let step = |axis: usize| {
                 let far = half[axis] + margin;
                 known.slope(axis) * Interval { low: -far, high: far }
@@ -147,13 +156,16 @@ struct Visit<'a> {
 
 impl Cells {
     /// Calls `show` with the pieces that the cells of a box with half widths `half` cut a line into, over a
-    /// range, until it returns `false`. `bounds` evaluates the function.
+    /// range, until it returns `false`.
     pub(super) fn along(
         &self,
         ray: &LocalRay,
         half: Vector,
         (from, to): (f64, f64),
-        bounds: &impl Fn([Interval; 3]) -> Option<Sloped<3>>,
+        evaluate: &Evaluate<
+            impl Fn([Interval; 3]) -> Option<Sloped<3>>,
+            impl Fn([Interval; 3]) -> Interval,
+        >,
         mut show: impl FnMut(Piece) -> bool,
     ) {
         let margin = MARGIN * half.max_element();
@@ -164,7 +176,7 @@ impl Cells {
         stack.push(Visit { cell: &self.root, middle: Vector::ZERO, depth: 0, from, to });
         while let Some(Visit { cell, middle, depth, from, to }) = stack.pop() {
             let half = halves[depth as usize];
-            let known = cell.known.get_or_init(|| Known::new(bounds, middle, half, margin));
+            let known = cell.known.get_or_init(|| Known::new(evaluate, middle, half, margin));
             let is_told = known.negative.is_some() || known.undefined;
             if is_told || depth == DEPTH || known.is_flat() {
                 if !show(Piece { from, to, known, middle }) {

@@ -1,7 +1,7 @@
 //! The function of an isosurface along one line: its bounds over all lines that may be intended, and its
 //! roots.
 
-use std::cell::{OnceCell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 
 use super::cells::Piece;
 use super::{Isosurface, Running, SURFACE};
@@ -24,13 +24,15 @@ pub(super) struct Line<'a> {
     has_slopes: bool,
     ray: &'a LocalRay<'a>,
     run: OnceCell<RefCell<Running<'a, Sloped<1>>>>,
+    values: OnceCell<RefCell<Running<'a, Interval>>>,
     plain: OnceCell<RefCell<Running<'a, f64>>>,
 }
 
 impl<'a> Line<'a> {
     pub fn new(surface: &'a Isosurface, ray: &'a LocalRay<'a>) -> Self {
         let has_slopes = surface.function.has_slopes();
-        Self { surface, has_slopes, ray, run: OnceCell::new(), plain: OnceCell::new() }
+        let (run, values, plain) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
+        Self { surface, has_slopes, ray, run, values, plain }
     }
 
     /// Returns the range of the value less the threshold, and of its slope, over all lines that may be
@@ -74,6 +76,27 @@ impl<'a> Line<'a> {
         }
     }
 
+    /// Returns the value of [`Self::bounds`] at a position, sooner where its sign is certain.
+    pub fn value_at(&self, s: f64) -> Interval {
+        let Isosurface { centre, scale, threshold, .. } = *self.surface;
+        let blur = self.ray.blur_at(s);
+        let coordinate = |axis: usize| {
+            let (place, way) = (self.ray.nearest[axis], self.ray.direction[axis]);
+            let along = Interval::point(s) * Interval::point(way);
+            let local = Interval { low: place - blur, high: place + blur } + along;
+            let scaled = Interval { low: local.low * scale, high: local.high * scale };
+            Interval::point(centre[axis]) + scaled
+        };
+        if self.has_slopes {
+            let run = self.values.get_or_init(|| RefCell::new(self.surface.run()));
+            let all = run.borrow_mut().at([0, 1, 2].map(coordinate)) - Interval::point(threshold);
+            if all.low > 0.0 || all.high < 0.0 {
+                return all;
+            }
+        }
+        self.bounds(Interval::point(s)).value
+    }
+
     /// Returns the bounds for one point, taken as exact.
     fn at(&self, s: f64) -> Bounds {
         let Isosurface { centre, scale, .. } = *self.surface;
@@ -106,7 +129,20 @@ impl<'a> Line<'a> {
             false => (change.before, change.after),
         };
         let guess = self.guess(outside, inside);
-        let found = root(|s| self.sample(s), (outside, inside), guess, self.ray.tolerance);
+        // About the guess the slope is that at the guess.
+        let slope = Cell::new(None);
+        let sample = |s: f64| match slope.get() {
+            Some(slope) => {
+                let Interval { low, high } = self.value_at(s);
+                Sample { value: 0.5 * (low + high), slope, error: 0.5 * (high - low) }
+            }
+            None => {
+                let sample = self.sample(s);
+                slope.set((s == guess).then_some(sample.slope));
+                sample
+            }
+        };
+        let found = root(sample, (outside, inside), guess, self.ray.tolerance);
         Met { t: found.t, error: found.error, leaving: change.rising, part: SURFACE }
     }
 
@@ -152,7 +188,7 @@ impl<'a> Line<'a> {
         let mut step = error.max(4.0 * U);
         let mut place = end;
         while step < most {
-            let Interval { low, high } = self.bounds(Interval::point(place)).value;
+            let Interval { low, high } = self.value_at(place);
             if low > 0.0 || high < 0.0 {
                 return place;
             }
@@ -186,7 +222,15 @@ pub(super) fn look<F: Fn(Interval) -> Bounds>(
     if !(along.low > 0.0 || along.high < 0.0) {
         return search.through(from, to);
     }
-    match (sign(at(from)), sign(at(to))) {
+    // Which sign at the first end lasts to the last, and the other way round.
+    let falls = along.high < 0.0;
+    let first = sign(at(from)).or_else(|| search.sign_at(from));
+    if first == Some(falls) {
+        return search.certain(from, to, falls);
+    }
+    let last = sign(at(to)).or_else(|| search.sign_at(to));
+    match (first, last) {
+        (_, Some(last)) if last != falls => search.certain(from, to, last),
         (Some(first), Some(last)) => {
             search.certain(from, from, first);
             search.certain(to, to, last);

@@ -21,7 +21,7 @@ use super::{Memory, U, multiple};
 use crate::function::{Number, Run, Sloped};
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::math::roots::isolate::{Changes, Fineness, Search};
+use crate::math::roots::isolate::{Bounds, Changes, Fineness, Search};
 use crate::texture::Closed;
 pub use cells::Cells;
 pub use container::Container;
@@ -104,6 +104,16 @@ impl Isosurface {
         Some(all)
     }
 
+    /// Returns the range of the value over a box, in local lengths; everything where it is undefined.
+    fn value_bounds(&self, point: [Interval; 3]) -> Interval {
+        let along = |axis: usize| {
+            let Interval { low, high } = point[axis];
+            let place = Interval { low: low * self.scale, high: high * self.scale };
+            Interval::point(self.centre[axis]) + place
+        };
+        self.run::<Interval>().at([0, 1, 2].map(along)) - Interval::point(self.threshold)
+    }
+
     /// Central differences of the function with the given step.
     fn differences(&self, point: Vector, step: f64) -> Vector {
         let along = |axis: Vector| {
@@ -151,6 +161,8 @@ struct Told {
     changes: usize,
     /// Whether the start of the line is handled, or not requested.
     start: bool,
+    /// Changes before this position are not requested.
+    from: f64,
 }
 
 impl Isosurface {
@@ -164,7 +176,12 @@ impl Isosurface {
         let blur = ray.blur_at(enter.t.abs().max(leave.t.abs()));
         let rounded = blur + U * self.container.reach();
         let fineness = Fineness { resolution: self.accuracy, least: 8.0 * rounded };
-        let mut search = Search::new(|s| line.bounds(s), fineness);
+        // At a position, only the value is used.
+        let bounds = |s: Interval| match s.single() {
+            Some(s) => Bounds { value: line.value_at(s), slope: Interval::EVERYTHING },
+            None => line.bounds(s),
+        };
+        let mut search = Search::new(bounds, fineness);
         let first = || line.settle(enter.t, enter.error, 1.0, 0.1 * width);
         let last = || line.settle(leave.t, leave.error, -1.0, 0.1 * width);
         let (from, to) = match wanted {
@@ -172,7 +189,7 @@ impl Isosurface {
             Wanted::First(from, to) => (from, to),
         };
         let half = self.container.half();
-        let mut told = Told { changes: 0, start: false };
+        let mut told = Told { changes: 0, start: false, from };
         // Whether the search has come to the line's end.
         let mut is_whole = false;
         if 16.0 * rounded > cells::MARGIN * half.max_element() {
@@ -180,8 +197,12 @@ impl Isosurface {
             search.through(first(), last());
             is_whole = true;
         } else {
-            let over = |point| self.bounds(point);
-            self.cells.along(ray, half, ends, &over, |piece| {
+            let ahead = ray.ahead_of(from);
+            let evaluate = cells::Evaluate {
+                bounds: |point| self.bounds(point),
+                value: |point| self.value_bounds(point),
+            };
+            self.cells.along(ray, half, ends, &evaluate, |piece| {
                 is_whole = piece.to == ends.1;
                 if piece.to < from {
                     told.start = true;
@@ -194,7 +215,15 @@ impl Isosurface {
                     Some(negative) => search.certain(piece.from, piece.to, negative),
                     None if piece.known.undefined => {}
                     None => {
-                        let from = if piece.from == ends.0 { first() } else { piece.from };
+                        // A ray that leaves the surface is not searched behind its start.
+                        let starts = piece.from < from && ahead < piece.to;
+                        let skips = starts && search.sign_at(ahead).is_some();
+                        told.start |= skips;
+                        let from = match piece.from == ends.0 {
+                            _ if skips => ahead,
+                            true => first(),
+                            false => piece.from,
+                        };
                         let to = if is_whole { last() } else { piece.to };
                         if from < to {
                             look(&mut search, ray, &piece, (from, to));
@@ -202,7 +231,6 @@ impl Isosurface {
                     }
                 }
                 self.tell(&line, search.found(), &mut told, enter, found);
-                let ahead = ray.ahead_of(from);
                 let is_enough = |met: &Met| met.is_seen() && met.t - met.error > ahead;
                 wanted == Wanted::All || !found.iter().any(is_enough)
             });
@@ -231,7 +259,8 @@ impl Isosurface {
                 found.push(self.cap(enter, place));
             }
         }
-        found.extend(signs.all[told.changes..].iter().map(|change| line.met(change)));
+        let changes = signs.all[told.changes..].iter().filter(|change| change.after >= told.from);
+        found.extend(changes.map(|change| line.met(change)));
         told.changes = signs.all.len();
     }
 

@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 use crate::math::roots::bracket::Sample;
 use crate::math::roots::polynomial::turning_points;
 use crate::shape::U;
-use crate::shape::curve::{Change, Hull, Outline, Path, Piece, Point, Run, Side};
+use crate::shape::curve::{Change, Course, Hull, Outline, Path, Piece, Point, Run, Side};
 use crate::shape::local::LocalRay;
 
 /// Minimum vertical speed of a steep line.
@@ -69,15 +69,6 @@ impl Line {
         (coefficients, size.fold(0.0, f64::max))
     }
 
-    /// Returns whether d²·(ρ² − x²) certainly has at most one root on a piece: at most the number of sign
-    /// changes of its coefficients.
-    fn has_one_root(&self, piece: &Piece) -> bool {
-        let (coefficients, size) = self.coefficients(piece);
-        let is_told = |c: &f64| c.abs() > 64.0 * U * size * size;
-        let changes = coefficients.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0));
-        changes.count() <= 1 && coefficients.iter().all(is_told)
-    }
-
     /// Returns where d²·(ρ² − x²) has extrema on a piece, with ρ the line's at the height of the piece.
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
         let (x, mut y) = (piece.powers(0), piece.powers(1));
@@ -93,6 +84,17 @@ impl Line {
             }
         }
         turning_points(&values[..=2 * (piece.points().len() - 1)], 0.0, 1.0)
+    }
+}
+
+/// Returns whether a polynomial with these Bézier coefficients certainly has at most one root: at most the
+/// number of their sign changes.
+fn course_of(coefficients: &[f64; 7], size: f64) -> Course {
+    let is_told = |c: &f64| c.abs() > 64.0 * U * size * size;
+    let changes = coefficients.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0));
+    match changes.count() <= 1 && coefficients.iter().all(is_told) {
+        true => Course::OneRoot,
+        false => Course::Unknown,
     }
 }
 
@@ -162,15 +164,14 @@ impl Side for Steep<'_> {
 
     /// The coefficients bound |a|² − dz²·x², which is f times |a| + |dz|·x, and that factor is at most the
     /// size.
-    fn of_piece(&self, piece: &Piece) -> Option<bool> {
+    fn course(&self, piece: &Piece) -> Course {
         let (coefficients, size) = self.0.coefficients(piece);
         let least = (2.0 * self.0.off + 64.0 * U * size) * size;
         let is_outside = coefficients.iter().all(|c| *c > least);
-        (is_outside || coefficients.iter().all(|c| *c < -least)).then_some(is_outside)
-    }
-
-    fn has_one_root(&self, piece: &Piece) -> bool {
-        self.0.has_one_root(piece)
+        match is_outside || coefficients.iter().all(|c| *c < -least) {
+            true => Course::Side(is_outside),
+            false => course_of(&coefficients, size),
+        }
     }
 
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
@@ -208,15 +209,31 @@ impl<'a> Arm<'a> {
         self.line.speed * self.way * self.reach(x)
     }
 
+    /// Returns whether the arm certainly misses everything in a box.
+    pub fn misses(&self, hull: &Hull) -> bool {
+        self.miss > hull[1][0] + self.line.off || self.of_box(hull).is_some()
+    }
+
     /// Returns the parts of a run beyond ρ = m.
     pub fn paths<'o>(&self, outline: &'o Outline, run: &Run) -> SmallVec<[Path<'o>; 4]> {
         let whole = Path::whole(outline, run, None);
         let pieces = &outline.pieces[run.from..run.to];
         let beyond = |point: Point| point[0] > self.miss;
+        let far = 4.0 * self.line.off;
         let mut cuts: SmallVec<[f64; 8]> = SmallVec::new();
         for (number, piece) in pieces.iter().enumerate() {
-            if beyond(piece.first()) != beyond(piece.last()) {
-                cuts.push(number as f64 + piece.meets(0, self.miss));
+            let is_first_beyond = beyond(piece.first());
+            if is_first_beyond != beyond(piece.last()) {
+                let [low, high] = piece.hull();
+                let is_apart = low[1] - self.height > far || self.height - high[1] > far;
+                // Nearer to the axis the arm stays as high, and so a piece that is apart from its beginning may
+                // as well be taken whole.
+                let u = match (is_apart, is_first_beyond) {
+                    (true, true) => 1.0,
+                    (true, false) => 0.0,
+                    (false, _) => piece.meets(0, self.miss),
+                };
+                cuts.push(number as f64 + u);
             }
         }
         let Some(&first) = cuts.first() else {
@@ -298,8 +315,9 @@ impl Side for Arm<'_> {
         }
     }
 
-    fn has_one_root(&self, piece: &Piece) -> bool {
-        self.line.has_one_root(piece)
+    fn course(&self, piece: &Piece) -> Course {
+        let (coefficients, size) = self.line.coefficients(piece);
+        course_of(&coefficients, size)
     }
 
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {

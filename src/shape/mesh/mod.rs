@@ -28,6 +28,9 @@ pub struct Face {
     pub normals: Option<[u32; 3]>,
 }
 
+/// Maximum number of faces that are tested one by one, without the tree.
+const FEW: usize = 2;
+
 /// A mesh. A part number is twice the index of a face, plus one if the outside is on its other side: the
 /// inside of a mesh is determined by counting, regardless of the winding.
 #[derive(Debug, Clone, PartialEq)]
@@ -121,8 +124,7 @@ impl Mesh {
         // What the view rounds corners by, generously.
         let slack = 32.0 * U * (self.reach + ray.nearest.length()) + view.doubt;
         let from = from.max(-self.reach - slack);
-        let start = Ray { origin: ray.at(from), direction: ray.direction };
-        self.tree.visit(&start, slack, to - from, &mut |run: Range<usize>, mut limit| {
+        let mut look = |run: Range<usize>, mut limit: f64| {
             for number in run {
                 let corners = self.corners_of(&self.faces[number]);
                 if let Some(pierced) = view.pierces(corners) {
@@ -131,7 +133,13 @@ impl Mesh {
                 }
             }
             limit
-        });
+        };
+        if self.faces.len() <= FEW {
+            look(0..self.faces.len(), to - from);
+        } else {
+            let start = Ray { origin: ray.at(from), direction: ray.direction };
+            self.tree.visit(&start, slack, to - from, &mut look);
+        }
         view.is_in_a_plane.get()
     }
 
@@ -275,7 +283,7 @@ impl Local for Mesh {
     }
 
     fn goes_together(&self) -> bool {
-        self.inside.is_none()
+        self.inside.is_none() && self.faces.len() > FEW
     }
 
     fn crosses(&self, ray: &LocalRay, between: (f64, f64), accepts: &dyn Fn(&Met) -> bool) -> bool {

@@ -12,7 +12,7 @@ use smallvec::SmallVec;
 use crate::math::Vector;
 use crate::math::roots::bracket::Sample;
 use crate::shape::U;
-use crate::shape::curve::{Change, Hull, Piece, Point, Side};
+use crate::shape::curve::{Change, Course, Hull, Piece, Point, Side};
 use crate::shape::local::{LocalRay, Met};
 
 use super::GRAZING;
@@ -198,10 +198,19 @@ impl Side for Ruled<'_> {
         (is_outside || a * right + b * above + c < -self.error).then_some(is_outside)
     }
 
-    fn of_piece(&self, piece: &Piece) -> Option<bool> {
+    /// A polynomial changes its sign at most as often as its Bézier coefficients.
+    fn course(&self, piece: &Piece) -> Course {
         let sides = || piece.points().iter().map(|point| self.roughly(*point));
         let is_outside = sides().all(|side| side > self.error);
-        (is_outside || sides().all(|side| side < -self.error)).then_some(is_outside)
+        if is_outside || sides().all(|side| side < -self.error) {
+            return Course::Side(is_outside);
+        }
+        let pairs = piece.points().windows(2);
+        let signs = pairs.map(|pair| [pair[0], pair[1]].map(|point| self.roughly(point) > 0.0));
+        match signs.filter(|[before, after]| before != after).count() <= 1 {
+            true => Course::OneRoot,
+            false => Course::Unknown,
+        }
     }
 
     const IS_LINEAR: bool = true;
@@ -222,14 +231,6 @@ impl Side for Ruled<'_> {
         };
         let [first, last] = ends.each_ref().map(least);
         self.beside.set(Some(first.max(last).max(self.beside.get().unwrap_or(0.0))));
-    }
-
-    /// A polynomial changes its sign at most as often as its Bézier coefficients.
-    fn has_one_root(&self, piece: &Piece) -> bool {
-        let is_outside = |point: &Point| self.roughly(*point) > 0.0;
-        let pairs = piece.points().windows(2);
-        let changes = pairs.filter(|pair| is_outside(&pair[0]) != is_outside(&pair[1]));
-        changes.count() <= 1
     }
 
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {

@@ -1,7 +1,8 @@
 //! Blobs against twice the digits.
 
 use super::placed::{
-    assert_crossed_where_it_is, assert_left_into_the_open, placed, ray_at_placed, stand,
+    assert_crossed_where_it_is, assert_first_found_up_to_a_limit, assert_left_into_the_open,
+    placed, ray_at_placed, stand,
 };
 use super::*;
 use crate::shape::blob::Component;
@@ -68,6 +69,7 @@ fn a_blob_is_crossed_where_exact_arithmetic_crosses_it() {
             let ray = ray_at_placed(&mut random, &placed);
             crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
             assert_left_into_the_open(&mut random, &placed, &ray, inside);
+            assert_first_found_up_to_a_limit(&mut random, &placed, &ray);
         }
     }
     assert!(crossed > tries_in(8), "{crossed}");

@@ -288,6 +288,18 @@ pub(super) fn assert_left_into_the_open(
     }
 }
 
+/// Checks that the first visible crossing is found as well where the search ends soon behind it.
+pub(super) fn assert_first_found_up_to_a_limit(random: &mut Random, placed: &Placed, ray: &Ray) {
+    let all = placed.crossings(ray);
+    let is_told = |met: &&Met| met.is_seen() && met.t > 64.0 * met.error;
+    let Some(met) = all.iter().find(is_told) else { return };
+    let next = all.iter().find(|next| next.t > met.t).map_or(2.0 * met.t, |next| next.t);
+    let limit = met.t + random.number(0.0, 1.0) * (next - met.t) + 4.0 * met.error;
+    let first = placed.first_crossings(ray, limit);
+    let is_same = |one: &Met| (one.t - met.t).abs() <= one.error + met.error;
+    assert!(first.iter().any(is_same), "{placed:?} {ray:?} {met:?} {limit} {first:?}");
+}
+
 pub(super) fn square(x: Double) -> Double {
     x * x
 }

@@ -2,7 +2,8 @@
 
 use super::outline::{goes_along, number, one, ray_through};
 use super::placed::{
-    assert_crossed_where_it_is, assert_left_into_the_open, greater, placed, ray_at_placed,
+    assert_crossed_where_it_is, assert_first_found_up_to_a_limit, assert_left_into_the_open,
+    greater, placed, ray_at_placed,
 };
 use super::*;
 use crate::math::random::tries_in;
@@ -56,6 +57,7 @@ fn a_sor_is_crossed_where_exact_arithmetic_crosses_it() {
             let ray = ray_at_placed(&mut random, &placed);
             crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
             assert_left_into_the_open(&mut random, &placed, &ray, inside);
+            assert_first_found_up_to_a_limit(&mut random, &placed, &ray);
         }
     }
     assert!(crossed > tries_in(30), "{crossed}");

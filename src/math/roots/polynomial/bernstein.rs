@@ -8,22 +8,16 @@
 
 use super::{Coefficients, MOST, U};
 
-/// C(i, k) / C(n, k), by n, i and k.
-static SHARES: [[Coefficients; MOST + 1]; MOST + 1] = {
-    let mut all = [[[0.0; MOST + 1]; MOST + 1]; MOST + 1];
+/// 1 / C(n, k), by n and k.
+static SHARES: [Coefficients; MOST + 1] = {
+    let mut all = [[0.0; MOST + 1]; MOST + 1];
     let mut n = 0;
     while n <= MOST {
-        let mut i = 0;
-        while i <= n {
-            let (mut share, mut k) = (1.0, 0);
-            while k <= i {
-                all[n][i][k] = share;
-                if k < n {
-                    share *= (i - k) as f64 / (n - k) as f64;
-                }
-                k += 1;
-            }
-            i += 1;
+        let (mut choices, mut k) = (1.0, 0);
+        while k <= n {
+            all[n][k] = 1.0 / choices;
+            choices = choices * (n - k) as f64 / (k + 1) as f64;
+            k += 1;
         }
         n += 1;
     }
@@ -55,15 +49,22 @@ impl Form {
     pub fn of(values: &[f64], slack: &[f64], way: f64) -> Self {
         let degree = values.len() - 1;
         let (mut forms, mut bounds) = (Coefficients::default(), Coefficients::default());
-        for i in 0..=degree {
-            let (mut sum, mut bound, mut power) = (0.0, 0.0, 1.0);
-            for ((share, value), slack) in SHARES[degree][i][..=i].iter().zip(values).zip(slack) {
-                sum += share * power * value;
-                bound += share * (slack + 64.0 * U * value.abs());
-                power *= way;
+        let mut power = 1.0;
+        for k in 0..=degree {
+            forms[k] = values[k] * (power * SHARES[degree][k]);
+            bounds[k] = (slack[k] + 64.0 * U * values[k].abs()) * SHARES[degree][k];
+            power *= way;
+        }
+        // Σ C(i, k) of them, for each i.
+        for first in 1..=degree {
+            for i in (first..=degree).rev() {
+                forms[i] += forms[i - 1];
+                bounds[i] += bounds[i - 1];
             }
-            let place = if way < 0.0 { degree - i } else { i };
-            (forms[place], bounds[place]) = (sum, bound);
+        }
+        if way < 0.0 {
+            forms[..=degree].reverse();
+            bounds[..=degree].reverse();
         }
         Self { degree, values: forms, bounds }
     }
