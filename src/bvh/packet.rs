@@ -13,14 +13,13 @@ use std::ops::Range;
 
 use smallvec::SmallVec;
 
-use super::{Child, Node, OUTWARD, STACK, Seeker, Space, Tree, starts};
+use super::{Child, FAR, Node, OUTWARD, STACK, STEEPEST, Seeker, Space, Tree};
 use crate::math::Lanes;
-use crate::math::wide::{ROW, Rays, Row, numbers};
+use crate::math::wide::*;
 
 /// The most rays of a packet.
 pub const MOST: usize = ROW;
 const WIDTH: usize = 4;
-const GROUPS: usize = MOST / WIDTH;
 /// Fewer rays are faster one by one.
 pub const LEAST: u32 = 4;
 
@@ -53,22 +52,23 @@ impl<S: PacketSeeker> Seeker for Alone<'_, S> {
     }
 }
 
-/// Rays in the tree's space, four to a group, and what bounds them all.
+/// Rays in the tree's space, side by side, and what bounds them all.
 struct Packet {
     axes: [PacketAxis; 3],
     /// By which each ray is out of the race; −∞ where there is no ray.
-    limits: [Lanes; GROUPS],
+    limits: [f32; MOST],
     /// The greatest of these.
     limit: f32,
 }
 
+#[derive(Clone, Copy)]
 struct PacketAxis {
     /// 0 or 1: which of the two planes comes first, for all rays.
     near: usize,
-    /// Those of the rays, as by [`starts`].
-    near_start: [Lanes; GROUPS],
-    far_start: [Lanes; GROUPS],
-    reciprocal: [Lanes; GROUPS],
+    /// Those of the rays, as by [`starts`](super::starts); where there is no ray, those of the first.
+    near_start: [f32; MOST],
+    far_start: [f32; MOST],
+    reciprocal: [f32; MOST],
     /// The starts from which the near plane is met soonest and the far plane latest.
     soonest: Lanes,
     latest: Lanes,
@@ -76,34 +76,108 @@ struct PacketAxis {
     reciprocals: [Lanes; 2],
 }
 
-impl Packet {
-    /// `None` where the rays do not all go the same way along each axis, or one starts too far off.
-    fn new(rays: &Rays, slack: f64, limits: &Row, space: &Space) -> Option<Self> {
-        // The starts and the reciprocals by axis; in lanes without a ray, those of the first.
-        let first = starts(&rays.at(numbers(rays.mask).next()?), slack, space)?;
-        let mut all = first.map(|axis| axis.map(|value| [value; MOST]));
-        let mut out = [f32::NEG_INFINITY; MOST];
-        for number in numbers(rays.mask) {
-            let starts = starts(&rays.at(number), slack, space)?;
-            out[number] = space.limit(limits[number]);
-            for axis in 0..3 {
-                if (starts[axis][2] < 0.0) != (first[axis][2] < 0.0) {
-                    return None;
-                }
-                for value in 0..3 {
-                    all[axis][value][number] = starts[axis][value];
-                }
-            }
+impl PacketAxis {
+    const NONE: Self = Self {
+        near: 0,
+        near_start: [0.0; MOST],
+        far_start: [0.0; MOST],
+        reciprocal: [0.0; MOST],
+        soonest: Lanes::ZERO,
+        latest: Lanes::ZERO,
+        reciprocals: [Lanes::ZERO; 2],
+    };
+
+    /// Finds what [`starts`](super::starts) says of an axis; returns whether all rays go the same way along it.
+    #[inline(always)]
+    fn find<S: Simd>(
+        &mut self,
+        simd: S,
+        rays: &Rays,
+        axis: usize,
+        (least, space): (&Row, &Space),
+    ) -> bool {
+        let [mut near, mut far, mut reciprocals] = [[0.0; MOST]; 3];
+        let (steepest, epsilon) = (all(simd, STEEPEST), all(simd, f64::from(f32::EPSILON)));
+        let mut backward = 0;
+        for group in 0..GROUPS {
+            let start = four(simd, &rays.origins.0[axis], group);
+            let start = (start - all(simd, space.origin[axis])) * all(simd, space.scale);
+            let reciprocal = all(simd, 1.0) / four(simd, &rays.directions.0[axis], group);
+            let reciprocal = reciprocal.simd_gt(steepest).select(steepest, reciprocal);
+            let reciprocal = reciprocal.simd_lt(-steepest).select(-steepest, reciprocal);
+            let padding = start.abs() * epsilon + four(simd, least, group);
+            let padding = padding.copysign(reciprocal);
+            store(start + padding, &mut near, group);
+            store(start - padding, &mut far, group);
+            store(reciprocal, &mut reciprocals, group);
+            backward |= bits(reciprocal.simd_lt(all(simd, 0.0)), group);
         }
-        let [x, y, z] = all.map(PacketAxis::new);
-        let mut packet = Self { axes: [x, y, z], limits: groups(out), limit: 0.0 };
-        packet.limit = packet.greatest_limit();
-        Some(packet)
+        let first = (rays.mask.trailing_zeros() as usize) % MOST;
+        for number in numbers(!rays.mask & ((1 << MOST) - 1)) {
+            near[number] = near[first];
+            far[number] = far[first];
+            reciprocals[number] = reciprocals[first];
+        }
+        for number in 0..MOST {
+            self.near_start[number] = near[number] as f32;
+            self.far_start[number] = far[number] as f32;
+            self.reciprocal[number] = reciprocals[number] as f32;
+        }
+        let backward = backward & rays.mask;
+        self.near = usize::from(backward != 0);
+        (self.soonest, self.latest) = match self.near {
+            0 => (greatest(&self.near_start), least_of(&self.far_start)),
+            _ => (least_of(&self.near_start), greatest(&self.far_start)),
+        };
+        self.reciprocals = [least_of(&self.reciprocal), greatest(&self.reciprocal)];
+        backward == 0 || backward == rays.mask
+    }
+}
+
+impl Packet {
+    const NONE: Self = Self { axes: [PacketAxis::NONE; 3], limits: [0.0; MOST], limit: 0.0 };
+
+    /// Finds the rays in the tree's space; returns whether all go the same way along each axis, and none starts too
+    /// far off.
+    #[inline(always)]
+    fn find<S: Simd>(
+        &mut self,
+        simd: S,
+        rays: &Rays,
+        slack: f64,
+        limits: &Row,
+        space: &Space,
+    ) -> bool {
+        let slack = slack * space.scale;
+        let (far, mut least, mut in_range) = (all(simd, FAR), [0.0; MOST], 0);
+        for group in 0..GROUPS {
+            let start = WideVector::of(simd, &rays.origins, group);
+            let start = start - WideVector::splat(simd, space.origin);
+            let WideVector([x, y, z]) = (start * all(simd, space.scale)).abs();
+            let size = x.simd_gt(y).select(x, y);
+            let size = size.simd_gt(z).select(size, z);
+            in_range |= bits(x.simd_lt(far) & y.simd_lt(far) & z.simd_lt(far), group);
+            let own = (all(simd, 1.0) + size) * all(simd, 1.0 / (1u64 << 40) as f64);
+            store(own + all(simd, slack), &mut least, group);
+        }
+        if in_range & rays.mask != rays.mask || slack >= FAR {
+            return false;
+        }
+        let mut is_coherent = true;
+        for (number, axis) in self.axes.iter_mut().enumerate() {
+            is_coherent &= axis.find(simd, rays, number, (&least, space));
+        }
+        self.limits = [f32::NEG_INFINITY; MOST];
+        for number in numbers(rays.mask) {
+            self.limits[number] = space.limit(limits[number]);
+        }
+        self.limit = self.greatest_limit();
+        is_coherent
     }
 
+    #[inline(always)]
     fn greatest_limit(&self) -> f32 {
-        let all = self.limits.into_iter().fold(Lanes::NEG_INFINITY, Lanes::max);
-        all.max_element()
+        greatest(&self.limits).x
     }
 
     /// Not beyond where any of the rays enters each box, and a bit for each that one of them may enter.
@@ -125,41 +199,37 @@ impl Packet {
     #[inline(always)]
     fn enter(&self, group: usize, node: &Node, lane: usize) -> u32 {
         let mut entry = Lanes::ZERO;
-        let mut exit = self.limits[group];
+        let mut exit = group_of(&self.limits, group);
         for (axis, planes) in self.axes.iter().zip(&node.planes) {
-            let [near, far] = [planes[axis.near & 1], planes[1 - (axis.near & 1)]]
-                .map(|planes| Lanes::splat(planes[lane]));
-            let reciprocal = axis.reciprocal[group];
-            entry = entry.max((near - axis.near_start[group]) * reciprocal);
-            exit = exit.min((far - axis.far_start[group]) * reciprocal);
+            let near = Lanes::splat(planes[axis.near & 1][lane]);
+            let far = Lanes::splat(planes[1 - (axis.near & 1)][lane]);
+            let reciprocal = group_of(&axis.reciprocal, group);
+            entry = entry.max((near - group_of(&axis.near_start, group)) * reciprocal);
+            exit = exit.min((far - group_of(&axis.far_start, group)) * reciprocal);
         }
         entry.cmple(exit * OUTWARD).bitmask()
     }
 }
 
-impl PacketAxis {
-    fn new([near_start, far_start, reciprocal]: [[f32; MOST]; 3]) -> Self {
-        let near = usize::from(reciprocal[0] < 0.0);
-        let [near_start, far_start, reciprocal] = [near_start, far_start, reciprocal].map(groups);
-        let least = |all: [Lanes; GROUPS]| {
-            Lanes::splat(all.into_iter().fold(Lanes::INFINITY, Lanes::min).min_element())
-        };
-        let greatest = |all: [Lanes; GROUPS]| {
-            Lanes::splat(all.into_iter().fold(Lanes::NEG_INFINITY, Lanes::max).max_element())
-        };
-        let (soonest, latest) = match near {
-            0 => (greatest(near_start), least(far_start)),
-            _ => (least(near_start), greatest(far_start)),
-        };
-        let reciprocals = [least(reciprocal), greatest(reciprocal)];
-        Self { near, near_start, far_start, reciprocal, soonest, latest, reciprocals }
-    }
+#[inline(always)]
+fn group_of(values: &[f32; MOST], group: usize) -> Lanes {
+    Lanes::from_slice(&values[WIDTH * group..WIDTH * group + WIDTH])
 }
 
+/// The least of values, in each lane.
 #[inline(always)]
-fn groups(values: [f32; MOST]) -> [Lanes; GROUPS] {
-    let group = |group: usize| Lanes::from_slice(&values[WIDTH * group..]);
-    [group(0), group(1), group(2), group(3)]
+fn least_of(values: &[f32; MOST]) -> Lanes {
+    let first = group_of(values, 0).min(group_of(values, 1));
+    let second = group_of(values, 2).min(group_of(values, 3));
+    Lanes::splat(first.min(second).min_element())
+}
+
+/// The greatest of values, in each lane.
+#[inline(always)]
+fn greatest(values: &[f32; MOST]) -> Lanes {
+    let first = group_of(values, 0).max(group_of(values, 1));
+    let second = group_of(values, 2).max(group_of(values, 3));
+    Lanes::splat(first.max(second).max_element())
 }
 
 /// A child that waits, its node and lane, and where the first of the rays may enter it.
@@ -179,15 +249,18 @@ impl Tree {
     #[inline(never)]
     pub fn visit_together(&self, rays: &Rays, slack: f64, seeker: &mut impl PacketSeeker) {
         let mut limits = *seeker.limits();
-        let packet = (rays.mask.count_ones() >= LEAST)
-            .then(|| Packet::new(rays, slack, &limits, &self.space))
-            .flatten();
-        let Some(mut packet) = packet else {
+        let mut packet = Packet::NONE;
+        let goes_together = rays.mask.count_ones() >= LEAST
+            && dispatch!(
+                Instructions::best().level(),
+                simd => packet.find(simd, rays, slack, &limits, &self.space)
+            );
+        if !goes_together {
             for ray in numbers(rays.mask) {
                 self.visit(&rays.at(ray), slack, limits[ray], &mut Alone { seeker, ray });
             }
             return;
-        };
+        }
         let groups = (u32::BITS - rays.mask.leading_zeros()).div_ceil(WIDTH as u32) as usize;
         let mut stack: SmallVec<[Waiting; STACK]> = SmallVec::new();
         let mut next = Waiting { child: Child::node(0), ..Waiting::default() };
@@ -203,7 +276,7 @@ impl Tree {
                         let reached = seeker.limits()[ray];
                         if reached != limits[ray] {
                             limits[ray] = reached;
-                            packet.limits[ray / WIDTH][ray % WIDTH] = self.space.limit(reached);
+                            packet.limits[ray] = self.space.limit(reached);
                             packet.limit = packet.greatest_limit();
                         }
                     }

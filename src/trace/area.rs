@@ -405,7 +405,7 @@ impl<'a> Tracer<'a> {
         walk: &mut Walk,
         stands: &Stands,
         (number, light): (usize, &Light),
-        sums: &mut [Rgb; ROW],
+        mut add: impl FnMut(usize, Rgb),
     ) {
         for of in numbers(stands.mask) {
             let Some(Stand { hit, place, surface, .. }) = stands.at(of) else { continue };
@@ -419,7 +419,7 @@ impl<'a> Tracer<'a> {
                 && ground.is_lit_by(number)
                 && let Some(lit) = shade::before(self, walk, &ground, (number, light))
             {
-                sums[of] += lit;
+                add(of, lit);
             }
         }
     }

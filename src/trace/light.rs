@@ -141,20 +141,79 @@ impl Aims {
     }
 }
 
+/// What surfaces send to the viewer of lights.
+struct Answers {
+    /// The colour of each body, and its `diffuse`.
+    bodies: Rows,
+    diffuse: Row,
+    /// A bit for each that answers by more than these.
+    more: u32,
+    sums: Rows,
+}
+
+impl Answers {
+    const NONE: Self = Self { bodies: Rows::ZERO, diffuse: [0.0; ROW], more: 0, sums: Rows::ZERO };
+
+    #[inline(always)]
+    fn of(&mut self, stands: &Stands) {
+        for number in numbers(stands.mask) {
+            let Some(finish) = stands.finish(number) else { continue };
+            self.sums.set(number, vector(stands.local[number]));
+            self.bodies.set(number, vector(stands.body(number)));
+            self.diffuse[number] = finish.diffuse;
+            let answers_by_more =
+                finish.extras.is_some() || finish.brilliance != 1.0 || !finish.lobes.is_empty();
+            self.more |= if answers_by_more { 1 << number } else { 0 };
+        }
+    }
+
+    /// Adds the light that bodies scatter.
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, simd: S, mask: u32, colors: &Rows, cosines: &Row) {
+        for group in 0..GROUPS {
+            if !has(mask, group) {
+                continue;
+            }
+            let part = four(simd, &self.diffuse, group) * four(simd, cosines, group).abs();
+            let body = WideVector::of(simd, &self.bodies, group) * part;
+            let ([a, b, c], [x, y, z]) = (WideVector::of(simd, colors, group).0, body.0);
+            let sum = WideVector::of(simd, &self.sums, group);
+            let mask = Mask::from_bitmask(simd, u64::from(mask >> (LANES * group)) & 15);
+            let new = sum + WideVector([a * x, b * y, c * z]);
+            new.or(mask, sum).store(&mut self.sums, group);
+        }
+    }
+
+    #[inline(always)]
+    fn add_to(&mut self, number: usize, light: Rgb) {
+        self.sums.set(number, self.sums.at(number) + vector(light));
+    }
+}
+
+fn vector(Rgb { red, green, blue }: Rgb) -> Vector {
+    Vector::new(red, green, blue)
+}
+
 impl Tracer<'_> {
     /// Adds to what surfaces show what they send to the viewer of each light.
     #[inline(never)]
     pub(super) fn light(&self, walk: &mut Walk, stands: &mut Stands) {
-        let mut sums = stands.local;
+        let mut answers = Answers::NONE;
+        answers.of(stands);
         let grounds = Grounds::of(stands, self.geometry.has_tree());
         for (number, light) in self.world.lights.iter().enumerate() {
             if !light.is_plain() || !self.world.light_sets.is_empty() {
-                self.light_one_by_one(walk, stands, (number, light), &mut sums);
+                self.light_one_by_one(walk, stands, (number, light), |surface, lit| {
+                    answers.add_to(surface, lit);
+                });
             } else if grounds.answers != 0 {
-                self.light_together(walk, stands, &grounds, (number, light), &mut sums);
+                self.light_together(walk, stands, &grounds, (number, light), &mut answers);
             }
         }
-        stands.local = sums;
+        for number in numbers(stands.mask) {
+            let Vector { x: red, y: green, z: blue } = answers.sums.at(number);
+            stands.local[number] = Rgb { red, green, blue };
+        }
     }
 
     #[inline(always)]
@@ -164,7 +223,7 @@ impl Tracer<'_> {
         stands: &Stands,
         grounds: &Grounds,
         (number, light): (usize, &Light),
-        sums: &mut [Rgb; ROW],
+        answers: &mut Answers,
     ) {
         let (kind, level) = (&light.kind, self.geometry.instructions().level());
         let mut aims = Aims::NONE;
@@ -177,13 +236,13 @@ impl Tracer<'_> {
                 aims.set(surface, origin, aim, cosine);
             }
         }
-        let is_attenuated = light.attenuation.is_some();
-        let mut colors = [Rgb::BLACK; ROW];
-        if is_attenuated {
+        let color = vector(light.color);
+        let mut colors = Rows([[color.x; ROW], [color.y; ROW], [color.z; ROW]]);
+        if light.attenuation.is_some() {
             for surface in numbers(aims.rays.mask) {
                 let (within, origin) = (stands.within(surface), aims.rays.origins.at(surface));
                 match self.emitted(walk, (light, kind), within, origin, &aims.aim(surface)) {
-                    Some(color) => colors[surface] = color,
+                    Some(color) => colors.set(surface, vector(color)),
                     None => aims.rays.mask &= !(1 << surface),
                 }
             }
@@ -199,23 +258,28 @@ impl Tracer<'_> {
                 }
             }
         }
-        for surface in numbers(lit & !shadowed) {
+        let mut lit = lit & !shadowed;
+        if self.filters_shadows && light.casts_shadows {
+            for surface in numbers(lit) {
+                let (within, origin) = (stands.within(surface), aims.rays.origins.at(surface));
+                let through = self.filtered(walk, within, origin, &aims.aim(surface));
+                let color = colors.at(surface) * vector(through);
+                colors.set(surface, color);
+                lit &= if color == Vector::ZERO { !(1 << surface) } else { u32::MAX };
+            }
+        }
+        if self.counts {
+            let finishes = numbers(lit).filter_map(|surface| stands.finish(surface));
+            finishes.for_each(|finish| shade::count(walk, finish, light));
+        }
+        let (more, cosines) = (lit & answers.more, &aims.cosines);
+        dispatch!(level, simd => answers.add(simd, lit & !more, &colors, cosines));
+        for surface in numbers(more) {
             let Some(Stand { place, .. }) = stands.at(surface) else { continue };
-            let aim = aims.aim(surface);
-            let mut color = if is_attenuated { colors[surface] } else { light.color };
-            if self.filters_shadows && light.casts_shadows {
-                let origin = aims.rays.origins.at(surface);
-                color = color * self.filtered(walk, place.within, origin, &aim);
-                if color.is_black() {
-                    continue;
-                }
-            }
-            if self.counts {
-                shade::count(walk, place.finish, light);
-            }
-            let cosine = aims.cosines[surface];
-            let answer = shade::answered(&place, (number, light), aim.to_light, cosine, 0);
-            sums[surface] += color * answer;
+            let to_light = aims.rays.directions.at(surface);
+            let answer = shade::answered(&place, (number, light), to_light, cosines[surface], 0);
+            let Vector { x: red, y: green, z: blue } = colors.at(surface);
+            answers.add_to(surface, Rgb { red, green, blue } * answer);
         }
     }
 }

@@ -58,6 +58,12 @@ impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
         self.plains[number].map(|plain| &plain.finish)
     }
 
+    /// Returns the colour of the body of this number: of as much as is not clear.
+    #[inline(always)]
+    pub fn body(&self, number: usize) -> Rgb {
+        self.bodies[number]
+    }
+
     /// Returns the solids that the ray of this number is in.
     #[inline(always)]
     pub fn within(&self, number: usize) -> Within {
