@@ -282,7 +282,8 @@ box { -1, <1, -0.9, 1> texture { Window } no_shadow }
 
 /// A lamp written once, and placed: its piece of text calls for its light already.
 const LAMPS: &str = "#macro Lamp(Beam)
-  light_source { 9, rgb 1 #if (Beam = 1) spotlight #end #if (Beam = 2) area_light x, y, 3, 3 #end }
+  light_source { 9, rgb 1 #if (Beam = 1) spotlight #end #if (Beam = 2) area_light x, y, 3, 3 #end
+    #if (Beam = 3) projected_through { sphere { 3, 1 } } #end }
 #end
 sphere { 0, 1 pigment { rgb 1 } }
 Lamp(0)
@@ -319,6 +320,7 @@ sphere { 0, 1 no_shadow }";
         (unshadowed, "sphere { x, 1 }", Effect::Shadows, "light_source { 9, rgb 1 }"),
         (LAMPS, "Lamp(1)", Effect::Attenuation, "spotlight"),
         (LAMPS, "Lamp(2)", Effect::AreaLights, "area_light x, y, 3, 3"),
+        (LAMPS, "Lamp(3)", Effect::Projections, "projected_through { sphere { 3, 1 } }"),
         (
             LIT,
             "sphere { x, 1 double_illuminate on }",
@@ -355,12 +357,6 @@ sphere { 0, 1 no_shadow }";
             "checker",
         ),
         (BARE, "sky_sphere { pigment { rgb 1 } }", Effect::Sky, "pigment { rgb 1 }"),
-        (
-            LIT,
-            "light_source { y, 1 projected_through { sphere { x, 1 } } }",
-            Effect::Projections,
-            "projected_through { sphere { x, 1 } }",
-        ),
         (LIT, "fog { distance 9 rgb 1 }", Effect::Fog, "fog { distance 9 rgb 1 }"),
         (
             LIT,
