@@ -67,7 +67,7 @@ fn of_parabola([c, b, a]: [f64; 3], low: f64, high: f64) -> Option<SmallVec<[f64
     Some(both.into_iter().filter(|s| low < *s && *s < high).collect())
 }
 
-/// Returns the roots of the derivative in a range, in order, to about [`FINE`].
+/// Returns the roots of the derivative in a range, in order, to about `FINE`.
 pub fn turning_points(values: &[f64], low: f64, high: f64) -> SmallVec<[f64; 8]> {
     let degree = values.len() - 1;
     let mut points: SmallVec<[f64; 8]> = SmallVec::new();
