@@ -32,14 +32,14 @@ struct Square {
 }
 
 impl Segment {
-    fn at(&self, z: f64, greatest: f64) -> Square {
+    fn at(&self, z: f64) -> Square {
         let size = self.high - self.low;
         let t = ((z - self.low) / size).clamp(0.0, 1.0);
         let mix = |a: f64, b: f64| (1.0 - t) * a + t * b;
         let [a, b, c, d] = self.squares;
         let (ab, bc, cd) = (mix(a, b), mix(b, c), mix(c, d));
         let (abc, bcd) = (mix(ab, bc), mix(bc, cd));
-        let error = 12.0 * U * greatest;
+        let error = 12.0 * U * self.greatest_point();
         Square { value: mix(abc, bcd), slope: 3.0 * (bcd - abc) / size, error }
     }
 
@@ -64,7 +64,7 @@ impl Segment {
     /// Upper bound on F over one of `parts` equal parts.
     fn greatest(&self, part: usize, parts: usize) -> f64 {
         let end = |i: usize| self.low + (self.high - self.low) * (i as f64 / parts as f64);
-        let (low, high) = (self.at(end(part), 0.0), self.at(end(part + 1), 0.0));
+        let (low, high) = (self.at(end(part)), self.at(end(part + 1)));
         let step = (self.high - self.low) / parts as f64;
         low.value.max(high.value) + self.bend() * step * step / 8.0
     }
@@ -78,8 +78,6 @@ pub struct Sor {
     pub open: bool,
     /// Upper bound on |F″|.
     bend: f64,
-    /// Upper bound on |F| in each segment.
-    greatest: Vec<f64>,
 }
 
 impl Sor {
@@ -87,20 +85,11 @@ impl Sor {
     /// there are none.
     pub fn new(segments: Vec<Segment>, open: bool) -> Option<Self> {
         let bend = segments.iter().map(Segment::bend).fold(0.0, f64::max);
-        let greatest = segments.iter().map(Segment::greatest_point).collect();
-        (!segments.is_empty()).then_some(Self { segments, open, bend, greatest })
+        (!segments.is_empty()).then_some(Self { segments, open, bend })
     }
 
     fn heights(&self) -> [f64; 2] {
         [self.segments[0].low, self.segments[self.segments.len() - 1].high]
-    }
-
-    /// Widens the error of a crossing with an end: at a rim, it may be passed where the side is not told.
-    fn widen_at_rim(&self, ray: &LocalRay, met: &mut Met, way: f64) {
-        let is_told = |met: &Met| self.sample(ray, met.t + way * met.error).is_inside();
-        while met.part != SIDE && met.error < FAR && !is_told(met) {
-            met.error = (2.0 * met.error).max(ray.blur_at(met.t) + U);
-        }
     }
 
     /// Returns whether an end has no width, within rounding; the surface comes to a tip there and has no end
@@ -114,27 +103,15 @@ impl Sor {
     /// F at a height, clamped to the ends.
     fn square(&self, z: f64) -> Square {
         let number = self.segments.partition_point(|segment| segment.high < z);
-        self.square_in(number.min(self.segments.len() - 1), z)
-    }
-
-    /// F at a height in a segment.
-    fn square_in(&self, number: usize, z: f64) -> Square {
-        self.segments[number].at(z, self.greatest[number])
+        self.segments[number.min(self.segments.len() - 1)].at(z)
     }
 
     /// ρ² − F along the line. **Error:** with B the error of the point, B·(2ρ + |F′|), plus the change of
     /// that within B.
     fn sample(&self, ray: &LocalRay, s: f64) -> Sample {
-        let z = ray.at(s).z;
-        let number = self.segments.partition_point(|segment| segment.high < z);
-        self.sample_in(number.min(self.segments.len() - 1), ray, s)
-    }
-
-    /// [`Self::sample`] at a position in a segment.
-    fn sample_in(&self, number: usize, ray: &LocalRay, s: f64) -> Sample {
         let (point, d) = (ray.at(s), ray.direction);
         let off = ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
-        let Square { value, slope, error } = self.square_in(number, point.z);
+        let Square { value, slope, error } = self.square(point.z);
         let square = point.x * point.x + point.y * point.y;
         let steepness = 2.0 * square.sqrt() + slope.abs();
         let [low, high] = self.heights();
@@ -149,56 +126,27 @@ impl Sor {
 
 impl Local for Sor {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        self.first_crossings(ray, (f64::NEG_INFINITY, f64::INFINITY), found);
-    }
-
-    fn first_crossings(&self, ray: &LocalRay, (from, to): (f64, f64), found: &mut Crossings) {
         let Some((first, last)) = between(ray, self.heights()) else { return };
-        let ahead = ray.ahead_of(from);
         let seen = |met: Met| match met.part {
             CAP | BASE if self.open && self.is_tip(met.part) => Met { part: SIDE, ..met },
             CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
             _ => met,
         };
-        for pair in self.round(ray, from).chunks_exact(2) {
-            let [entered, left] = [&pair[0], &pair[1]];
-            // A ray that leaves the surface need not be told where it does so.
-            let is_left =
-                || left.low < ahead && ahead < left.high && self.sample(ray, ahead).is_outside();
-            if left.high < from || is_left() {
-                continue;
-            }
-            if entered.low > to {
-                return;
-            }
-            let is_behind = entered.high < from
-                && (first.t + first.error < from || entered.high < first.t - first.error);
-            let entry = if is_behind { entered.somewhere() } else { entered.met(self, ray) };
-            let mut enter = entry.later(first);
-            // The first that is visible is enough, where it is certainly before the exit.
-            let is_enough = |met: &Met| met.t - met.error > ahead && seen(*met).is_seen();
-            let end = left.low.min(last.t - last.error);
-            if enter.t < end {
-                self.widen_at_rim(ray, &mut enter, 1.0);
-                if enter.t + enter.error < end && is_enough(&enter) {
-                    found.push(seen(enter));
-                    return;
-                }
-            }
-            let mut leave = left.met(self, ray).earlier(last);
+        for pair in self.round(ray).chunks_exact(2) {
+            let (mut enter, mut leave) = (pair[0].later(first), pair[1].earlier(last));
             if enter.t >= leave.t {
                 continue;
             }
-            self.widen_at_rim(ray, &mut enter, 1.0);
-            self.widen_at_rim(ray, &mut leave, -1.0);
+            // At a rim, an end may be passed where the round is not told.
+            for (met, way) in [(&mut enter, 1.0), (&mut leave, -1.0)] {
+                let is_told = |met: &Met| self.sample(ray, met.t + way * met.error).is_inside();
+                while met.part != SIDE && met.error < FAR && !is_told(met) {
+                    met.error = (2.0 * met.error).max(ray.blur_at(met.t) + U);
+                }
+            }
             // What rounding cannot tell from a miss is missed.
             if enter.t + enter.error < leave.t - leave.error {
-                let is_requested = !is_behind || enter.part != SIDE;
-                found.extend(is_requested.then_some(seen(enter)));
-                found.push(seen(leave));
-                if is_enough(&leave) {
-                    return;
-                }
+                found.extend([seen(enter), seen(leave)]);
             }
         }
     }

@@ -26,47 +26,8 @@ struct Course {
     root: f64,
 }
 
-/// A crossing with the side, which is certainly between two positions.
-pub(super) struct Bracket {
-    pub low: f64,
-    pub high: f64,
-    leaving: bool,
-    /// Approximate position, where known, and the segment of the entire bracket.
-    near: f64,
-    segment: Option<usize>,
-    /// Whether nothing more is known of it.
-    is_vague: bool,
-}
-
-impl Bracket {
-    /// Returns a position between the two.
-    pub fn somewhere(&self) -> Met {
-        let t = 0.5 * (self.low + self.high);
-        Met { t, error: 0.0, leaving: self.leaving, part: SIDE }
-    }
-
-    /// Returns the crossing.
-    pub fn met(&self, sor: &Sor, ray: &LocalRay) -> Met {
-        let Self { low, high, leaving, near, segment, is_vague } = *self;
-        if is_vague {
-            let t = if leaving { high } else { low };
-            return Met { t, error: high - low, leaving, part: SIDE };
-        }
-        let ends = if leaving { (high, low) } else { (low, high) };
-        let Root { t, error } = match segment {
-            Some(number) => root(|s| sor.sample_in(number, ray, s), ends, near, ray.tolerance),
-            None => root(|s| sor.sample(ray, s), ends, near, ray.tolerance),
-        };
-        Met { t, error, leaving, part: SIDE }
-    }
-}
-
-/// Newton steps toward an approximate root, at most, and the last step from which on it is near enough.
-const STEPS: usize = 8;
-const NEAR: f64 = 1e-8;
-
-/// Returns the approximate root of a cubic with one root in 0 … 1, from its Bézier points. **Method:** Newton
-/// steps from the root of the chord.
+/// Returns the approximate root of a cubic with one root in 0 … 1, from its Bézier points. **Method:** three
+/// Newton steps from the root of the chord.
 fn near_root([a, b, c, d]: [f64; 4]) -> f64 {
     let (linear, quadratic, cubic) =
         (3.0 * (b - a), 3.0 * ((c - b) - (b - a)), (d - a) - 3.0 * (c - b));
@@ -75,24 +36,14 @@ fn near_root([a, b, c, d]: [f64; 4]) -> f64 {
         let slope = linear + t * (2.0 * quadratic + t * 3.0 * cubic);
         (t - value / slope).clamp(0.0, 1.0)
     };
-    let mut root = a / (a - d);
-    for _ in 0..STEPS {
-        let next = step(root);
-        let is_last = (next - root).abs() <= NEAR;
-        root = next;
-        if is_last {
-            break;
-        }
-    }
-    root
+    step(step(step(a / (a - d))))
 }
 
 impl Sor {
     /// Returns the course through a segment, between the positions of its ends. **Method:** along the line,
     /// ρ² − F is a cubic; it is bounded by its Bézier points and has at most as many roots as these have sign
     /// changes.
-    fn course(&self, ray: &LocalRay, number: usize, ends: [f64; 2]) -> Course {
-        let segment = &self.segments[number];
+    fn course(&self, ray: &LocalRay, segment: &Segment, ends: [f64; 2]) -> Course {
         if !ends.iter().all(|s| s.abs() < FAR) {
             return Course { sides: [None; 2], tells_all: false, root: f64::NAN };
         }
@@ -105,7 +56,7 @@ impl Sor {
         let off = ray.blur_at(farthest) + 8.0 * U * (1.0 + farthest);
         let steepness = 2.0 * greatest.sqrt() + segment.steepness();
         // Of a sample as well as of the Bézier points.
-        let error = 32.0 * U * (greatest + self.greatest[number])
+        let error = 32.0 * U * (greatest + segment.greatest_point())
             + 2.0 * off * (steepness + off * (1.0 + self.bend));
         let [p, q, r, t] = segment.squares;
         let points = if ray.direction.z < 0.0 { [t, r, q, p] } else { [p, q, r, t] };
@@ -145,28 +96,19 @@ impl Sor {
         turns
     }
 
-    /// Returns the crossings with the side, without the ends, at least those not certainly before `from`:
-    /// steps between the extrema of ρ² − F and the ends of segments, between which it is monotone.
-    pub(super) fn round(&self, ray: &LocalRay, from: f64) -> SmallVec<[Bracket; 6]> {
+    /// Returns the crossings with the side, without the ends: steps between the extrema of ρ² − F and the
+    /// ends of segments, between which it is monotone.
+    pub(super) fn round(&self, ray: &LocalRay) -> SmallVec<[Met; 6]> {
         let mut walk = Walk::new(self, ray);
         let (n, d) = (ray.nearest, ray.direction);
         let nearest = -(n.x * d.x + n.y * d.y) / (d.x * d.x + d.y * d.y);
         let (count, is_down) = (self.segments.len(), d.z < 0.0);
-        let number_of = |number: usize| if is_down { count - 1 - number } else { number };
-        let ends = |number: usize| {
-            let segment = &self.segments[number_of(number)];
+        for number in 0..count {
+            let segment = &self.segments[if is_down { count - 1 - number } else { number }];
             let place = |z: f64| (z - n.z) / d.z;
             let (low, high) = (place(segment.low), place(segment.high));
-            if is_down { [high, low] } else { [low, high] }
-        };
-        let course = |number| self.course(ray, number_of(number), ends(number));
-        let mut skipped = (0..count).take_while(|number| ends(*number)[1] < from).count();
-        if skipped == count || skipped > 0 && course(skipped).sides[0].is_none() {
-            skipped = 0;
-        }
-        for number in skipped..count {
-            let [begin, end] = ends(number);
-            let Course { sides, tells_all, root } = course(number);
+            let (begin, end) = if is_down { (high, low) } else { (low, high) };
+            let Course { sides, tells_all, root } = self.course(ray, segment, [begin, end]);
             // Beyond the ends it tells on which side a rim is passed.
             if number == 0 && sides[0].is_none() {
                 walk.to(-FAR, None);
@@ -179,14 +121,13 @@ impl Sor {
                 let is_flat = !(begin.abs() < FAR && end.abs() < FAR);
                 let nearest =
                     if is_flat && !(nearest < begin || nearest > end) { nearest } else { f64::NAN };
-                let segment = &self.segments[number_of(number)];
                 for turn in self.turns(ray, segment, nearest) {
                     walk.to(turn, None);
                 }
             }
-            (walk.near, walk.segment) = (root, tells_all.then_some(number_of(number)));
+            walk.near = root;
             walk.to(end, sides[1]);
-            (walk.near, walk.segment) = (f64::NAN, None);
+            walk.near = f64::NAN;
             if number + 1 == count && sides[1].is_none() {
                 if nearest > end {
                     walk.to(nearest, None);
@@ -202,20 +143,18 @@ impl Sor {
 struct Walk<'a> {
     sor: &'a Sor,
     ray: &'a LocalRay<'a>,
-    found: SmallVec<[Bracket; 6]>,
+    found: SmallVec<[Met; 6]>,
     /// The last position whose side was certain.
     told: Option<(f64, bool)>,
     /// The last position.
     last: Option<(f64, Side)>,
-    /// Approximate position of the root before the next position, where known, and the segment that it is in.
+    /// Approximate position of the root before the next position, where known.
     near: f64,
-    segment: Option<usize>,
 }
 
 impl<'a> Walk<'a> {
     fn new(sor: &'a Sor, ray: &'a LocalRay<'a>) -> Self {
-        let (found, near) = (SmallVec::new(), f64::NAN);
-        Self { sor, ray, found, told: None, last: None, near, segment: None }
+        Self { sor, ray, found: SmallVec::new(), told: None, last: None, near: f64::NAN }
     }
 
     fn side(&self, s: f64) -> Side {
@@ -243,27 +182,25 @@ impl<'a> Walk<'a> {
     }
 
     fn note(&mut self, s: f64, side: Side) {
+        let met = |t, error, leaving| Met { t, error, leaving, part: SIDE };
         let Some(outside) = side else { return };
         match self.told.replace((s, outside)) {
             // What is not told before may all be outside.
-            None if !outside => self.found.push(Self::vague(-FAR, s, false)),
+            None if !outside => self.found.push(met(-FAR, s + FAR, false)),
             Some((from, was)) if was != outside => {
-                let Self { near, segment, .. } = *self;
-                let (low, high, leaving) = (from, s, outside);
-                self.found.push(Bracket { low, high, leaving, near, segment, is_vague: false });
+                let (far, deep) = if outside { (s, from) } else { (from, s) };
+                let sample = |s| self.sor.sample(self.ray, s);
+                let Root { t, error } = root(sample, (far, deep), self.near, self.ray.tolerance);
+                self.found.push(met(t, error, outside));
             }
             _ => {}
         }
     }
 
-    fn vague(low: f64, high: f64, leaving: bool) -> Bracket {
-        Bracket { low, high, leaving, near: f64::NAN, segment: None, is_vague: true }
-    }
-
     /// Returns the crossings; a line that is inside at the end leaves there.
-    fn found(mut self) -> SmallVec<[Bracket; 6]> {
+    fn found(mut self) -> SmallVec<[Met; 6]> {
         if let Some((last, false)) = self.told {
-            self.found.push(Self::vague(last, FAR, true));
+            self.found.push(Met { t: FAR, error: FAR - last, leaving: true, part: SIDE });
         }
         self.found
     }
