@@ -31,6 +31,11 @@ pub trait PacketSeeker {
     /// Returns how far each ray goes; −∞ where its search has ended.
     fn limits(&self) -> &Row;
 
+    /// Returns the instructions to search with.
+    fn instructions(&self) -> Instructions {
+        Instructions::best()
+    }
+
     /// Takes note of a visit to a node.
     fn node(&mut self);
 }
@@ -252,7 +257,7 @@ impl Tree {
         let mut packet = Packet::NONE;
         let goes_together = rays.mask.count_ones() >= LEAST
             && dispatch!(
-                Instructions::best().level(),
+                seeker.instructions().level(),
                 simd => packet.find(simd, rays, slack, &limits, &self.space)
             );
         if !goes_together {

@@ -75,7 +75,7 @@ impl Geometry {
             return;
         }
         let mut races = Races::new(self, rays, self.counts.then_some(work));
-        self.search_together(rays, &mut races);
+        self.search_together(&mut races);
         races.finish(hits);
     }
 

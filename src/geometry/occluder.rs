@@ -53,7 +53,7 @@ impl Geometry {
                 dispatch!(self.instructions.level(), simd => shades.look(simd, guess.0, rays.mask));
             }
             if shades.open() != 0 {
-                self.search_together(rays, &mut shades);
+                self.search_together(&mut shades);
             }
             return shades.finish(guess);
         }

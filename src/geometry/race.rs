@@ -5,11 +5,9 @@
 
 use super::nearest::Race;
 use super::search::RowSeeker;
-use super::work::Tally;
-use super::{EASY, Entry, Geometry, Hit, Sides, Solid, Work};
-use crate::bvh::packet;
+use super::{EASY, Entry, Geometry, Hit, Work};
 use crate::math::wide::*;
-use crate::shape::local::{Local, Met};
+use crate::shape::local::Met;
 use crate::shape::{First, Ray};
 use smallvec::SmallVec;
 
@@ -87,32 +85,6 @@ impl<'a> Races<'a> {
         race.finish()
     }
 
-    /// Looks at an entry for the ray of this number alone.
-    #[inline(never)]
-    fn look_alone(&mut self, entry: &Entry, number: usize) {
-        let (ray, limit) = (self.rays.at(number), self.limits[number]);
-        if let Some(hit) = self.geometry.first_crossing::<EASY>(entry, &ray, limit) {
-            self.take_one(number, hit);
-        }
-    }
-
-    /// Looks at a body for the rays whose bits are set.
-    #[inline(never)]
-    fn look_together(&mut self, entry: &Entry, body: u32, mask: u32) {
-        let rays: SmallVec<[Ray; ROW]> = numbers(mask).map(|number| self.rays.at(number)).collect();
-        let limits: SmallVec<[f64; ROW]> =
-            numbers(mask).map(|number| self.limits[number]).collect();
-        let geometry = self.geometry;
-        let found = geometry.placed[body as usize].first_crossings_together(&rays, &limits);
-        for (number, (found, (ray, limit))) in
-            numbers(mask).zip(found.iter().zip(rays.iter().zip(&limits)))
-        {
-            if let Some(met) = geometry.first_of(body, entry.sides, ray, *limit, found) {
-                self.take_one(number, entry.hit(met));
-            }
-        }
-    }
-
     /// Takes note of where the ray of this number first meets an entry.
     #[inline(always)]
     fn take_one(&mut self, number: usize, hit: Hit) {
@@ -128,69 +100,17 @@ impl<'a> Races<'a> {
             self.rival_t[number] = hit.t;
         }
     }
-
-    /// Takes note of where the rays of a group first meet an entry.
-    #[inline(always)]
-    fn take<S: Simd>(&mut self, simd: S, entry: &Entry, group: usize, first: First<S>) {
-        let (t, rival_t) = (four(simd, &self.t, group), four(simd, &self.rival_t, group));
-        let limit = four(simd, &self.limits, group);
-        let nearer = first.t.simd_lt(t);
-        let rival = first.t.simd_lt(rival_t).select(first.t, rival_t);
-        let new_limit = first.t + first.error * all(simd, 2.0);
-        store(nearer.select(t, rival), &mut self.rival_t, group);
-        store(nearer.select(new_limit, limit), &mut self.limits, group);
-        store(nearer.select(first.t, t), &mut self.t, group);
-        let nearer = bits(nearer, group);
-        self.leaving = self.leaving & !nearer | bits(first.leaving, group) & nearer;
-        self.is_contested &= !nearer;
-        for number in numbers(nearer) {
-            (self.object[number], self.part[number]) = (entry.object, Met::UNKNOWN);
-        }
-        for number in numbers(bits(first.unsure, group)) {
-            self.look_alone(entry, number);
-        }
-    }
 }
 
-impl RowSeeker for Races<'_> {
+impl<'a> RowSeeker<'a> for Races<'a> {
     #[inline(always)]
-    fn look<S: Simd>(&mut self, simd: S, place: usize, mask: u32) {
-        let geometry = self.geometry;
-        let entry = &geometry.entries[place];
-        self.tally.root_solves(mask.count_ones(), || geometry.price(entry));
-        match &entry.solid {
-            Solid::Sphere(sphere) if mask.count_ones() > 1 => {
-                let inside = entry.sides == Sides::Inside;
-                for group in 0..GROUPS {
-                    if !has(mask, group) {
-                        continue;
-                    }
-                    let (ray, limit) =
-                        (self.rays.four(simd, group), four(simd, &self.limits, group));
-                    let first = sphere.first_of_four(simd, &ray, inside, limit);
-                    self.take(simd, entry, group, first);
-                }
-            }
-            Solid::Plane(plane) => {
-                let shows = [false, true].map(|leaving| entry.sides.shows(leaving));
-                for group in 0..GROUPS {
-                    if !has(mask, group) {
-                        continue;
-                    }
-                    let (ray, limit) =
-                        (self.rays.four(simd, group), four(simd, &self.limits, group));
-                    let first = plane.first_of_four(simd, &ray, shows, limit);
-                    self.take(simd, entry, group, first);
-                }
-            }
-            Solid::Placed(i)
-                if mask.count_ones() >= packet::LEAST
-                    && geometry.placed[*i as usize].body.goes_together() =>
-            {
-                self.look_together(entry, *i, mask);
-            }
-            _ => numbers(mask).for_each(|number| self.look_alone(entry, number)),
-        }
+    fn geometry(&self) -> &'a Geometry {
+        self.geometry
+    }
+
+    #[inline(always)]
+    fn rays(&self) -> &'a Rays {
+        self.rays
     }
 
     #[inline(always)]
@@ -204,7 +124,60 @@ impl RowSeeker for Races<'_> {
     }
 
     #[inline(always)]
-    fn box_visit(&mut self) {
-        self.tally.box_visit();
+    fn tally(&mut self) -> &mut Option<&'a mut Work> {
+        &mut self.tally
+    }
+
+    #[inline(always)]
+    fn concerns(&self, _: &Entry) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn take<S: Simd>(&mut self, simd: S, place: usize, group: usize, first: First<S>) {
+        let (t, rival_t) = (four(simd, &self.t, group), four(simd, &self.rival_t, group));
+        let limit = four(simd, &self.limits, group);
+        let nearer = first.t.simd_lt(t);
+        let rival = first.t.simd_lt(rival_t).select(first.t, rival_t);
+        let new_limit = first.t + first.error * all(simd, 2.0);
+        store(nearer.select(t, rival), &mut self.rival_t, group);
+        store(nearer.select(new_limit, limit), &mut self.limits, group);
+        store(nearer.select(first.t, t), &mut self.t, group);
+        let nearer = bits(nearer, group);
+        let object = self.geometry.entries[place].object;
+        self.leaving = self.leaving & !nearer | bits(first.leaving, group) & nearer;
+        self.is_contested &= !nearer;
+        for number in numbers(nearer) {
+            (self.object[number], self.part[number]) = (object, Met::UNKNOWN);
+        }
+        for number in numbers(bits(first.unsure, group)) {
+            self.look_alone(place, number);
+        }
+    }
+
+    #[inline(never)]
+    fn look_alone(&mut self, place: usize, number: usize) {
+        let entry = &self.geometry.entries[place];
+        let (ray, limit) = (self.rays.at(number), self.limits[number]);
+        if let Some(hit) = self.geometry.first_crossing::<EASY>(entry, &ray, limit) {
+            self.take_one(number, hit);
+        }
+    }
+
+    #[inline(never)]
+    fn look_together(&mut self, place: usize, body: u32, mask: u32) {
+        let rays: SmallVec<[Ray; ROW]> = numbers(mask).map(|number| self.rays.at(number)).collect();
+        let limits: SmallVec<[f64; ROW]> =
+            numbers(mask).map(|number| self.limits[number]).collect();
+        let geometry = self.geometry;
+        let entry = &geometry.entries[place];
+        let found = geometry.placed[body as usize].first_crossings_together(&rays, &limits);
+        for (number, (found, (ray, limit))) in
+            numbers(mask).zip(found.iter().zip(rays.iter().zip(&limits)))
+        {
+            if let Some(met) = geometry.first_of(body, entry.sides, ray, *limit, found) {
+                self.take_one(number, entry.hit(met));
+            }
+        }
     }
 }

@@ -5,11 +5,12 @@
 use std::ops::Range;
 
 use super::work::Tally;
-use super::{Entry, Geometry, Solid, balls};
-use crate::bvh::packet::PacketSeeker;
+use super::{Entry, Geometry, Sides, Solid, Work, balls};
+use crate::bvh::packet::{self, PacketSeeker};
 use crate::bvh::{self, Tree};
 use crate::math::wide::*;
-use crate::shape::Ray;
+use crate::shape::local::Local;
+use crate::shape::{First, Ray};
 
 /// Who looks for something among the entries.
 ///
@@ -83,9 +84,10 @@ impl Geometry {
 }
 
 /// Who looks for something among the entries, for rays side by side.
-pub(super) trait RowSeeker {
-    /// Looks at the entry of that place for the rays whose bits are set, and perhaps for others.
-    fn look<S: Simd>(&mut self, simd: S, place: usize, mask: u32);
+pub(super) trait RowSeeker<'a> {
+    fn geometry(&self) -> &'a Geometry;
+
+    fn rays(&self) -> &'a Rays;
 
     /// Returns a bit for each ray whose search goes on.
     fn open(&self) -> u32;
@@ -93,19 +95,74 @@ pub(super) trait RowSeeker {
     /// Returns how far each ray goes; −∞ where its search has ended.
     fn limits(&self) -> &Row;
 
-    /// Takes note of a visit to a node, of all rays together.
-    fn box_visit(&mut self);
+    fn tally(&mut self) -> &mut Option<&'a mut Work>;
+
+    /// Returns whether an entry is looked at.
+    fn concerns(&self, entry: &Entry) -> bool;
+
+    /// Takes note of where the rays of a group first meet an entry.
+    fn take<S: Simd>(&mut self, simd: S, place: usize, group: usize, first: First<S>);
+
+    /// Looks at an entry for the ray of this number alone.
+    fn look_alone(&mut self, place: usize, number: usize);
+
+    /// Looks at a body that goes together for the rays whose bits are set.
+    fn look_together(&mut self, place: usize, body: u32, mask: u32);
+
+    /// Looks at the entry of that place for the rays whose bits are set, and perhaps for others.
+    #[inline(always)]
+    fn look<S: Simd>(&mut self, simd: S, place: usize, mask: u32) {
+        let geometry = self.geometry();
+        let entry = &geometry.entries[place];
+        if !self.concerns(entry) {
+            return;
+        }
+        self.tally().root_solves(mask.count_ones(), || geometry.price(entry));
+        match &entry.solid {
+            Solid::Sphere(sphere) if mask.count_ones() > 1 => {
+                let inside = entry.sides == Sides::Inside;
+                for group in 0..GROUPS {
+                    if has(mask, group) {
+                        let ray = self.rays().four(simd, group);
+                        let limit = four(simd, self.limits(), group);
+                        let first = sphere.first_of_four(simd, &ray, inside, limit);
+                        self.take(simd, place, group, first);
+                    }
+                }
+            }
+            Solid::Plane(plane) => {
+                let shows = [entry.sides.shows(false), entry.sides.shows(true)];
+                for group in 0..GROUPS {
+                    if has(mask, group) {
+                        let ray = self.rays().four(simd, group);
+                        let limit = four(simd, self.limits(), group);
+                        let first = plane.first_of_four(simd, &ray, shows, limit);
+                        self.take(simd, place, group, first);
+                    }
+                }
+            }
+            Solid::Placed(i)
+                if mask.count_ones() >= packet::LEAST
+                    && entry.sides == Sides::Both
+                    && geometry.placed[*i as usize].body.goes_together() =>
+            {
+                self.look_together(place, *i, mask);
+            }
+            _ => numbers(mask).for_each(|number| self.look_alone(place, number)),
+        }
+    }
 }
 
 impl Geometry {
     /// [`Self::search`] for rays side by side.
     #[inline(always)]
-    pub(super) fn search_together(&self, rays: &Rays, seeker: &mut impl RowSeeker) {
-        dispatch!(self.instructions.level(), simd => self.search_row(simd, rays, seeker));
+    pub(super) fn search_together<'a>(&self, seeker: &mut impl RowSeeker<'a>) {
+        dispatch!(self.instructions.level(), simd => self.search_row(simd, seeker));
     }
 
     #[inline(always)]
-    fn search_row<S: Simd>(&self, simd: S, rays: &Rays, seeker: &mut impl RowSeeker) {
+    fn search_row<'a, S: Simd>(&self, simd: S, seeker: &mut impl RowSeeker<'a>) {
+        let rays = seeker.rays();
         for (place, entry) in self.entries[..self.unbounded].iter().enumerate() {
             let mask = seeker.open() & entry.ahead_of(simd, rays);
             if mask != 0 {
@@ -130,17 +187,17 @@ impl Geometry {
             }
             return;
         };
-        tree.visit_together(rays, 0.0, &mut PacketEntries { seeker, geometry: self });
+        tree.visit_together(rays, 0.0, &mut PacketEntries { geometry: seeker.geometry(), seeker });
     }
 }
 
 /// Shows the seeker of rays the entries of the tree's leaves, one by one.
-struct PacketEntries<'a, S> {
-    seeker: &'a mut S,
+struct PacketEntries<'s, 'a, S> {
+    seeker: &'s mut S,
     geometry: &'a Geometry,
 }
 
-impl<K: RowSeeker> PacketEntries<'_, K> {
+impl<'a, K: RowSeeker<'a>> PacketEntries<'_, 'a, K> {
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, pieces: Range<usize>, mask: u32) {
         for piece in pieces {
@@ -152,7 +209,7 @@ impl<K: RowSeeker> PacketEntries<'_, K> {
     }
 }
 
-impl<K: RowSeeker> PacketSeeker for PacketEntries<'_, K> {
+impl<'a, K: RowSeeker<'a>> PacketSeeker for PacketEntries<'_, 'a, K> {
     #[inline(always)]
     fn leaf(&mut self, mask: u32, pieces: Range<usize>) {
         dispatch!(self.geometry.instructions.level(), simd => self.look(simd, pieces, mask));
@@ -164,8 +221,13 @@ impl<K: RowSeeker> PacketSeeker for PacketEntries<'_, K> {
     }
 
     #[inline(always)]
+    fn instructions(&self) -> Instructions {
+        self.geometry.instructions
+    }
+
+    #[inline(always)]
     fn node(&mut self) {
-        self.seeker.box_visit();
+        self.seeker.tally().box_visit();
     }
 }
 

@@ -148,8 +148,8 @@ impl SurfacePoints {
     }
 
     #[inline(always)]
-    fn store<S: Simd>(&mut self, simd: S, group: usize, mask: u32, found: WidePoints<S>) {
-        let mask = Mask::from_bitmask(simd, u64::from(mask >> (LANES * group)) & 15);
+    fn store<S: Simd>(&mut self, simd: S, group: usize, solved: u32, found: WidePoints<S>) {
+        let mask = mask(simd, solved, group);
         let WidePoints { point, normal, error, .. } = found;
         point.or(mask, WideVector::of(simd, &self.points, group)).store(&mut self.points, group);
         normal.or(mask, WideVector::of(simd, &self.normals, group)).store(&mut self.normals, group);
@@ -160,7 +160,7 @@ impl SurfacePoints {
     #[inline(always)]
     fn leave<S: Simd>(&mut self, simd: S, leaving: u32) {
         for group in 0..GROUPS {
-            let leaving = Mask::from_bitmask(simd, u64::from(leaving >> (LANES * group)) & 15);
+            let leaving = mask(simd, leaving, group);
             let normal = WideVector::of(simd, &self.normals, group);
             let error = four(simd, &self.errors, group);
             let origin =

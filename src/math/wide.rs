@@ -47,12 +47,6 @@ impl Instructions {
     }
 }
 
-impl Default for Instructions {
-    fn default() -> Self {
-        Self::best()
-    }
-}
-
 /// No result depends on them.
 impl PartialEq for Instructions {
     fn eq(&self, _: &Self) -> bool {
@@ -144,6 +138,12 @@ pub(crate) fn store<S: Simd>(numbers: Wide<S>, row: &mut Row, group: usize) {
 #[inline(always)]
 pub(crate) fn bits<S: Simd>(mask: Mask<S>, group: usize) -> u32 {
     (mask.to_bitmask() as u32) << (LANES * group)
+}
+
+/// Returns the lanes of a group whose bits are set in those of a row.
+#[inline(always)]
+pub(crate) fn mask<S: Simd>(simd: S, bits: u32, group: usize) -> Mask<S> {
+    Mask::from_bitmask(simd, u64::from(bits >> (LANES * group)) & ((1 << LANES) - 1))
 }
 
 /// Returns whether a group has one of the bits of a row.

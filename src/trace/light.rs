@@ -169,18 +169,17 @@ impl Answers {
 
     /// Adds the light that bodies scatter.
     #[inline(always)]
-    fn add<S: Simd>(&mut self, simd: S, mask: u32, colors: &Rows, cosines: &Row) {
+    fn add<S: Simd>(&mut self, simd: S, lit: u32, colors: &Rows, cosines: &Row) {
         for group in 0..GROUPS {
-            if !has(mask, group) {
+            if !has(lit, group) {
                 continue;
             }
             let part = four(simd, &self.diffuse, group) * four(simd, cosines, group).abs();
             let body = WideVector::of(simd, &self.bodies, group) * part;
             let ([a, b, c], [x, y, z]) = (WideVector::of(simd, colors, group).0, body.0);
             let sum = WideVector::of(simd, &self.sums, group);
-            let mask = Mask::from_bitmask(simd, u64::from(mask >> (LANES * group)) & 15);
             let new = sum + WideVector([a * x, b * y, c * z]);
-            new.or(mask, sum).store(&mut self.sums, group);
+            new.or(mask(simd, lit, group), sum).store(&mut self.sums, group);
         }
     }
 

@@ -70,8 +70,7 @@ impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
         self.ways[number].within
     }
 
-    /// Returns the points of surfaces, where rays start that leave them, and the normals that it is lit by, but those that are
-    /// [`Self::shaped`].
+    /// Returns the points of surfaces, where rays start that leave them, and the normals that they lie by.
     pub fn rows(&self) -> (&'c Rows, &'c Rows, &'c Rows) {
         let SurfacePoints { points, origins, facing, .. } = self.surfaces;
         (points, origins, facing)
@@ -177,13 +176,13 @@ impl<'a> Tracer<'a> {
             let object = &self.world.objects[hits[number].object as usize];
             let mut local = stands.local[number];
             let goes_on = self.secondary && way.level < self.max_trace_level;
+            // Of those that are neither, no ray goes on, and no light from behind is seen.
             if mirrors >> number & 1 == 1 {
                 if goes_on {
                     let origin = points.origins.at(number);
                     let ray = Ray { origin, direction: mirrored.at(number) };
                     self.mirror(walk, way, finish, ray, to);
                 }
-                // The rest has no rays that go on, and no light from behind.
             } else if finish.reflection.is_some()
                 || finish.extras.is_some()
                 || object.double_illuminate

@@ -275,20 +275,23 @@ impl Evaluator<'_> {
         light: Option<&mut LightSource>,
         modifiers: &[Modifier],
     ) -> Outcome<()> {
-        if !self.is_before_block() {
-            self.block_is_missing(token, Word::LooksLike);
-            self.skip_values();
-            return Err(Reported);
-        }
-        let object = self.object_block(token)?;
+        let object = self.object_of_light(token, Word::LooksLike)?;
         if let Some(light) = light {
             light.looks_like = Some(LooksLike { object, after: transforms_of(modifiers) });
         }
         Ok(())
     }
-}
 
-impl Evaluator<'_> {
+    /// Reads the object in the block of a light's word.
+    fn object_of_light(&mut self, token: &Token, word: Word) -> Outcome<ObjectId> {
+        if !self.is_before_block() {
+            self.block_is_missing(token, word);
+            self.skip_values();
+            return Err(Reported);
+        }
+        self.object_block(token)
+    }
+
     /// Reads the object that the light shines through.
     fn projected_through(
         &mut self,
@@ -305,12 +308,7 @@ impl Evaluator<'_> {
             self.skip_arguments(Word::ProjectedThrough);
             return Err(self.report(&token.here, diagnostic));
         }
-        if !self.is_before_block() {
-            self.block_is_missing(token, Word::ProjectedThrough);
-            self.skip_values();
-            return Err(Reported);
-        }
-        let object = self.object_block(token)?;
+        let object = self.object_of_light(token, Word::ProjectedThrough)?;
         if let Some(light) = light {
             let (after, site) = (transforms_of(modifiers), self.whole(token));
             light.projected_through = Some(ProjectedThrough { object, after, site });

@@ -83,7 +83,14 @@ impl Mesh {
 }
 
 impl<F: FnMut(usize, Met) -> f64> Search<'_, '_, F> {
-    /// Looks at a face for the lines whose bits are set.
+    /// Looks at faces for the lines whose bits are set.
+    #[inline(always)]
+    fn faces<S: Simd>(&mut self, simd: S, faces: Range<usize>, mask: u32) {
+        for number in faces {
+            self.face(simd, number, mask);
+        }
+    }
+
     #[inline(always)]
     fn face<S: Simd>(&mut self, simd: S, number: usize, mask: u32) {
         let corners = self.mesh.corners_of(&self.mesh.faces[number]);
@@ -148,10 +155,7 @@ fn turns_surely<S: Simd>(
 impl<F: FnMut(usize, Met) -> f64> PacketSeeker for Search<'_, '_, F> {
     #[inline(always)]
     fn leaf(&mut self, mask: u32, pieces: Range<usize>) {
-        let level = Instructions::best().level();
-        for number in pieces {
-            dispatch!(level, simd => self.face(simd, number, mask));
-        }
+        dispatch!(self.instructions().level(), simd => self.faces(simd, pieces, mask));
     }
 
     #[inline(always)]
