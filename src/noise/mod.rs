@@ -48,39 +48,7 @@ pub fn noise(generator: NoiseGenerator, point: Vector) -> f64 {
     value
 }
 
-/// Returns the noise at several points: four take less time than each alone. Always inlined, into a function that
-/// [`dispatch`](crate::math::wide::dispatch) compiles for the instructions at hand.
-#[inline(always)]
-pub(crate) fn noises_at<const N: usize>(
-    generator: NoiseGenerator,
-    point: impl Fn(usize) -> Vector,
-    count: usize,
-) -> [f64; N] {
-    let mut values = [0.0; N];
-    let mut first = 0;
-    while first + 2 < count {
-        let mut points = [[0.0; 4]; 3];
-        for l in 0..4 {
-            let Vector { x, y, z } = point((first + l).min(count - 1));
-            (points[0][l], points[1][l], points[2][l]) = (x, y, z);
-        }
-        let four = noises(generator, points);
-        for l in 0..4 {
-            if first + l < count {
-                values[first + l] = four[l];
-            }
-        }
-        first += 4;
-    }
-    if first < count {
-        let (one, other) = (point(first), point(count - 1));
-        let two = noises(generator, [[one.x, other.x], [one.y, other.y], [one.z, other.z]]);
-        (values[first], values[count - 1]) = (two[0], two[1]);
-    }
-    values
-}
-
-/// Returns the noise at several points, given as x, y and z of each.
+/// Returns the noise at several points, given as x, y and z of each. Two at once take less time than each alone.
 #[inline(always)]
 pub(crate) fn noises<const L: usize>(generator: NoiseGenerator, points: [[f64; L]; 3]) -> [f64; L] {
     let mut values = match generator {
@@ -116,7 +84,7 @@ pub fn bounds_and_slopes(
 }
 
 /// Returns three independent noises: a displacement of `point`, centred on zero.
-#[inline(always)]
+#[inline]
 pub fn vector_noise(point: Vector) -> Vector {
     // Four take as long as three.
     let [x, y, z, _] = blend(point);
@@ -124,7 +92,7 @@ pub fn vector_noise(point: Vector) -> Vector {
 }
 
 /// Returns x and y of [`vector_noise`].
-#[inline(always)]
+#[inline]
 pub(crate) fn planar_noise(point: Vector) -> [f64; 2] {
     blend(point)
 }
@@ -282,7 +250,6 @@ pub fn cell_number([i, j, k]: [i64; 3]) -> usize {
 /// The origin of the table is at (−10000, −10000, −10000).
 const LATTICE_ORIGIN: i64 = 10_000;
 
-#[inline(always)]
 fn step(index: usize) -> usize {
     usize::from(PERMUTATION[index % PERMUTATION.len()])
 }

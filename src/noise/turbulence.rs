@@ -4,14 +4,10 @@
 //! (`f32`), their powers in double precision, as found in POV-Ray 3.7.
 
 use super::range::vector_range;
-use super::{NoiseGenerator, bounds, noises_at, planar_noise, vector_noise};
+use super::{NoiseGenerator, bounds, noise, noises, planar_noise, vector_noise};
 use crate::math::Vector;
 use crate::math::finite::single;
 use crate::math::interval::Interval;
-use crate::math::wide::{Instructions, dispatch};
-
-/// The most layers.
-const MOST: usize = 10;
 
 /// The parameters of turbulence.
 ///
@@ -33,62 +29,44 @@ impl Turbulence {
     /// Builds turbulence. `lambda` is the ratio of the frequencies of consecutive layers, `omega` that of
     /// their amplitudes. `octaves` is the number of layers, truncated and clamped to 1 … 10.
     pub fn new(lambda: f64, omega: f64, octaves: f64) -> Self {
-        let octaves = octaves.clamp(1.0, MOST as f64) as u8;
+        let octaves = octaves.clamp(1.0, 10.0) as u8;
         Self { lambda: single(lambda), omega: single(omega), octaves: octaves.max(1) }
     }
 
     /// Returns the displacement of `point`. Finite if `omega` to the power of the octaves is.
-    #[inline(never)]
     pub fn vector(&self, point: Vector) -> Vector {
-        dispatch!(Instructions::best().level(), _ => self.vector_at(point))
-    }
-
-    #[inline(always)]
-    fn vector_at(&self, point: Vector) -> Vector {
-        let mut sum = Vector::ZERO;
-        for (finer, weight) in self.layers() {
-            sum += vector_noise(point * finer) * weight;
-        }
-        sum
+        self.layers()
+            .fold(Vector::ZERO, |sum, (finer, weight)| sum + vector_noise(point * finer) * weight)
     }
 
     /// Returns x and y of [`vector`](Self::vector).
-    #[inline(never)]
     pub fn planar(&self, point: Vector) -> [f64; 2] {
-        dispatch!(Instructions::best().level(), _ => self.planar_at(point))
-    }
-
-    #[inline(always)]
-    fn planar_at(&self, point: Vector) -> [f64; 2] {
-        let [mut x, mut y] = [0.0; 2];
-        for (finer, weight) in self.layers() {
-            let [first, second] = planar_noise(point * finer);
-            (x, y) = (x + first * weight, y + second * weight);
-        }
-        [x, y]
+        self.layers().fold([0.0; 2], |[x, y], (finer, weight)| {
+            let noise = planar_noise(point * finer);
+            [x + noise[0] * weight, y + noise[1] * weight]
+        })
     }
 
     /// Returns a number without a fixed range; finite like [`vector`](Self::vector).
     ///
     /// The noise of all generators but the first is scaled to twice its range, and then only the first layer
     /// is clamped to 0 … 1.
-    #[inline(never)]
     pub fn number(&self, generator: NoiseGenerator, point: Vector) -> f64 {
-        dispatch!(Instructions::best().level(), _ => self.number_at(generator, point))
-    }
-
-    #[inline(always)]
-    fn number_at(&self, generator: NoiseGenerator, point: Vector) -> f64 {
-        let mut layers = [(0.0, 0.0); MOST];
-        let mut count = 0;
-        for layer in self.layers() {
-            layers[count] = layer;
-            count += 1;
-        }
-        let noises: [f64; MOST] = noises_at(generator, |layer| point * layers[layer].0, count);
-        let mut sum = 0.0;
-        for number in 0..count {
-            sum += layers[number].1 * layer(generator, noises[number], number == 0);
+        let layer = |noise: f64, is_first: bool| layer(generator, noise, is_first);
+        let mut layers = self.layers();
+        let (mut sum, mut is_first) = (0.0, true);
+        while let Some((finer, weight)) = layers.next() {
+            let scaled = point * finer;
+            let Some((finer, fainter)) = layers.next() else {
+                sum += weight * layer(noise(generator, scaled), is_first);
+                break;
+            };
+            let next = point * finer;
+            let points = [[scaled.x, next.x], [scaled.y, next.y], [scaled.z, next.z]];
+            let [one, other] = noises(generator, points);
+            sum += weight * layer(one, is_first);
+            sum += fainter * layer(other, false);
+            is_first = false;
         }
         sum
     }

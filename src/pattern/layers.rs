@@ -3,11 +3,7 @@
 use super::Setting;
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::math::wide::{Instructions, dispatch};
-use crate::noise::{self, NoiseGenerator, noises_at};
-
-/// The most layers.
-const MOST: usize = 16;
+use crate::noise::{self, NoiseGenerator, noises};
 
 /// Returns an interval that contains the noise at each point within `reach` of `point` along each axis.
 pub(super) fn noise_bounds(generator: NoiseGenerator, point: Vector, reach: Vector) -> Interval {
@@ -43,22 +39,22 @@ pub(super) struct Layers {
 }
 
 impl Layers {
-    /// Returns the sum of the layers.
-    #[inline(never)]
+    /// Returns the sum of the layers, which are evaluated in pairs.
     pub fn value(&self, point: Vector, setting: &Setting) -> f64 {
-        dispatch!(Instructions::best().level(), _ => self.sum_at(point, setting.noise))
-    }
-
-    #[inline(always)]
-    fn sum_at(&self, point: Vector, generator: NoiseGenerator) -> f64 {
-        let count = (2 * self.pairs as usize).min(MOST);
-        let at = |layer: usize| point * (self.frequency * f64::from(1u32 << layer));
-        let noises: [f64; MOST] = noises_at(generator, at, count);
-        let mut sum = 0.0;
-        for (layer, noise) in noises.into_iter().enumerate().take(count) {
+        let generator = setting.noise;
+        let layer = |noise: f64| {
             let noise = spread(generator, noise);
-            let value = if self.is_folded { (0.5 - noise).abs() } else { noise };
-            sum += value * (self.amplitude / f64::from(1u32 << layer));
+            if self.is_folded { (0.5 - noise).abs() } else { noise }
+        };
+        let mut sum = 0.0;
+        for pair in 0..self.pairs {
+            let scale = f64::from(1u32 << (2 * pair));
+            let [frequency, amplitude] = [self.frequency * scale, self.amplitude / scale];
+            let (near, next) = (point * frequency, point * (2.0 * frequency));
+            let pair = [[near.x, next.x], [near.y, next.y], [near.z, next.z]];
+            let [one, other] = noises(generator, pair);
+            sum += layer(one) * amplitude;
+            sum += layer(other) * (0.5 * amplitude);
         }
         sum
     }
