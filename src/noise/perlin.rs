@@ -4,16 +4,14 @@
 //! POV-Ray 3.7: its values at lattice points are all 0.4925, and its gradients there are 2048 vectors of
 //! length 0.795, each in a ratio of three integers.
 
-#![expect(clippy::needless_range_loop, reason = "one form for all loops over lanes")]
-
 use std::sync::LazyLock;
 
-use super::cells;
-use super::lattice::{Axis, Lanes, are_near};
+use super::lattice::Cell;
 use super::range::Linear;
-use super::table::Stream;
+use super::table::{Row, Stream};
 use crate::math::Vector;
 use crate::math::interval::Interval;
+use crate::math::wide::Simd;
 
 const SIZE: usize = 2048;
 
@@ -21,65 +19,11 @@ const SIZE: usize = 2048;
 const ORIGIN: f64 = 10_000_000.023_157_213;
 
 /// Noise around 0.4925.
-#[inline(never)]
-pub(super) fn noise<const L: usize>(points: Lanes<L>) -> [f64; L] {
-    let mut shifted = points;
-    for along in &mut shifted {
-        for c in along {
-            *c += ORIGIN;
-        }
-    }
-    if !are_near(&shifted) {
-        return far(shifted);
-    }
+#[inline(always)]
+pub(super) fn noise<S: Simd>(simd: S, point: Vector) -> f64 {
     let lattice = &*LATTICE;
-    let [x, y, z] = shifted;
-    let (x, y, z) = (Axis::new(x, 0.0), Axis::new(y, 0.0), Axis::new(z, 0.0));
-    let mut sum = [0.0; L];
-    for i in 0..2 {
-        for j in 0..2 {
-            for k in 0..2 {
-                for l in 0..L {
-                    let row = lattice.step(x.low[l].wrapping_add(i));
-                    let column = lattice.step(row.wrapping_add(y.low[l].wrapping_add(j)));
-                    let place = column.wrapping_add(z.low[l].wrapping_add(k)) % SIZE;
-                    let offset = Vector::new(x.offset[i][l], y.offset[j][l], z.offset[k][l]);
-                    let weight = x.weight[i][l] * y.weight[j][l] * z.weight[k][l];
-                    sum[l] += weight * lattice.gradients[place].dot(offset);
-                }
-            }
-        }
-    }
-    for sum in &mut sum {
-        *sum = 0.4925 + 0.795 * *sum;
-    }
-    sum
-}
-
-/// [`noise`], for coordinates of any size, already shifted.
-#[cold]
-#[inline(never)]
-fn far<const L: usize>([x, y, z]: Lanes<L>) -> [f64; L] {
-    std::array::from_fn(|l| noise_far(Vector::new(x[l], y[l], z[l])))
-}
-
-fn noise_far(shifted: Vector) -> f64 {
-    let lattice = &*LATTICE;
-    let [x, y, z] = cells(shifted, 0);
-    let mut sum = 0.0;
-    for (i, x) in x.corners() {
-        let row = lattice.step(i);
-        for (j, y) in y.corners() {
-            let column = lattice.step(row.wrapping_add(j));
-            let weight = x.weight * y.weight;
-            for (k, z) in z.corners() {
-                let gradient = lattice.gradients[column.wrapping_add(k) % SIZE];
-                let offset = Vector::new(x.offset, y.offset, z.offset);
-                sum += weight * z.weight * gradient.dot(offset);
-            }
-        }
-    }
-    0.4925 + 0.795 * sum
+    let cell = Cell::new(simd, point + Vector::splat(ORIGIN), 0.0);
+    0.4925 + 0.795 * cell.blend(&lattice.gradients, lattice.places(cell.low))
 }
 
 /// Converts coordinates to those of the lattice.
@@ -91,14 +35,13 @@ pub(super) fn shifted(i: Interval) -> Interval {
 pub(super) fn corner([i, j, k]: [usize; 3]) -> Linear {
     let lattice = &*LATTICE;
     let column = lattice.step(lattice.step(i).wrapping_add(j));
-    let Vector { x, y, z } = lattice.gradients[column.wrapping_add(k) % SIZE];
-    [0.0, x, y, z]
+    lattice.gradients[column.wrapping_add(k) % SIZE].0
 }
 
 struct Lattice {
     steps: [u16; SIZE],
-    /// Unit vectors.
-    gradients: [Vector; SIZE],
+    /// Unit vectors, each after the value 0.
+    gradients: [Row; SIZE],
 }
 
 static LATTICE: LazyLock<Lattice> = LazyLock::new(Lattice::draw);
@@ -106,12 +49,32 @@ static LATTICE: LazyLock<Lattice> = LazyLock::new(Lattice::draw);
 impl Lattice {
     fn draw() -> Self {
         let mut stream = Stream::open(1);
-        let gradients = [(); SIZE].map(|()| direction(&mut stream));
+        let gradients = [(); SIZE].map(|()| {
+            let Vector { x, y, z } = direction(&mut stream);
+            Row([0.0, x, y, z])
+        });
         Self { steps: half_shuffled(&mut stream), gradients }
     }
 
+    #[inline(always)]
     fn step(&self, index: usize) -> usize {
         usize::from(self.steps[index % SIZE])
+    }
+
+    /// Returns the places of the corners of a cell, by x, then y, then z.
+    #[inline(always)]
+    fn places(&self, [x, y, z]: [usize; 3]) -> [usize; 8] {
+        let mut places = [0; 8];
+        for i in 0..2 {
+            let row = self.step(x.wrapping_add(i));
+            for j in 0..2 {
+                let column = self.step(row.wrapping_add(y.wrapping_add(j)));
+                for k in 0..2 {
+                    places[i << 2 | j << 1 | k] = column.wrapping_add(z.wrapping_add(k));
+                }
+            }
+        }
+        places
     }
 }
 
@@ -144,12 +107,13 @@ fn half_shuffled(stream: &mut Stream) -> [u16; SIZE] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::wide::{Instructions, dispatch};
 
     #[test]
     fn every_lattice_point_has_the_mean_value() {
         for x in -40..40 {
             let lattice = Vector::new(f64::from(x), 7.0, -3.0) - Vector::splat(ORIGIN.fract());
-            let [value] = noise(lattice.to_array().map(|c| [c]));
+            let value = dispatch!(Instructions::best().level(), simd => noise(simd, lattice));
             assert!((value - 0.4925).abs() < 1e-8);
         }
     }

@@ -8,7 +8,7 @@
 //! 3t² − 2t³. A blend of intervals lies between the blends of their ends, at the ends of s; its slope is the
 //! blend of the slopes, plus s′ times the difference.
 
-use super::{Cell, LATTICE_ORIGIN, NoiseGenerator, corner, noise, perlin, vector_noise};
+use super::{LATTICE_ORIGIN, NoiseGenerator, corner, noise, perlin, vector_noise};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 
@@ -100,6 +100,26 @@ fn narrowed(value: Interval, there: f64, change: f64, rounded: f64) -> Interval 
     }
 }
 
+/// A coordinate between its lattice neighbours.
+#[derive(Clone, Copy)]
+struct Place {
+    /// The lower neighbour.
+    low: usize,
+    /// Distance from the lower neighbour, 0 … 1.
+    fraction: f64,
+}
+
+impl Place {
+    /// Splits a coordinate that is near.
+    ///
+    /// Avoids `floor`, which is a function call unless the target is known to support it.
+    fn new(coordinate: f64, origin: i64) -> Self {
+        let towards_zero = coordinate as i64;
+        let low = towards_zero - i64::from(towards_zero as f64 > coordinate);
+        Self { low: low.wrapping_add(origin) as usize, fraction: coordinate - low as f64 }
+    }
+}
+
 /// Part of a cell along one axis.
 #[derive(Clone, Copy)]
 struct Span {
@@ -129,7 +149,7 @@ impl Span {
 
     /// Splits an interval shorter than a cell into one or two parts.
     fn of(i: Interval, origin: i64) -> ([Self; 2], usize) {
-        let (low, high) = (Cell::new(i.low, origin), Cell::new(i.high, origin));
+        let (low, high) = (Place::new(i.low, origin), Place::new(i.high, origin));
         if low.low == high.low {
             let part = Self::new(low.low, low.fraction, high.fraction.max(low.fraction));
             return ([part; 2], 1);

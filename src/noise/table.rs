@@ -38,6 +38,19 @@ const fn shuffled() -> [u16; 4096] {
     numbers
 }
 
+/// The low bits of [`PERMUTATION`]: the hash of a lattice point.
+pub(super) static HASHES: [u8; 4096] = hashes();
+
+const fn hashes() -> [u8; 4096] {
+    let mut hashes = [0; 4096];
+    let mut i = 0;
+    while i < 4096 {
+        hashes[i] = PERMUTATION[i] as u8;
+        i += 1;
+    }
+    hashes
+}
+
 /// The first component's data at a lattice point, by hash: its value, then its gradient.
 pub(super) static ROWS: [Row; 256] = rows();
 

@@ -23,10 +23,10 @@ fn noise_is_that_of_pov_ray() {
         let point = Vector::new(x, y, z);
         for (generator, measured) in GENERATORS.into_iter().zip([one, two, three]) {
             let value = noise(generator, point);
-            assert!((value - measured).abs() < 1e-15, "{generator:?} {point}: {value} {measured}");
+            assert!((value - measured).abs() < 4e-15, "{generator:?} {point}: {value} {measured}");
         }
         let vector = vector_noise(point);
-        assert!((vector - Vector::new(a, b, c)).abs().max_element() < 1e-15, "{point}: {vector}");
+        assert!((vector - Vector::new(a, b, c)).abs().max_element() < 4e-15, "{point}: {vector}");
     }
 }
 
@@ -55,40 +55,52 @@ fn point_of_any_kind(random: &mut Random) -> Vector {
 }
 
 #[test]
-fn near_points_have_the_bits_of_the_path_for_far_ones() {
+fn noise_has_the_same_bits_for_all_instructions() {
     let mut random = Random(4);
     for _ in 0..tries() {
         let point = point_of_any_kind(&mut random);
-        let far: [f64; 3] = blend_far(point);
-        assert_eq!(vector_noise(point).to_array().map(f64::to_bits), far.map(f64::to_bits));
-        assert_eq!(planar_noise(point).map(f64::to_bits), [far[0], far[1]].map(f64::to_bits));
-        let [plain] = plain(point.to_array().map(|c| [c]));
-        assert_eq!(plain.to_bits(), (far[0] + 0.5).to_bits(), "{point}");
-    }
-}
-
-#[test]
-fn two_points_at_once_have_the_bits_of_each_alone() {
-    let mut random = Random(5);
-    for _ in 0..tries() {
-        let [a, b] = [(); 2].map(|()| point_of_any_kind(&mut random));
+        let [narrow, wide]: [[f64; 4]; 2] = Instructions::all().map(
+            |instructions| dispatch!(instructions.level(), simd => triple(simd, point).into()),
+        );
+        assert_eq!(narrow.map(f64::to_bits), wide.map(f64::to_bits), "{point}");
         for generator in GENERATORS {
-            let both = noises(generator, [[a.x, b.x], [a.y, b.y], [a.z, b.z]]);
-            let alone = [noise(generator, a), noise(generator, b)];
-            assert_eq!(both.map(f64::to_bits), alone.map(f64::to_bits), "{generator:?} {a} {b}");
+            let [narrow, wide] = Instructions::all().map(|instructions| {
+                dispatch!(instructions.level(), simd => noise_by(simd, generator, point)).to_bits()
+            });
+            assert_eq!(narrow, wide, "{generator:?} {point}");
         }
     }
 }
 
+/// Two ways to sum the same, each rounded in its own order.
 #[test]
-fn the_plane_of_turbulence_has_the_bits_of_its_vector() {
+fn noise_is_the_first_of_the_vector_around_one_half() {
+    let mut random = Random(5);
+    for _ in 0..tries() {
+        let point = point_of_any_kind(&mut random);
+        let expected = (vector_noise(point).x + 0.5).clamp(0.0, 1.0);
+        let value = noise(NoiseGenerator::Plateaus, point);
+        assert!((value - expected).abs() < 4e-15, "{point}: {value} {expected}");
+    }
+}
+
+#[test]
+fn layers_of_turbulence_have_the_bits_of_their_noise() {
     let mut random = Random(6);
     for _ in 0..tries() {
+        let [lambda, omega] = [2.0, 0.5];
         let octaves = random.number(1.0, 11.0);
-        let turbulence = Turbulence::new(random.number(0.5, 3.0), random.number(0.1, 1.0), octaves);
+        let turbulence = Turbulence::new(lambda, omega, octaves);
         let point = point_of_any_kind(&mut random);
-        let Vector { x, y, .. } = turbulence.vector(point);
-        assert_eq!(turbulence.planar(point).map(f64::to_bits), [x, y].map(f64::to_bits));
+        let (mut sum, mut finer, mut weight) = (Vector::ZERO, 1.0, 1.0);
+        for _ in 0..(octaves.min(10.0) as u8) {
+            sum += vector_noise(point * finer) * weight;
+            (finer, weight) = (finer * lambda, weight * omega);
+        }
+        assert_eq!(
+            turbulence.vector(point).to_array().map(f64::to_bits),
+            sum.to_array().map(f64::to_bits)
+        );
     }
 }
 

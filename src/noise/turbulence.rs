@@ -4,10 +4,11 @@
 //! (`f32`), their powers in double precision, as found in POV-Ray 3.7.
 
 use super::range::vector_range;
-use super::{NoiseGenerator, bounds, noise, noises, planar_noise, vector_noise};
+use super::{NoiseGenerator, bounds, noise_by, triple};
 use crate::math::Vector;
 use crate::math::finite::single;
 use crate::math::interval::Interval;
+use crate::math::wide::{Instructions, Simd, Wide, all, dispatch};
 
 /// The parameters of turbulence.
 ///
@@ -35,16 +36,18 @@ impl Turbulence {
 
     /// Returns the displacement of `point`. Finite if `omega` to the power of the octaves is.
     pub fn vector(&self, point: Vector) -> Vector {
-        self.layers()
-            .fold(Vector::ZERO, |sum, (finer, weight)| sum + vector_noise(point * finer) * weight)
+        let [x, y, z, _] =
+            dispatch!(Instructions::best().level(), simd => self.triple(simd, point).into());
+        Vector::new(x, y, z)
     }
 
-    /// Returns x and y of [`vector`](Self::vector).
-    pub fn planar(&self, point: Vector) -> [f64; 2] {
-        self.layers().fold([0.0; 2], |[x, y], (finer, weight)| {
-            let noise = planar_noise(point * finer);
-            [x + noise[0] * weight, y + noise[1] * weight]
-        })
+    #[inline(always)]
+    fn triple<S: Simd>(&self, simd: S, point: Vector) -> Wide<S> {
+        let mut sum = all(simd, 0.0);
+        for (finer, weight) in self.layers() {
+            sum += triple(simd, point * finer) * weight;
+        }
+        sum
     }
 
     /// Returns a number without a fixed range; finite like [`vector`](Self::vector).
@@ -52,20 +55,15 @@ impl Turbulence {
     /// The noise of all generators but the first is scaled to twice its range, and then only the first layer
     /// is clamped to 0 … 1.
     pub fn number(&self, generator: NoiseGenerator, point: Vector) -> f64 {
-        let layer = |noise: f64, is_first: bool| layer(generator, noise, is_first);
-        let mut layers = self.layers();
+        dispatch!(Instructions::best().level(), simd => self.number_by(simd, generator, point))
+    }
+
+    #[inline(always)]
+    fn number_by<S: Simd>(&self, simd: S, generator: NoiseGenerator, point: Vector) -> f64 {
         let (mut sum, mut is_first) = (0.0, true);
-        while let Some((finer, weight)) = layers.next() {
-            let scaled = point * finer;
-            let Some((finer, fainter)) = layers.next() else {
-                sum += weight * layer(noise(generator, scaled), is_first);
-                break;
-            };
-            let next = point * finer;
-            let points = [[scaled.x, next.x], [scaled.y, next.y], [scaled.z, next.z]];
-            let [one, other] = noises(generator, points);
-            sum += weight * layer(one, is_first);
-            sum += fainter * layer(other, false);
+        for (finer, weight) in self.layers() {
+            let noise = noise_by(simd, generator, point * finer);
+            sum += weight * layer(generator, noise, is_first);
             is_first = false;
         }
         sum

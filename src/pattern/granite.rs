@@ -13,7 +13,7 @@ parameters! {
     pub struct Granite {}
 }
 
-const LAYERS: Layers = Layers { frequency: 4.0, amplitude: 1.0, pairs: 3, is_folded: true };
+const LAYERS: Layers = Layers { frequency: 4.0, amplitude: 1.0, count: 6, is_folded: true };
 
 impl Pattern for Granite {
     const COST: &str = "six noises a point";

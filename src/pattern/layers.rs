@@ -3,7 +3,8 @@
 use super::Setting;
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::noise::{self, NoiseGenerator, noises};
+use crate::math::wide::{Instructions, Simd, dispatch};
+use crate::noise::{self, NoiseGenerator, noise_by};
 
 /// Returns an interval that contains the noise at each point within `reach` of `point` along each axis.
 pub(super) fn noise_bounds(generator: NoiseGenerator, point: Vector, reach: Vector) -> Interval {
@@ -32,29 +33,27 @@ pub(super) struct Layers {
     pub frequency: f64,
     /// The amplitude of the first layer.
     pub amplitude: f64,
-    /// Half the number of layers.
-    pub pairs: u32,
+    /// The number of layers.
+    pub count: u32,
     /// Whether a layer is the distance of noise from 0.5, instead of noise.
     pub is_folded: bool,
 }
 
 impl Layers {
-    /// Returns the sum of the layers, which are evaluated in pairs.
+    /// Returns the sum of the layers.
     pub fn value(&self, point: Vector, setting: &Setting) -> f64 {
-        let generator = setting.noise;
-        let layer = |noise: f64| {
-            let noise = spread(generator, noise);
-            if self.is_folded { (0.5 - noise).abs() } else { noise }
-        };
+        dispatch!(Instructions::best().level(), simd => self.value_by(simd, point, setting.noise))
+    }
+
+    #[inline(always)]
+    fn value_by<S: Simd>(&self, simd: S, point: Vector, generator: NoiseGenerator) -> f64 {
+        let [mut frequency, mut amplitude] = [self.frequency, self.amplitude];
         let mut sum = 0.0;
-        for pair in 0..self.pairs {
-            let scale = f64::from(1u32 << (2 * pair));
-            let [frequency, amplitude] = [self.frequency * scale, self.amplitude / scale];
-            let (near, next) = (point * frequency, point * (2.0 * frequency));
-            let pair = [[near.x, next.x], [near.y, next.y], [near.z, next.z]];
-            let [one, other] = noises(generator, pair);
-            sum += layer(one) * amplitude;
-            sum += layer(other) * (0.5 * amplitude);
+        for _ in 0..self.count {
+            let noise = spread(generator, noise_by(simd, generator, point * frequency));
+            sum += amplitude * if self.is_folded { (0.5 - noise).abs() } else { noise };
+            frequency *= 2.0;
+            amplitude *= 0.5;
         }
         sum
     }
@@ -83,7 +82,7 @@ impl Layers {
     }
 
     fn sum(&self, layer: impl Fn(f64) -> f64) -> f64 {
-        let halves = (0..2 * self.pairs).map(|i| f64::from(1u32 << i));
+        let halves = (0..self.count).map(|i| f64::from(1u32 << i));
         halves.map(|scale| layer(self.frequency * scale) * (self.amplitude / scale)).sum()
     }
 }

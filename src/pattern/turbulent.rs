@@ -29,9 +29,9 @@ pub(super) fn number_bounds(setting: &Setting, sides: [Interval; 3]) -> Interval
 
 /// Returns x and y of the vector noise of turbulence, without its amount.
 pub(super) fn planar(setting: &Setting, point: Vector) -> [f64; 2] {
-    let noise = setting.turbulence.planar(point);
+    let noise = setting.turbulence.vector(point);
     // The third component overflows where these do.
-    if noise[0].is_finite() && noise[1].is_finite() { noise } else { [0.0; 2] }
+    if noise.x.is_finite() && noise.y.is_finite() { [noise.x, noise.y] } else { [0.0; 2] }
 }
 
 /// Returns whether there is no turbulence.

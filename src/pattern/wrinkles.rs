@@ -14,7 +14,7 @@ parameters! {
     pub struct Wrinkles {}
 }
 
-const LAYERS: Layers = Layers { frequency: 1.0, amplitude: 0.5, pairs: 5, is_folded: false };
+const LAYERS: Layers = Layers { frequency: 1.0, amplitude: 0.5, count: 10, is_folded: false };
 
 impl Pattern for Wrinkles {
     const COST: &str = "ten noises a point";
