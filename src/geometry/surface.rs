@@ -124,6 +124,12 @@ impl SurfacePoints {
         }
     }
 
+    /// Returns the face of the surface of this number; see [`SurfacePoint::face`].
+    #[inline(always)]
+    pub fn face(&self, number: usize) -> u32 {
+        self.faces[number]
+    }
+
     /// Finds the points of spheres and planes; returns a bit for each of which it cannot.
     #[inline(always)]
     fn solve<S: Simd>(&mut self, simd: S, rays: &Rays, shapes: &Shapes, distances: &Row) -> u32 {

@@ -143,13 +143,19 @@ pub(crate) fn bits<S: Simd>(mask: Mask<S>, group: usize) -> u32 {
 /// Returns the lanes of a group whose bits are set in those of a row.
 #[inline(always)]
 pub(crate) fn mask<S: Simd>(simd: S, bits: u32, group: usize) -> Mask<S> {
-    Mask::from_bitmask(simd, u64::from(bits >> (LANES * group)) & ((1 << LANES) - 1))
+    Mask::from_bitmask(simd, u64::from(lanes(bits, group)))
 }
 
 /// Returns whether a group has one of the bits of a row.
 #[inline(always)]
 pub(crate) fn has(bits: u32, group: usize) -> bool {
-    bits >> (LANES * group) & ((1 << LANES) - 1) != 0
+    lanes(bits, group) != 0
+}
+
+/// Returns the bits of a group.
+#[inline(always)]
+pub(crate) fn lanes(bits: u32, group: usize) -> u32 {
+    bits >> (LANES * group) & ((1 << LANES) - 1)
 }
 
 /// Returns the numbers of the bits of a row.

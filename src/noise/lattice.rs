@@ -10,10 +10,10 @@ use crate::math::Vector;
 use crate::math::wide::*;
 
 /// Adding this moves an integer to the low bits: 1.5 · 2⁵².
-const TO_LOW_BITS: f64 = 6_755_399_441_055_744.0;
+pub(super) const TO_LOW_BITS: f64 = 6_755_399_441_055_744.0;
 
 /// Below this, the sum with [`TO_LOW_BITS`] plus an origin is exact: 2⁵⁰.
-const FAR: f64 = 1_125_899_906_842_624.0;
+pub(super) const FAR: f64 = 1_125_899_906_842_624.0;
 
 /// The lattices repeat after as many units along each axis.
 const PERIOD: f64 = 4096.0;

@@ -13,17 +13,19 @@
 //! For this kind of noise, see Ebert and others, *Texturing and Modeling*, 3rd ed., chapter 2, and Perlin,
 //! "An Image Synthesizer", 1985.
 
+mod four;
 mod lattice;
 mod perlin;
 mod range;
 mod table;
 mod turbulence;
 
+pub(crate) use four::noise_of_four;
 pub use turbulence::Turbulence;
 
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::math::wide::{Instructions, Simd, Wide, dispatch};
+use crate::math::wide::*;
 use lattice::Cell;
 use table::{HASHES, NUMBERS, PERMUTATION, ROWS, STRIDE, TRIPLES};
 
@@ -70,6 +72,18 @@ pub fn bounds_and_slopes(
     point: [Interval; 3],
 ) -> (Interval, [Interval; 3]) {
     range::range(generator, point)
+}
+
+/// Replaces each of the values that the mask has a bit for by [`noise`].
+pub fn noises(generator: NoiseGenerator, points: &Rows, mask: u32, values: &mut Row) {
+    dispatch!(Instructions::best().level(), simd => {
+        for group in 0..GROUPS {
+            if has(mask, group) {
+                let (points, lanes) = (WideVector::of(simd, points, group), lanes(mask, group));
+                store(noise_of_four(simd, generator, points, lanes), values, group);
+            }
+        }
+    });
 }
 
 /// Returns three independent noises: a displacement of `point`, centred on zero.

@@ -72,6 +72,42 @@ fn noise_has_the_same_bits_for_all_instructions() {
     }
 }
 
+#[test]
+fn four_points_have_the_bits_of_each_alone_for_all_instructions() {
+    let mut random = Random(7);
+    let mut shared = 0;
+    for _ in 0..tries() {
+        let mut points = Rows::ZERO;
+        let (first, size) = (point_of_any_kind(&mut random), random.size(-9.0, 0.5));
+        for number in 0..LANES {
+            let apart = if random.below(9) == 0 { point_of_any_kind(&mut random) } else { first };
+            points.set(number, apart + random.point(size));
+        }
+        let lanes = 1 + random.below(15) as u32;
+        for instructions in Instructions::all() {
+            let (noise, triples) = dispatch!(instructions.level(), simd => {
+                let points = WideVector::of(simd, &points, 0);
+                let noise = GENERATORS
+                    .map(|generator| noise_of_four(simd, generator, points, lanes).into());
+                let WideVector([x, y, z]) = four::triples_of_four(simd, points, lanes);
+                (noise, [x.into(), y.into(), z.into()])
+            });
+            let (noise, triples): ([[f64; 4]; 3], [[f64; 4]; 3]) = (noise, triples);
+            for lane in numbers(lanes) {
+                let point = points.at(lane);
+                shared += usize::from((point - first).abs().max_element() < 0.01);
+                for (generator, noise) in GENERATORS.into_iter().zip(noise) {
+                    let alone = super::noise(generator, point);
+                    assert_eq!(noise[lane].to_bits(), alone.to_bits(), "{generator:?} {point}");
+                }
+                let alone = vector_noise(point).to_array();
+                assert_eq!(triples.map(|c| c[lane].to_bits()), alone.map(f64::to_bits), "{point}");
+            }
+        }
+    }
+    assert!(shared > tries(), "{shared}");
+}
+
 /// Two ways to sum the same, each rounded in its own order.
 #[test]
 fn noise_is_the_first_of_the_vector_around_one_half() {

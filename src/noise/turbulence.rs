@@ -3,12 +3,13 @@
 //! **Invariant:** layer i has weight ωⁱ and is noise at λⁱ times the point. λ and ω are in single precision
 //! (`f32`), their powers in double precision, as found in POV-Ray 3.7.
 
+use super::four::{Lanes, noise_of_four, triples_of_four};
 use super::range::vector_range;
 use super::{NoiseGenerator, bounds, noise_by, triple};
 use crate::math::Vector;
 use crate::math::finite::single;
 use crate::math::interval::Interval;
-use crate::math::wide::{Instructions, Simd, Wide, all, dispatch};
+use crate::math::wide::*;
 
 /// The parameters of turbulence.
 ///
@@ -50,6 +51,33 @@ impl Turbulence {
         sum
     }
 
+    /// Replaces each of the vectors that the mask has a bit for by [`vector`](Self::vector).
+    pub fn vectors(&self, points: &Rows, mask: u32, vectors: &mut Rows) {
+        dispatch!(Instructions::best().level(), simd => {
+            for group in 0..GROUPS {
+                if has(mask, group) {
+                    let points = WideVector::of(simd, points, group);
+                    self.vectors_of_four(simd, points, lanes(mask, group)).store(vectors, group);
+                }
+            }
+        });
+    }
+
+    #[inline(always)]
+    fn vectors_of_four<S: Simd>(
+        &self,
+        simd: S,
+        points: WideVector<S>,
+        lanes: Lanes,
+    ) -> WideVector<S> {
+        let mut sum = WideVector::splat(simd, Vector::ZERO);
+        for (finer, weight) in self.layers() {
+            let noise = triples_of_four(simd, points * all(simd, finer), lanes);
+            sum = sum + noise * all(simd, weight);
+        }
+        sum
+    }
+
     /// Returns a number without a fixed range; finite like [`vector`](Self::vector).
     ///
     /// The noise of all generators but the first is scaled to twice its range, and then only the first layer
@@ -64,6 +92,40 @@ impl Turbulence {
         for (finer, weight) in self.layers() {
             let noise = noise_by(simd, generator, point * finer);
             sum += weight * layer(generator, noise, is_first);
+            is_first = false;
+        }
+        sum
+    }
+
+    /// Replaces each of the numbers that the mask has a bit for by [`number`](Self::number).
+    pub fn numbers(&self, generator: NoiseGenerator, points: &Rows, mask: u32, numbers: &mut Row) {
+        dispatch!(Instructions::best().level(), simd => {
+            for group in 0..GROUPS {
+                if has(mask, group) {
+                    let (points, lanes) = (WideVector::of(simd, points, group), lanes(mask, group));
+                    store(self.numbers_of_four(simd, generator, points, lanes), numbers, group);
+                }
+            }
+        });
+    }
+
+    #[inline(always)]
+    fn numbers_of_four<S: Simd>(
+        &self,
+        simd: S,
+        generator: NoiseGenerator,
+        points: WideVector<S>,
+        lanes: Lanes,
+    ) -> Wide<S> {
+        let (mut sum, mut is_first) = (all(simd, 0.0), true);
+        for (finer, weight) in self.layers() {
+            let noise = noise_of_four(simd, generator, points * all(simd, finer), lanes);
+            let layer = match generator {
+                NoiseGenerator::Plateaus => noise,
+                _ if is_first => stretched(simd, noise).max(all(simd, 0.0)).min(all(simd, 1.0)),
+                _ => stretched(simd, noise),
+            };
+            sum += layer * weight;
             is_first = false;
         }
         sum
@@ -93,6 +155,11 @@ impl Turbulence {
         let next = move |(finer, fainter): &(f64, f64)| Some((finer * lambda, fainter * omega));
         std::iter::successors(Some((1.0, 1.0)), next).take(usize::from(octaves))
     }
+}
+
+#[inline(always)]
+fn stretched<S: Simd>(simd: S, noise: Wide<S>) -> Wide<S> {
+    noise * 2.0 - all(simd, 0.5)
 }
 
 /// Returns what a layer of [`Turbulence::number`] has for a noise.

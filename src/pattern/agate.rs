@@ -8,6 +8,7 @@ use crate::math::Vector;
 use crate::math::elementary::{pow, sin};
 use crate::math::finite::{finite, single};
 use crate::math::interval::Interval;
+use crate::math::wide::{ROW, Row, Rows, numbers};
 
 parameters! {
     /// A wave along z, shifted by turbulence with the octaves, lambda and omega of the block, 0 … 1. The
@@ -37,12 +38,20 @@ impl Pattern for Agate {
 
     fn value(&self, sample: &Sample) -> f64 {
         let Sample { point, setting, .. } = *sample;
-        let shift = match self.turbulence == 0.0 {
-            true => 0.0,
-            false => self.turbulence * finite(setting.turbulence.number(setting.noise, point)),
-        };
-        let angle = finite(TAU * (1.1 * point.z + 1.3 * shift));
-        height(sin(angle))
+        match self.turbulence == 0.0 {
+            true => self.band(point, 0.0),
+            false => self.band(point, setting.turbulence.number(setting.noise, point)),
+        }
+    }
+
+    fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
+        *values = [0.0; ROW];
+        if self.turbulence != 0.0 {
+            setting.turbulence.numbers(setting.noise, points, mask, values);
+        }
+        for number in numbers(mask) {
+            values[number] = self.band(points.at(number), values[number]);
+        }
     }
 
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
@@ -65,6 +74,14 @@ impl Pattern for Agate {
 }
 
 /// Returns the value for a sine.
+impl Agate {
+    /// Returns the value at a point, given its turbulence.
+    fn band(&self, point: Vector, turbulence: f64) -> f64 {
+        let shift = self.turbulence * finite(turbulence);
+        height(sin(finite(TAU * (1.1 * point.z + 1.3 * shift))))
+    }
+}
+
 fn height(sine: f64) -> f64 {
     pow(((1.0 + sine) / 2.0).clamp(0.0, 1.0), 0.77)
 }

@@ -5,7 +5,8 @@ use super::parameter::parameters;
 use super::{Pattern, Sample, Setting};
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::noise::noise;
+use crate::math::wide::{Row, Rows};
+use crate::noise::{noise, noises};
 
 parameters! {
     /// The noise of the block's generator, 0 … 1.
@@ -29,6 +30,10 @@ impl Pattern for Bozo {
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
         noise(sample.setting.noise, sample.point)
+    }
+
+    fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
+        noises(setting.noise, points, mask, values);
     }
 
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {

@@ -5,7 +5,8 @@ use super::parameter::parameters;
 use super::{Pattern, Sample, Setting};
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::noise::{noise, vector_noise};
+use crate::math::wide::{Row, Rows, numbers};
+use crate::noise::{noise, noises, vector_noise};
 
 parameters! {
     /// The cube of the noise of the block's generator, 0 … 1.
@@ -20,6 +21,13 @@ impl Pattern for Dents {
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
         cube(noise(sample.setting.noise, sample.point))
+    }
+
+    fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
+        noises(setting.noise, points, mask, values);
+        for number in numbers(mask) {
+            values[number] = cube(values[number]);
+        }
     }
 
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {

@@ -5,6 +5,7 @@ use super::parameter::parameters;
 use super::{Pattern, Sample, Setting};
 use crate::math::Vector;
 use crate::math::interval::Interval;
+use crate::math::wide::{Row, Rows};
 
 parameters! {
     /// The sum of six layers: the distances of noise from 0.5, from frequency 4 and amplitude 1 on.
@@ -21,6 +22,10 @@ impl Pattern for Granite {
 
     fn value(&self, sample: &Sample) -> f64 {
         LAYERS.value(sample.point, sample.setting)
+    }
+
+    fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
+        LAYERS.values(points, mask, setting, values);
     }
 
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {

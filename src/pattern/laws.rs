@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::math::random::{Random, tries};
+use crate::math::wide::ROW;
 
 const GENERATORS: [NoiseGenerator; 3] =
     [NoiseGenerator::Plateaus, NoiseGenerator::RangeCorrected, NoiseGenerator::Perlin];
@@ -41,6 +42,59 @@ fn bounds_contain_the_values_of_a_box() {
             let sample = Sample { point, error: Vector::ZERO, setting: &setting };
             let value = kind.measured(&sample).value;
             assert!(bounds.contains(value), "{kind:?} {setting:?} {point}: {value} {bounds:?}");
+        }
+    }
+}
+
+/// Neighbours, some in one cell of a lattice and some not, at places that a mask has bits for.
+fn row(random: &mut Random) -> (Rows, u32) {
+    let mut points = Rows::ZERO;
+    let (far, size) = ([1.0, 30.0, 1e5, 1e17][random.below(4)], random.size(-3.0, 1.0));
+    let corner = random.point(far);
+    for number in 0..ROW {
+        points.set(number, corner + random.point(size));
+    }
+    (points, 1 + random.below(0xffff) as u32)
+}
+
+#[test]
+fn values_side_by_side_have_the_bits_of_each_alone() {
+    let mut random = Random(24);
+    for turn in 0..tries() {
+        let kind = usual(&mut random, turn);
+        let setting = setting(&mut random);
+        if !kind.is_exact(&setting) {
+            continue;
+        }
+        let ((points, mask), mut values) = (row(&mut random), [f64::NAN; ROW]);
+        kind.values(&points, mask, &setting, &mut values);
+        for number in numbers(mask) {
+            let point = points.at(number);
+            let sample = Sample { point, error: Vector::ZERO, setting: &setting };
+            let Measured { value, error } = kind.measured(&sample);
+            assert_eq!(error, 0.0, "{kind:?} {setting:?} {point}");
+            assert_eq!(values[number].to_bits(), value.to_bits(), "{kind:?} {setting:?} {point}");
+        }
+    }
+}
+
+#[test]
+fn points_that_warps_move_side_by_side_have_the_bits_of_each_alone() {
+    let mut random = Random(25);
+    for turn in 0..tries() {
+        let mut warp = Warp::all()[turn % Warp::all().len()];
+        for (place, parameter) in warp.parameters().iter().enumerate() {
+            if let Argument::Vector(_) = parameter.default {
+                warp.set(place, Argument::Vector(random.point(2.0)));
+            }
+        }
+        let warp = warp.canonical();
+        let (points, mask) = row(&mut random);
+        let mut moved = Rows(points.0);
+        warp.points(&mut moved, mask);
+        for number in numbers(mask) {
+            let alone = warp.point(points.at(number)).to_array();
+            assert_eq!(moved.at(number).to_array().map(f64::to_bits), alone.map(f64::to_bits));
         }
     }
 }

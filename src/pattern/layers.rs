@@ -3,8 +3,8 @@
 use super::Setting;
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::math::wide::{Instructions, Simd, dispatch};
-use crate::noise::{self, NoiseGenerator, noise_by};
+use crate::math::wide::*;
+use crate::noise::{self, NoiseGenerator, noise_by, noise_of_four};
 
 /// Returns an interval that contains the noise at each point within `reach` of `point` along each axis.
 pub(super) fn noise_bounds(generator: NoiseGenerator, point: Vector, reach: Vector) -> Interval {
@@ -52,6 +52,42 @@ impl Layers {
         for _ in 0..self.count {
             let noise = spread(generator, noise_by(simd, generator, point * frequency));
             sum += amplitude * if self.is_folded { (0.5 - noise).abs() } else { noise };
+            frequency *= 2.0;
+            amplitude *= 0.5;
+        }
+        sum
+    }
+
+    /// Replaces each of the values that the mask has a bit for by [`Layers::value`].
+    pub fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
+        dispatch!(Instructions::best().level(), simd => {
+            for group in 0..GROUPS {
+                if has(mask, group) {
+                    let (points, lanes) = (WideVector::of(simd, points, group), lanes(mask, group));
+                    store(self.values_of_four(simd, points, lanes, setting.noise), values, group);
+                }
+            }
+        });
+    }
+
+    #[inline(always)]
+    fn values_of_four<S: Simd>(
+        &self,
+        simd: S,
+        points: WideVector<S>,
+        lanes: u32,
+        generator: NoiseGenerator,
+    ) -> Wide<S> {
+        let [zero, half, one] = [all(simd, 0.0), all(simd, 0.5), all(simd, 1.0)];
+        let [mut frequency, mut amplitude] = [self.frequency, self.amplitude];
+        let mut sum = zero;
+        for _ in 0..self.count {
+            let finer = points * all(simd, frequency);
+            let mut noise = noise_of_four(simd, generator, finer, lanes);
+            if generator != NoiseGenerator::Plateaus {
+                noise = (noise * 2.0 - half).max(zero).min(one);
+            }
+            sum += if self.is_folded { (half - noise).abs() } else { noise } * amplitude;
             frequency *= 2.0;
             amplitude *= 0.5;
         }

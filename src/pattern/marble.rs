@@ -1,11 +1,12 @@
 //! `marble`: planes across x, with veins where turbulence moves them.
 
 use super::parameter::parameters;
-use super::turbulent::{is_still, number, number_bounds};
+use super::turbulent::{self, is_still, number, number_bounds};
 use super::{Measured, NEAR, Pattern, Sample, Setting, WaveKind, sides};
 use crate::math::Vector;
 use crate::math::finite::finite;
 use crate::math::interval::Interval;
+use crate::math::wide::{Row, Rows, numbers};
 
 parameters! {
     /// The x coordinate, plus the number of the block's turbulence.
@@ -36,6 +37,13 @@ impl Pattern for Marble {
     #[inline]
     fn value_off_seams(&self, sample: &Sample) -> Option<Measured> {
         Some(self.measured(&Sample { error: Vector::splat(0.25 * NEAR), ..*sample }))
+    }
+
+    fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
+        turbulent::numbers(setting, points, mask, values);
+        for number in numbers(mask) {
+            values[number] = finite(points.at(number).x + values[number]);
+        }
     }
 
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {

@@ -68,6 +68,7 @@ use std::fmt;
 
 use crate::math::Vector;
 use crate::math::interval::Interval;
+use crate::math::wide::{Row, Rows, numbers};
 use crate::noise::{NoiseGenerator, Turbulence};
 
 /// Declares the closed set of patterns. A line is the module, which is the pattern's word, and its struct.
@@ -157,6 +158,27 @@ macro_rules! patterns {
             pub fn measured(&self, sample: &Sample) -> Measured {
                 match self {
                     $(Self::$kind(kind) => kind.measured(sample),)*
+                }
+            }
+
+            /// Returns whether the value at a point is all that maps need, wherever the point is.
+            pub fn is_exact(&self, setting: &Setting) -> bool {
+                match self {
+                    $(Self::$kind(kind) => kind.is_exact(setting),)*
+                }
+            }
+
+            /// Replaces each of the values that the mask has a bit for by its value at that point. It must be
+            /// [exact](Self::is_exact).
+            pub fn values(
+                &self,
+                points: &Rows,
+                mask: u32,
+                setting: &Setting,
+                values: &mut Row,
+            ) {
+                match self {
+                    $(Self::$kind(kind) => kind.values(points, mask, setting, values),)*
                 }
             }
 
@@ -362,6 +384,20 @@ trait Pattern: Parameters + Copy {
     #[inline]
     fn measured(&self, sample: &Sample) -> Measured {
         Measured { value: self.value(sample), error: 0.0 }
+    }
+
+    /// See [`Kind::is_exact`].
+    fn is_exact(&self, _setting: &Setting) -> bool {
+        !Self::HAS_SEAMS
+    }
+
+    /// See [`Kind::values`].
+    #[inline]
+    fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
+        for number in numbers(mask) {
+            let point = points.at(number);
+            values[number] = self.value(&Sample { point, error: Vector::ZERO, setting });
+        }
     }
 
     /// Returns the value if the point's error does not matter; see [`Kind::value_off_seams`].

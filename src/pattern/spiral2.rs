@@ -2,6 +2,7 @@
 
 use super::parameter::parameters;
 use super::spiral::{bounds, error, place, whole_arms};
+use super::turbulent::is_still;
 use super::{Measured, NEAR, Pattern, Sample, Setting, WaveKind};
 use crate::math::Vector;
 use crate::math::interval::Interval;
@@ -22,6 +23,10 @@ impl Pattern for Spiral2 {
 
     fn canonical(self) -> Self {
         Self { arms: whole_arms(self.arms) }
+    }
+
+    fn is_exact(&self, setting: &Setting) -> bool {
+        !is_still(setting)
     }
 
     /// The angle jumps by a whole turn, which the wave does not show: so there is no seam.

@@ -4,6 +4,7 @@ use super::parameter::parameters;
 use super::{Bozo, Pattern, Sample, Setting};
 use crate::math::Vector;
 use crate::math::interval::Interval;
+use crate::math::wide::{Row, Rows};
 
 parameters! {
     /// The values of [`Bozo`].
@@ -18,6 +19,10 @@ impl Pattern for Spotted {
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
         Bozo {}.value(sample)
+    }
+
+    fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
+        Bozo {}.values(points, mask, setting, values);
     }
 
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {

@@ -4,6 +4,7 @@ use super::Setting;
 use crate::math::Vector;
 use crate::math::finite::finite;
 use crate::math::interval::Interval;
+use crate::math::wide::{ROW, Row, Rows};
 
 /// Returns the number that turbulence adds to a value: its amount along x times its noise at `point`.
 ///
@@ -17,6 +18,18 @@ pub(super) fn number(setting: &Setting, point: Vector) -> f64 {
 }
 
 /// Returns an interval that contains [`number`] at each point of a box.
+/// Replaces each of the values that the mask has a bit for by [`number`].
+pub(super) fn numbers(setting: &Setting, points: &Rows, mask: u32, values: &mut Row) {
+    if setting.amount.x == 0.0 {
+        *values = [0.0; ROW];
+        return;
+    }
+    setting.turbulence.numbers(setting.noise, points, mask, values);
+    for value in values {
+        *value = setting.amount.x * finite(*value);
+    }
+}
+
 pub(super) fn number_bounds(setting: &Setting, sides: [Interval; 3]) -> Interval {
     match setting.amount.x == 0.0 {
         true => Interval::point(0.0),
@@ -29,12 +42,15 @@ pub(super) fn number_bounds(setting: &Setting, sides: [Interval; 3]) -> Interval
 
 /// Returns x and y of the vector noise of turbulence, without its amount.
 pub(super) fn planar(setting: &Setting, point: Vector) -> [f64; 2] {
-    let noise = setting.turbulence.vector(point);
-    // The third component overflows where these do.
-    if noise.x.is_finite() && noise.y.is_finite() { [noise.x, noise.y] } else { [0.0; 2] }
+    in_plane(setting.turbulence.vector(point))
 }
 
 /// Returns whether there is no turbulence.
+/// Returns x and y of turbulence, 0 where they overflow.
+pub(super) fn in_plane(Vector { x, y, .. }: Vector) -> [f64; 2] {
+    if x.is_finite() && y.is_finite() { [x, y] } else { [0.0; 2] }
+}
+
 #[inline]
 pub(super) fn is_still(setting: &Setting) -> bool {
     setting.amount == Vector::ZERO

@@ -39,6 +39,7 @@ use super::parameter::{self, Parameters};
 use super::{Argument, Parameter};
 use crate::math::Vector;
 use crate::math::interval::Interval;
+use crate::math::wide::{Rows, numbers};
 
 /// Declares the closed set of warps. A line is the word and the struct.
 macro_rules! warps {
@@ -141,6 +142,24 @@ impl Warp {
     #[inline]
     pub fn point(&self, point: Vector) -> Vector {
         self.moved(point, Vector::ZERO).0
+    }
+
+    /// Replaces each of the points that the mask has a bit for by where it moves to.
+    pub fn points(&self, points: &mut Rows, mask: u32) {
+        match self {
+            Self::Turbulence(turbulence) => {
+                let mut moves = Rows::ZERO;
+                turbulence.moves(points, mask, &mut moves);
+                for number in numbers(mask) {
+                    points.set(number, finite(points.at(number) + moves.at(number)));
+                }
+            }
+            _ => {
+                for number in numbers(mask) {
+                    points.set(number, self.point(points.at(number)));
+                }
+            }
+        }
     }
 }
 

@@ -3,12 +3,13 @@
 use std::f64::consts::TAU;
 
 use super::parameter::parameters;
-use super::turbulent::{is_still, planar};
+use super::turbulent::{in_plane, is_still, planar};
 use super::{Measured, NEAR, Pattern, Sample, Setting, WaveKind, sides};
 use crate::math::Vector;
 use crate::math::elementary::sin;
 use crate::math::finite::length;
 use crate::math::interval::Interval;
+use crate::math::wide::{Row, Rows, numbers};
 
 parameters! {
     /// The distance from the z axis. The block's turbulence moves the point along x and y, by 1 at most: by
@@ -29,20 +30,31 @@ impl Pattern for Wood {
     const APPLIES_TURBULENCE: bool = true;
     const RANGE: Interval = Interval { low: 0.0, high: f64::INFINITY };
 
+    fn is_exact(&self, setting: &Setting) -> bool {
+        !is_still(setting)
+    }
+
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
         let Sample { point, setting, .. } = *sample;
-        let mut moved = Vector::new(point.x, point.y, 0.0);
-        if !is_still(setting) {
-            let [x, y] = planar(setting, point);
-            let wave = |coordinate: f64, amount: f64| {
-                let angle = coordinate * amount * TAU;
-                if angle.is_finite() { sin(angle) } else { 0.0 }
-            };
-            moved.x += wave(point.x + x, setting.amount.x);
-            moved.y += wave(point.y + y, setting.amount.y);
+        match is_still(setting) {
+            true => ring(point),
+            false => bent(point, planar(setting, point), setting.amount),
         }
-        length(moved)
+    }
+
+    fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
+        if is_still(setting) {
+            for number in numbers(mask) {
+                values[number] = ring(points.at(number));
+            }
+            return;
+        }
+        let mut noise = Rows::ZERO;
+        setting.turbulence.vectors(points, mask, &mut noise);
+        for number in numbers(mask) {
+            values[number] = bent(points.at(number), in_plane(noise.at(number)), setting.amount);
+        }
     }
 
     #[inline]
@@ -84,6 +96,21 @@ impl Pattern for Wood {
             false => Self::RANGE,
         }
     }
+}
+
+/// Returns the distance from the axis.
+fn ring(point: Vector) -> f64 {
+    length(Vector { z: 0.0, ..point })
+}
+
+/// Returns the distance from the axis of a point that turbulence moves.
+fn bent(point: Vector, [x, y]: [f64; 2], amount: Vector) -> f64 {
+    let wave = |coordinate: f64, amount: f64| {
+        let angle = coordinate * amount * TAU;
+        if angle.is_finite() { sin(angle) } else { 0.0 }
+    };
+    let moved_x = point.x + wave(point.x + x, amount.x);
+    ring(Vector { x: moved_x, y: point.y + wave(point.y + y, amount.y), ..point })
 }
 
 #[cfg(test)]

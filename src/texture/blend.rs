@@ -10,6 +10,7 @@ use super::region::Region;
 use super::slope::{self, Slope};
 use super::space::{Place, Space, Surroundings};
 use crate::math::Vector;
+use crate::math::wide::{ROW, Rows};
 use crate::pattern::{Kind, Measured, Sample, Setting, Wave, WaveKind};
 
 /// A pattern with its parameters, and what follows its values.
@@ -100,6 +101,21 @@ impl Pattern {
             },
         };
         self.waved(raw)
+    }
+
+    /// Returns the values at four points of the space of a place.
+    pub fn values(&self, place: &Place, points: [Vector; 4]) -> [f64; 4] {
+        match &self.source {
+            Source::Kind(kind) if kind.is_exact(&self.setting) => {
+                let (mut row, mut values) = (Rows::ZERO, [0.0; ROW]);
+                for (number, point) in points.into_iter().enumerate() {
+                    row.set(number, point);
+                }
+                kind.values(&row, 0b1111, &self.setting, &mut values);
+                [0, 1, 2, 3].map(|number: usize| self.wave.value(values[number]))
+            }
+            _ => points.map(|point| self.measured(&place.moved_to(point)).value),
+        }
     }
 
     /// Returns the value if the point's error does not matter, with an upper bound of its error.

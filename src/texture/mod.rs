@@ -18,6 +18,7 @@ pub mod pigment;
 pub mod region;
 pub mod slope;
 pub mod space;
+mod together;
 pub mod walk;
 
 use std::collections::HashMap;
@@ -32,6 +33,7 @@ pub use function::{Asked, Closed};
 pub use normal::Normal;
 pub use pigment::Pigment;
 pub use space::{Paint, Place, Space, Step, Surroundings};
+pub use together::Together;
 
 use crate::color::Color;
 use walk::Node;

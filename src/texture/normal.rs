@@ -20,7 +20,7 @@ use super::image::ImageMap;
 use super::space::{Place, Space, Surroundings, Turn};
 use super::walk::Node;
 use crate::math::Vector;
-use crate::pattern::{Measured, Sample};
+use crate::pattern::Sample;
 
 /// The normals of a surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,14 +150,12 @@ impl Bumps {
                 return own * amount;
             }
         }
-        let height = |point: Vector| {
-            let Measured { value, .. } = self.pattern.measured(&place.moved_to(point));
-            match self.slopes.is_empty() {
-                true => value,
-                false => slope_map::height(&self.slopes, value),
-            }
+        let height = |value| match self.slopes.is_empty() {
+            true => value,
+            false => slope_map::height(&self.slopes, value),
         };
-        bump::displacement(place.point, self.accuracy, height) * self.amount
+        let heights = |points| self.pattern.values(place, points).map(height);
+        bump::displacement(place.point, self.accuracy, heights) * self.amount
     }
 }
 

@@ -214,15 +214,21 @@ impl<'a> Tracer<'a> {
     /// Finds the colours and normals of surfaces.
     #[inline(always)]
     fn paint(&self, stands: &mut Stands<'a, '_, '_>) {
+        let mut patterned = 0;
+        for number in numbers(stands.mask) {
+            match stands.plains[number].map(|plain| &plain.pigment) {
+                Some(Pigment::Color(color)) => stands.paints[number] = *color,
+                _ => patterned |= 1 << number,
+            }
+        }
+        if patterned != 0 {
+            self.paint_patterns(stands, patterned);
+        }
         for number in numbers(stands.mask) {
             let Some(plain) = stands.plains[number] else { continue };
             let (ray, hit) = (&stands.ways[number].ray, &stands.hits[number]);
-            let paint = match &plain.pigment {
-                Pigment::Color(color) => *color,
-                _ => texture::color(self, plain, ray, hit, &stands.surfaces.at(number)),
-            };
-            let body = paint.body(self.world.settings.clearness);
-            (stands.paints[number], stands.bodies[number]) = (paint, body);
+            let body = stands.paints[number].body(self.world.settings.clearness);
+            stands.bodies[number] = body;
             stands.local[number] = body * plain.finish.emission;
             let shape = self.world.objects[hit.object as usize].shape;
             if (matches!(shape, Shape::Placed(_)) || plain.normal.is_some())
@@ -231,6 +237,32 @@ impl<'a> Tracer<'a> {
                 stands.shaped |= 1 << number;
                 stands.shapes.push(shaped);
             }
+        }
+    }
+
+    /// Finds the colours of surfaces with patterns: those of one side of an object together, where they can be.
+    #[inline(never)]
+    fn paint_patterns(&self, stands: &mut Stands<'a, '_, '_>, patterned: u32) {
+        let mut rest = patterned;
+        while rest != 0 {
+            let first = rest.trailing_zeros() as usize;
+            let Some(plain) = stands.plains[first] else { return };
+            let hit = &stands.hits[first];
+            let Some(together) = plain.pigment.together() else {
+                let (ray, surface) = (&stands.ways[first].ray, stands.surfaces.at(first));
+                stands.paints[first] = texture::color(self, plain, ray, hit, &surface);
+                rest &= rest - 1;
+                continue;
+            };
+            let mut same = 0;
+            for number in numbers(rest) {
+                let other = &stands.hits[number];
+                let is_same = (other.object, other.leaving) == (hit.object, hit.leaving);
+                same |= if is_same { 1 << number } else { 0 };
+            }
+            let hits = (stands.hits, same);
+            texture::colors(self, &together, hits, stands.surfaces, &mut stands.paints);
+            rest &= !same;
         }
     }
 

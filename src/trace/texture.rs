@@ -6,14 +6,15 @@ use std::cell::OnceCell;
 
 use super::tracer::Tracer;
 use crate::color::{Color, Rgb};
-use crate::geometry::{self, Hit};
+use crate::geometry::{self, Hit, SurfacePoints};
 use crate::math::Vector;
 use crate::math::power::power;
+use crate::math::wide::{ROW, Rows, numbers};
 use crate::shape::{Paint, Ray, Shape, SurfacePoint};
 use crate::texture::blend::Mix;
 use crate::texture::space::Turn;
-use crate::texture::{self, Normal, Place, Surroundings};
-use crate::world::{Coat, Pigment, Plain, Texture, World};
+use crate::texture::{self, Normal, Place, Surroundings, Together};
+use crate::world::{Coat, FaceCoordinates, Object, Pigment, Plain, Texture, World};
 
 /// Returns the colour of a pigment where the ray hits its surface.
 #[inline(always)]
@@ -28,6 +29,54 @@ pub(super) fn color(
         Pigment::Color(color) => *color,
         _ => patterned(tracer, plain, *ray, *hit, *surface),
     }
+}
+
+/// Finds the colours of surfaces of one side of an object, which the mask has bits for.
+#[inline(never)]
+pub(super) fn colors(
+    tracer: &Tracer,
+    together: &Together,
+    (hits, mask): (&[Hit], u32),
+    surfaces: &SurfacePoints,
+    colors: &mut [Color; ROW],
+) {
+    let world = tracer.world;
+    let hit = &hits[mask.trailing_zeros() as usize % ROW];
+    let object = &world.objects[hit.object as usize];
+    let coat = world.coat(object, hit.leaving);
+    let map = coat.places.map(|first| &world.texture_maps[(first + together.slot) as usize]);
+    let mut points = Rows::ZERO;
+    for number in numbers(mask) {
+        let mut point = surfaces.points.at(number);
+        if let Some(map) = map {
+            point = map.point(point);
+        }
+        if coat.faces.is_some() {
+            let face = surfaces.face(number);
+            point = level(point, constants(world, object, &coat, (together.slot, face)));
+        }
+        points.set(number, point);
+    }
+    together.colors(&mut points, mask, colors);
+}
+
+/// Returns the coordinates that are constant over a face, in the space of a slot.
+#[inline]
+fn constants(
+    world: &World,
+    object: &Object,
+    coat: &Coat,
+    (slot, face): (u32, u32),
+) -> FaceCoordinates {
+    let Some(first) = coat.faces else { return FaceCoordinates([None; 3]) };
+    let count = if let Shape::Plane(_) = object.shape { 1 } else { 6 };
+    world.faces[(first + slot * count + face) as usize]
+}
+
+/// Returns a point of a face, with the coordinates that are constant there.
+#[inline]
+fn level(point: Vector, FaceCoordinates([x, y, z]): FaceCoordinates) -> Vector {
+    Vector::new(x.unwrap_or(point.x), y.unwrap_or(point.y), z.unwrap_or(point.z))
 }
 
 /// The ray and the hit are passed as copies: if they were pointed to, they would be in memory for surfaces of
@@ -209,11 +258,9 @@ impl<'a, 'p> SurfaceInteraction<'a, 'p> {
     }
 
     /// Returns the coordinates that are constant over the face, in the space of a slot.
-    fn constants(&self, slot: u32) -> [Option<f64>; 3] {
+    fn constants(&self, slot: u32) -> FaceCoordinates {
         let object = &self.world.objects[self.hit.object as usize];
-        let Some(first) = self.coat.faces else { return [None; 3] };
-        let count = if let Shape::Plane(_) = object.shape { 1 } else { 6 };
-        self.world.faces[(first + slot * count + self.surface.face) as usize].0
+        constants(self.world, object, &self.coat, (slot, self.surface.face))
     }
 }
 
@@ -225,10 +272,7 @@ impl Surroundings for SurfaceInteraction<'_, '_> {
         if let Some(first) = self.coat.places {
             point = self.world.texture_maps[(first + slot) as usize].point(point);
         }
-        for (axis, constant) in self.constants(slot).into_iter().enumerate() {
-            point[axis] = constant.unwrap_or(point[axis]);
-        }
-        point
+        level(point, self.constants(slot))
     }
 
     #[cold]
@@ -238,7 +282,7 @@ impl Surroundings for SurfaceInteraction<'_, '_> {
             let map = self.world.texture_maps[(first + slot) as usize];
             error = map.point_error(self.surface.point, error);
         }
-        for (axis, constant) in self.constants(slot).into_iter().enumerate() {
+        for (axis, constant) in self.constants(slot).0.into_iter().enumerate() {
             error[axis] = if constant.is_some() { 0.0 } else { error[axis] };
         }
         error

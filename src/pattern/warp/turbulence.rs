@@ -3,6 +3,7 @@
 use super::Warping;
 use crate::math::Vector;
 use crate::math::interval::Interval;
+use crate::math::wide::{Rows, numbers};
 use crate::noise;
 use crate::pattern::parameter::parameters;
 
@@ -21,6 +22,14 @@ parameters! {
 impl Turbulence {
     pub fn new(amount: Vector, octaves: f64, lambda: f64, omega: f64) -> Self {
         Self { amount, octaves, lambda, omega }
+    }
+
+    /// Replaces each of the moves that the mask has a bit for by how far its point moves.
+    pub(super) fn moves(&self, points: &Rows, mask: u32, moves: &mut Rows) {
+        self.layers().vectors(points, mask, moves);
+        for number in numbers(mask) {
+            moves.set(number, self.amount * moves.at(number));
+        }
     }
 
     fn layers(&self) -> noise::Turbulence {

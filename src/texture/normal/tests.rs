@@ -72,7 +72,7 @@ fn perturbed(case: &str, p: Vector, normal: Vector, rest: &[f64]) -> Vector {
     };
     let frame = Frame::new(turn(TO_PATTERN), false);
     let bump = |size: f64, value: &dyn Fn(Vector) -> f64| {
-        bump::displacement(p, bump::ACCURACY, value) * size
+        bump::displacement(p, bump::ACCURACY, |points| points.map(value)) * size
     };
     // An entry of a map, in the space of the map.
     let entry = |v: Vector| Frame::new(Turn::NONE, false).entry(frame_normal(normal), |_| v);
@@ -161,7 +161,7 @@ fn normals_are_those_of_pov_ray() {
 fn scaling_keeps_angles_unless_the_depth_is_kept() {
     let lean = |scale: f64, keeps_depth| {
         let smaller = turn(Matrix::from_diagonal(Vector::splat(1.0 / scale)));
-        let slope = bump::displacement(Vector::ZERO, bump::ACCURACY, |p: Vector| p.x);
+        let slope = bump::displacement(Vector::ZERO, bump::ACCURACY, |points| points.map(|p| p.x));
         let normal = Frame::new(smaller, keeps_depth).entry(Vector::Z, |_| slope);
         normal.x / normal.z
     };
