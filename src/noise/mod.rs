@@ -92,6 +92,18 @@ pub fn vector_noise(point: Vector) -> Vector {
     Vector::new(x, y, z)
 }
 
+/// Replaces each of the vectors that the mask has a bit for by [`vector_noise`].
+pub fn vector_noises(points: &Rows, mask: u32, vectors: &mut Rows) {
+    dispatch!(Instructions::best().level(), simd => {
+        for group in 0..GROUPS {
+            if has(mask, group) {
+                let (points, lanes) = (WideVector::of(simd, points, group), lanes(mask, group));
+                four::triples_of_four(simd, points, lanes).store(vectors, group);
+            }
+        }
+    });
+}
+
 /// The first component of the vector noise.
 #[inline(always)]
 fn plain<S: Simd>(simd: S, point: Vector) -> f64 {

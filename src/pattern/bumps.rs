@@ -5,7 +5,7 @@ use super::{Bozo, Pattern, Sample, Setting};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::math::wide::{Row, Rows};
-use crate::noise::vector_noise;
+use crate::noise::{vector_noise, vector_noises};
 
 parameters! {
     /// The values of [`Bozo`].
@@ -35,5 +35,17 @@ impl Pattern for Bumps {
     /// **Source:** measured on POV-Ray 3.7; frequency, phase and wave have no effect.
     fn displacement(&self, _normal: Vector, sample: &Sample) -> Option<Vector> {
         Some(vector_noise(sample.point))
+    }
+
+    fn displacements(
+        &self,
+        _normals: &Rows,
+        points: &Rows,
+        mask: u32,
+        _setting: &Setting,
+        vectors: &mut Rows,
+    ) -> bool {
+        vector_noises(points, mask, vectors);
+        true
     }
 }

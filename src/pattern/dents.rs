@@ -5,8 +5,8 @@ use super::parameter::parameters;
 use super::{Pattern, Sample, Setting};
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::math::wide::{Row, Rows, numbers};
-use crate::noise::{noise, noises, vector_noise};
+use crate::math::wide::{ROW, Row, Rows, numbers};
+use crate::noise::{noise, noises, vector_noise, vector_noises};
 
 parameters! {
     /// The cube of the noise of the block's generator, 0 … 1.
@@ -39,6 +39,23 @@ impl Pattern for Dents {
     /// **Source:** measured on POV-Ray 3.7; frequency, phase and wave have no effect.
     fn displacement(&self, _normal: Vector, sample: &Sample) -> Option<Vector> {
         Some(vector_noise(sample.point) * self.value(sample))
+    }
+
+    fn displacements(
+        &self,
+        _normals: &Rows,
+        points: &Rows,
+        mask: u32,
+        setting: &Setting,
+        vectors: &mut Rows,
+    ) -> bool {
+        let mut values = [0.0; ROW];
+        self.values(points, mask, setting, &mut values);
+        vector_noises(points, mask, vectors);
+        for number in numbers(mask) {
+            vectors.set(number, vectors.at(number) * values[number]);
+        }
+        true
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::math::random::{Random, tries};
-use crate::math::wide::ROW;
+use crate::math::wide::{ROW, numbers};
 
 const GENERATORS: [NoiseGenerator; 3] =
     [NoiseGenerator::Plateaus, NoiseGenerator::RangeCorrected, NoiseGenerator::Perlin];
@@ -74,6 +74,28 @@ fn values_side_by_side_have_the_bits_of_each_alone() {
             let Measured { value, error } = kind.measured(&sample);
             assert_eq!(error, 0.0, "{kind:?} {setting:?} {point}");
             assert_eq!(values[number].to_bits(), value.to_bits(), "{kind:?} {setting:?} {point}");
+        }
+    }
+}
+
+#[test]
+fn displacements_side_by_side_have_the_bits_of_each_alone() {
+    let mut random = Random(26);
+    for turn in 0..tries() {
+        let kind = usual(&mut random, turn);
+        let setting = setting(&mut random);
+        let ((points, mask), (normals, _)) = (row(&mut random), row(&mut random));
+        let mut vectors = Rows::ZERO;
+        let are_there = kind.displacements(&normals, &points, mask, &setting, &mut vectors);
+        for number in numbers(mask) {
+            let sample =
+                Sample { point: points.at(number), error: Vector::ZERO, setting: &setting };
+            let alone = kind.displacement(normals.at(number), &sample);
+            assert_eq!(alone.is_some(), are_there);
+            if let Some(alone) = alone {
+                let (told, alone) = (vectors.at(number).to_array(), alone.to_array());
+                assert_eq!(told.map(f64::to_bits), alone.map(f64::to_bits), "{kind:?}");
+            }
         }
     }
 }

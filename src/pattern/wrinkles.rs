@@ -5,8 +5,8 @@ use super::parameter::parameters;
 use super::{Pattern, Sample, Setting};
 use crate::math::Vector;
 use crate::math::interval::Interval;
-use crate::math::wide::{Row, Rows};
-use crate::noise::vector_noise;
+use crate::math::wide::{Row, Rows, numbers};
+use crate::noise::{vector_noise, vector_noises};
 
 parameters! {
     /// The sum of ten layers of noise, from frequency 1 and amplitude ½ on.
@@ -37,10 +37,36 @@ impl Pattern for Wrinkles {
     ///
     /// **Source:** measured on POV-Ray 3.7; frequency, phase and wave have no effect.
     fn displacement(&self, _normal: Vector, sample: &Sample) -> Option<Vector> {
-        let finer = std::iter::successors(Some(1.0), |finer| Some(finer * 2.0));
         let layer = |finer: f64| vector_noise(sample.point * finer).abs() / finer;
-        Some(finer.take(10).map(layer).fold(Vector::ZERO, |sum, layer| sum + layer))
+        Some(finer().map(layer).fold(Vector::ZERO, |sum, layer| sum + layer))
     }
+
+    fn displacements(
+        &self,
+        _normals: &Rows,
+        points: &Rows,
+        mask: u32,
+        _setting: &Setting,
+        vectors: &mut Rows,
+    ) -> bool {
+        *vectors = Rows::ZERO;
+        for finer in finer() {
+            let [mut scaled, mut noise] = [Rows::ZERO; 2];
+            for number in numbers(mask) {
+                scaled.set(number, points.at(number) * finer);
+            }
+            vector_noises(&scaled, mask, &mut noise);
+            for number in numbers(mask) {
+                vectors.set(number, vectors.at(number) + noise.at(number).abs() / finer);
+            }
+        }
+        true
+    }
+}
+
+/// Returns the frequencies of the layers of displacements.
+fn finer() -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(1.0), |finer| Some(finer * 2.0)).take(10)
 }
 
 #[cfg(test)]

@@ -106,16 +106,19 @@ impl Pattern {
     /// Returns the values at four points of the space of a place.
     pub fn values(&self, place: &Place, points: [Vector; 4]) -> [f64; 4] {
         match &self.source {
-            Source::Kind(kind) if kind.is_exact(&self.setting) => {
-                let (mut row, mut values) = (Rows::ZERO, [0.0; ROW]);
-                for (number, point) in points.into_iter().enumerate() {
-                    row.set(number, point);
-                }
-                kind.values(&row, 0b1111, &self.setting, &mut values);
-                [0, 1, 2, 3].map(|number: usize| self.wave.value(values[number]))
-            }
+            Source::Kind(kind) if kind.is_exact(&self.setting) => self.values_of(kind, points),
             _ => points.map(|point| self.measured(&place.moved_to(point)).value),
         }
+    }
+
+    /// Returns the values of its kind, which is [exact](Kind::is_exact), at four points.
+    pub(super) fn values_of(&self, kind: &Kind, points: [Vector; 4]) -> [f64; 4] {
+        let (mut row, mut values) = (Rows::ZERO, [0.0; ROW]);
+        for (number, point) in points.into_iter().enumerate() {
+            row.set(number, point);
+        }
+        kind.values(&row, 0b1111, &self.setting, &mut values);
+        [0, 1, 2, 3].map(|number: usize| self.wave.value(values[number]))
     }
 
     /// Returns the value if the point's error does not matter, with an upper bound of its error.

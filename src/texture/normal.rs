@@ -8,7 +8,7 @@
 pub mod blend;
 pub mod bump;
 pub mod bump_map;
-mod frame;
+pub(super) mod frame;
 pub mod slope_map;
 
 use std::sync::Arc;
@@ -150,12 +150,20 @@ impl Bumps {
                 return own * amount;
             }
         }
+        self.leaning(place.point, |points| self.pattern.values(place, points))
+    }
+
+    /// Returns the displacement that follows from the values of the pattern around a point.
+    pub(super) fn leaning(
+        &self,
+        point: Vector,
+        values: impl FnOnce([Vector; 4]) -> [f64; 4],
+    ) -> Vector {
         let height = |value| match self.slopes.is_empty() {
             true => value,
             false => slope_map::height(&self.slopes, value),
         };
-        let heights = |points| self.pattern.values(place, points).map(height);
-        bump::displacement(place.point, self.accuracy, heights) * self.amount
+        bump::displacement(point, self.accuracy, |points| values(points).map(height)) * self.amount
     }
 }
 

@@ -45,6 +45,16 @@ pub struct Space {
     pub steps: Vec<Step>,
 }
 
+impl Space {
+    /// Returns the map to the space of the node, given that to where it starts, without its warps.
+    pub fn turn(&self, start: Turn) -> Turn {
+        self.steps.iter().fold(start, |turn, step| match step {
+            Step::Map(map) => Turn::of(map).after(turn),
+            Step::Warp(_) => turn,
+        })
+    }
+}
+
 /// Where the points of a node come from.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Start {
@@ -234,11 +244,7 @@ impl<'a> Place<'a> {
             // Its place has all the transforms.
             (Start::UvTurned(slot), _) => return self.around.turn(slot),
         };
-        let steps = self.space.steps.iter();
-        steps.fold(start, |turn, step| match step {
-            Step::Map(map) => Turn::of(map).after(turn),
-            Step::Warp(_) => turn,
-        })
+        self.space.turn(start)
     }
 
     /// Returns whether the error matters only near seams; see [`Surroundings::is_sharp`].

@@ -44,8 +44,8 @@ pub(super) struct Stands<'a, 'b, 'c> {
 }
 
 /// How a surface is lit by another normal than it lies by.
+#[derive(Clone, Copy)]
 struct Shaped {
-    number: usize,
     normal: Vector,
     flat: Flat,
     smooth: Option<Vector>,
@@ -76,6 +76,28 @@ impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
         (points, origins, facing)
     }
 
+    /// Returns the place among the shapes of that of this number.
+    #[inline(always)]
+    fn place_of_shape(&self, number: usize) -> usize {
+        (self.shaped & ((1 << number) - 1)).count_ones() as usize
+    }
+
+    /// Returns the first of some surfaces, with those of the same side of the same object.
+    #[inline(always)]
+    fn side(&self, some: u32) -> texture::Side<'c>
+    where
+        'b: 'c,
+    {
+        let hit = &self.hits[some.trailing_zeros() as usize];
+        let mut mask = 0;
+        for number in numbers(some) {
+            let other = &self.hits[number];
+            let is_same = (other.object, other.leaving) == (hit.object, hit.leaving);
+            mask |= if is_same { 1 << number } else { 0 };
+        }
+        texture::Side { hit, mask, surfaces: self.surfaces }
+    }
+
     /// Returns the surface of this number; `None` if it is not there.
     #[inline(always)]
     pub fn at(&self, number: usize) -> Option<Stand<'a, 'b>> {
@@ -94,10 +116,8 @@ impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
             to_viewer: -way.ray.direction,
             within: way.within,
         };
-        if self.shaped >> number & 1 == 1
-            && let Some(shaped) = self.shapes.iter().find(|shaped| shaped.number == number)
-        {
-            let &Shaped { normal, flat, smooth, .. } = shaped;
+        if self.shaped >> number & 1 == 1 {
+            let Shaped { normal, flat, smooth } = self.shapes[self.place_of_shape(number)];
             (place.normal, place.flat, place.smooth) = (normal, Some(flat), smooth);
         }
         Some(Stand { way, hit, surface, paint, place })
@@ -214,7 +234,7 @@ impl<'a> Tracer<'a> {
     /// Finds the colours and normals of surfaces.
     #[inline(always)]
     fn paint(&self, stands: &mut Stands<'a, '_, '_>) {
-        let mut patterned = 0;
+        let (mut patterned, mut bumpy) = (0, 0);
         for number in numbers(stands.mask) {
             match stands.plains[number].map(|plain| &plain.pigment) {
                 Some(Pigment::Color(color)) => stands.paints[number] = *color,
@@ -236,7 +256,11 @@ impl<'a> Tracer<'a> {
             {
                 stands.shaped |= 1 << number;
                 stands.shapes.push(shaped);
+                bumpy |= if plain.normal.is_some() { 1 << number } else { 0 };
             }
+        }
+        if bumpy != 0 {
+            self.perturb(stands, bumpy);
         }
     }
 
@@ -247,22 +271,48 @@ impl<'a> Tracer<'a> {
         while rest != 0 {
             let first = rest.trailing_zeros() as usize;
             let Some(plain) = stands.plains[first] else { return };
-            let hit = &stands.hits[first];
             let Some(together) = plain.pigment.together() else {
-                let (ray, surface) = (&stands.ways[first].ray, stands.surfaces.at(first));
+                let (ray, hit) = (&stands.ways[first].ray, &stands.hits[first]);
+                let surface = stands.surfaces.at(first);
                 stands.paints[first] = texture::color(self, plain, ray, hit, &surface);
                 rest &= rest - 1;
                 continue;
             };
-            let mut same = 0;
-            for number in numbers(rest) {
-                let other = &stands.hits[number];
-                let is_same = (other.object, other.leaving) == (hit.object, hit.leaving);
-                same |= if is_same { 1 << number } else { 0 };
+            let side = stands.side(rest);
+            texture::colors(self, &together, side, &mut stands.paints);
+            rest &= !side.mask;
+        }
+    }
+
+    /// Perturbs the normals of surfaces with bumps, likewise.
+    #[inline(never)]
+    fn perturb(&self, stands: &mut Stands<'a, '_, '_>, bumpy: u32) {
+        let mut rest = bumpy;
+        while rest != 0 {
+            let first = rest.trailing_zeros() as usize;
+            let Some(bumps) = stands.plains[first].and_then(|plain| plain.normal.as_ref()) else {
+                return;
+            };
+            let Some(together) = bumps.together() else {
+                let (ray, hit) = (&stands.ways[first].ray, &stands.hits[first]);
+                let surface = stands.surfaces.at(first);
+                let place = stands.place_of_shape(first);
+                let normal = &mut stands.shapes[place].normal;
+                *normal = texture::perturbed(self, bumps, *normal, (ray, hit, &surface));
+                rest &= rest - 1;
+                continue;
+            };
+            let side = stands.side(rest);
+            let mut normals = Rows::ZERO;
+            for number in numbers(side.mask) {
+                normals.set(number, stands.shapes[stands.place_of_shape(number)].normal);
             }
-            let hits = (stands.hits, same);
-            texture::colors(self, &together, hits, stands.surfaces, &mut stands.paints);
-            rest &= !same;
+            texture::perturb(self, &together, side, &mut normals);
+            for number in numbers(side.mask) {
+                let place = stands.place_of_shape(number);
+                stands.shapes[place].normal = normals.at(number);
+            }
+            rest &= !side.mask;
         }
     }
 
@@ -303,7 +353,7 @@ impl<'a> Tracer<'a> {
         walk.onward.push(Onward { way, back: Back { to, factor, exponent: reflection.exponent } });
     }
 
-    /// How a surface is lit that is smooth or bumpy.
+    /// How a surface is lit that is smooth or bumpy, before its bumps perturb its normal.
     #[inline(never)]
     fn shaped(
         &self,
@@ -322,11 +372,8 @@ impl<'a> Tracer<'a> {
             Some(smooth) => smooth,
         };
         match &plain.normal {
-            None => smooth.map(|_| Shaped { number, normal, flat, smooth: None }),
-            Some(bumps) => {
-                let bumpy = texture::perturbed(self, bumps, normal, (ray, hit, &surface));
-                Some(Shaped { number, normal: bumpy, flat, smooth: Some(normal) })
-            }
+            None => smooth.map(|_| Shaped { normal, flat, smooth: None }),
+            Some(_) => Some(Shaped { normal, flat, smooth: Some(normal) }),
         }
     }
 

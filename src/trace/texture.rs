@@ -8,12 +8,14 @@ use super::tracer::Tracer;
 use crate::color::{Color, Rgb};
 use crate::geometry::{self, Hit, SurfacePoints};
 use crate::math::Vector;
+use crate::math::placement::Map;
 use crate::math::power::power;
 use crate::math::wide::{ROW, Rows, numbers};
 use crate::shape::{Paint, Ray, Shape, SurfacePoint};
 use crate::texture::blend::Mix;
+use crate::texture::normal::Bumps;
 use crate::texture::space::Turn;
-use crate::texture::{self, Normal, Place, Surroundings, Together};
+use crate::texture::{self, Blend, Normal, Place, Surroundings, Together};
 use crate::world::{Coat, FaceCoordinates, Object, Pigment, Plain, Texture, World};
 
 /// Returns the colour of a pigment where the ray hits its surface.
@@ -31,33 +33,57 @@ pub(super) fn color(
     }
 }
 
-/// Finds the colours of surfaces of one side of an object, which the mask has bits for.
+/// Surfaces of one side of an object: a bit for each of those that are shaded together.
+#[derive(Clone, Copy)]
+pub(super) struct Side<'a> {
+    pub hit: &'a Hit,
+    pub mask: u32,
+    pub surfaces: &'a SurfacePoints,
+}
+
+/// Finds the colours of the surfaces of a side.
 #[inline(never)]
 pub(super) fn colors(
     tracer: &Tracer,
-    together: &Together,
-    (hits, mask): (&[Hit], u32),
-    surfaces: &SurfacePoints,
+    together: &Together<Blend<Color>>,
+    side: Side,
     colors: &mut [Color; ROW],
 ) {
-    let world = tracer.world;
-    let hit = &hits[mask.trailing_zeros() as usize % ROW];
-    let object = &world.objects[hit.object as usize];
-    let coat = world.coat(object, hit.leaving);
-    let map = coat.places.map(|first| &world.texture_maps[(first + together.slot) as usize]);
     let mut points = Rows::ZERO;
-    for number in numbers(mask) {
-        let mut point = surfaces.points.at(number);
-        if let Some(map) = map {
-            point = map.point(point);
+    side.points(tracer.world, together.slot, &mut points);
+    together.colors(&mut points, side.mask, colors);
+}
+
+/// Perturbs the normals of the surfaces of a side, which point toward the viewer.
+#[inline(never)]
+pub(super) fn perturb(tracer: &Tracer, together: &Together<Bumps>, side: Side, normals: &mut Rows) {
+    let mut points = Rows::ZERO;
+    let map = side.points(tracer.world, together.slot, &mut points);
+    let turn = map.map_or(Turn::NONE, Turn::of);
+    together.perturb(turn, &mut points, side.mask, normals);
+}
+
+impl Side<'_> {
+    /// Finds the points of the surfaces in the space of a slot; returns the map to there.
+    #[inline(always)]
+    fn points<'w>(&self, world: &'w World, slot: u32, points: &mut Rows) -> Option<&'w Map> {
+        let Self { hit, mask, surfaces } = *self;
+        let object = &world.objects[hit.object as usize];
+        let coat = world.coat(object, hit.leaving);
+        let map = coat.places.map(|first| &world.texture_maps[(first + slot) as usize]);
+        for number in numbers(mask) {
+            let mut point = surfaces.points.at(number);
+            if let Some(map) = map {
+                point = map.point(point);
+            }
+            if coat.faces.is_some() {
+                let face = surfaces.face(number);
+                point = level(point, constants(world, object, &coat, (slot, face)));
+            }
+            points.set(number, point);
         }
-        if coat.faces.is_some() {
-            let face = surfaces.face(number);
-            point = level(point, constants(world, object, &coat, (together.slot, face)));
-        }
-        points.set(number, point);
+        map
     }
-    together.colors(&mut points, mask, colors);
 }
 
 /// Returns the coordinates that are constant over a face, in the space of a slot.

@@ -34,9 +34,20 @@ impl Frame {
     /// The result has length 1, except with `no_bump_scale`; for an entry of a map its length is its weight.
     /// Where the sum vanishes, the result is `normal`.
     pub fn entry(&self, normal: Vector, displacement: impl FnOnce(Vector) -> Vector) -> Vector {
-        let inner = self.length_settled(self.turn.normals * normal, normal);
-        let outer = self.turn.directions.transpose() * (inner + displacement(inner));
-        self.length_settled(outer, normal)
+        let inner = self.inner(normal);
+        self.outer(inner + displacement(inner), normal)
+    }
+
+    /// Returns a normal of the surrounding space in the space of the pattern.
+    #[inline]
+    pub fn inner(&self, normal: Vector) -> Vector {
+        self.length_settled(self.turn.normals * normal, normal)
+    }
+
+    /// Returns a vector of the space of the pattern in the surrounding space; `normal` where it has no direction.
+    #[inline]
+    pub fn outer(&self, sum: Vector, normal: Vector) -> Vector {
+        self.length_settled(self.turn.directions.transpose() * sum, normal)
     }
 
     fn length_settled(&self, v: Vector, otherwise: Vector) -> Vector {
@@ -48,6 +59,6 @@ impl Frame {
 }
 
 /// Returns the direction of `v`, or `otherwise` if it has none.
-pub(super) fn unit(v: Vector, otherwise: Vector) -> Vector {
+pub fn unit(v: Vector, otherwise: Vector) -> Vector {
     UnitVector::from_direction(v).map_or(otherwise, UnitVector::get)
 }
