@@ -11,6 +11,7 @@
 use super::area::Ground;
 use super::batch::{Back, Onward};
 use super::media::Border;
+use super::painted::Known;
 use super::shade::{self, Flat, Place};
 use super::texture::SurfaceInteraction;
 use super::tracer::Tracer;
@@ -84,6 +85,7 @@ struct Surface<'a, 'p> {
     to_viewer: Vector,
     /// The fraction that is reflected by Fresnel's equations at a normal.
     fresnel: &'p dyn Fn(Vector) -> f64,
+    known: Known<'a, 'p>,
 }
 
 impl<'a: 'p, 'p> Surface<'a, 'p> {
@@ -139,7 +141,8 @@ impl<'a: 'p, 'p> Surface<'a, 'p> {
         match texture {
             Texture::Plain(plain) => {
                 let around = self.around.with(plain.normal.as_ref());
-                let paint = plain.pigment.color(outer, &around);
+                let known = if outer.is_none() { self.known.color(plain) } else { None };
+                let paint = known.unwrap_or_else(|| plain.pigment.color(outer, &around));
                 let normal = match &plain.normal {
                     Some(bumps) => bumps.perturbed(self.normal, outer, &self.around),
                     None => self.normal,
@@ -217,7 +220,14 @@ impl<'a> Tracer<'a> {
     /// Returns the light that a texture with parts sends back by itself, and adds the rays that go on to the walk's;
     /// what they see goes back `to` the surface of that number.
     #[inline(never)]
-    pub(super) fn composite(&self, walk: &mut Walk, way: &Way, hit: &Hit, to: u32) -> Rgb {
+    pub(super) fn composite(
+        &self,
+        walk: &mut Walk,
+        way: &Way,
+        hit: &Hit,
+        to: u32,
+        known: Known<'a, '_>,
+    ) -> Rgb {
         let ends = !self.secondary || way.level >= self.max_trace_level;
         let world = self.world;
         let object = &world.objects[hit.object as usize];
@@ -276,6 +286,7 @@ impl<'a> Tracer<'a> {
             normal,
             to_viewer: -way.ray.direction,
             fresnel: &fresnel,
+            known,
         };
         let mut stacks = Stacks::new();
         surface.stacks(texture, None, 1.0, &mut stacks);

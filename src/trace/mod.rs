@@ -27,6 +27,7 @@ mod layers;
 mod light;
 mod media;
 mod metal;
+mod painted;
 mod pixels;
 mod projection;
 mod rainbow;

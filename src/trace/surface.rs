@@ -5,7 +5,9 @@
 use super::area::Ground;
 use super::batch::{Back, Onward, SLICE, Surfaces};
 use super::media::Within;
+use super::painted::Known;
 use super::shade::{Flat, Place};
+use super::texture::Side;
 use super::tracer::Tracer;
 use super::way::Way;
 use super::{Walk, behind, reflection, sky, texture};
@@ -82,22 +84,6 @@ impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
         (self.shaped & ((1 << number) - 1)).count_ones() as usize
     }
 
-    /// Returns the first of some surfaces, with those of the same side of the same object.
-    #[inline(always)]
-    fn side(&self, some: u32) -> texture::Side<'c>
-    where
-        'b: 'c,
-    {
-        let hit = &self.hits[some.trailing_zeros() as usize];
-        let mut mask = 0;
-        for number in numbers(some) {
-            let other = &self.hits[number];
-            let is_same = (other.object, other.leaving) == (hit.object, hit.leaving);
-            mask |= if is_same { 1 << number } else { 0 };
-        }
-        texture::Side { hit, mask, surfaces: self.surfaces }
-    }
-
     /// Returns the surface of this number; `None` if it is not there.
     #[inline(always)]
     pub fn at(&self, number: usize) -> Option<Stand<'a, 'b>> {
@@ -131,6 +117,7 @@ impl<'a> Tracer<'a> {
         let (ways, hits) = (surfaces.ways, surfaces.hits);
         let mut plains = [None; SLICE];
         let mut mask = 0;
+        let mut layered = 0;
         // Surfaces that rays go on from.
         let (mut steps, mut pending) = (0, walk.pending());
         let mut count = |walk: &Walk| {
@@ -151,21 +138,27 @@ impl<'a> Tracer<'a> {
             let texture = self.world.coat(object, hit.leaving).texture;
             match &self.world.textures[texture as usize] {
                 Texture::Plain(plain) => (plains[number], mask) = (Some(plain), mask | 1 << number),
+                Texture::Layers(_) => layered |= 1 << number,
                 _ => {
                     let to = surfaces.first + number as u32;
-                    let local = self.composite(walk, way, hit, to);
+                    let local = self.composite(walk, way, hit, to, Known::NOTHING);
                     surfaces.show(number, local, false);
                     count(walk);
                 }
             }
         }
-        if mask == 0 {
+        if mask | layered == 0 {
             walk.patience.is_over_after(steps, self.watch);
             return;
         }
         let rays = Rays::new(ways.iter().map(|way| &way.ray));
         let mut points = SurfacePoints::NONE;
-        points.find(self.world, self.geometry.instructions(), (&rays, mask), hits);
+        points.find(self.world, self.geometry.instructions(), (&rays, mask | layered), hits);
+        while layered != 0 {
+            let side = Side::first(hits, layered, &points);
+            self.shade_layered(walk, &mut surfaces, side, &mut count);
+            layered &= !side.mask;
+        }
         let mut stands = Stands {
             ways,
             hits,
@@ -214,6 +207,28 @@ impl<'a> Tracer<'a> {
             count(walk);
         }
         walk.patience.is_over_after(steps, self.watch);
+    }
+
+    /// Shades the surfaces of a side with layers.
+    #[inline(never)]
+    fn shade_layered(
+        &self,
+        walk: &mut Walk,
+        surfaces: &mut Surfaces,
+        side: Side,
+        count: &mut impl FnMut(&Walk),
+    ) {
+        let object = &self.world.objects[side.hit.object as usize];
+        let texture = self.world.coat(object, side.hit.leaving).texture;
+        let Texture::Layers(layers) = &self.world.textures[texture as usize] else { return };
+        let painted = self.paint_layers(layers, side);
+        for number in numbers(side.mask) {
+            let (way, hit) = (&surfaces.ways[number], &surfaces.hits[number]);
+            let known = Known { painted: &painted, number };
+            let local = self.composite(walk, way, hit, surfaces.first + number as u32, known);
+            surfaces.show(number, local, false);
+            count(walk);
+        }
     }
 
     /// What a surface shows of the light behind it; rays that go on are added to the walk's.
@@ -278,7 +293,7 @@ impl<'a> Tracer<'a> {
                 rest &= rest - 1;
                 continue;
             };
-            let side = stands.side(rest);
+            let side = Side::first(stands.hits, rest, stands.surfaces);
             texture::colors(self, &together, side, &mut stands.paints);
             rest &= !side.mask;
         }
@@ -302,7 +317,7 @@ impl<'a> Tracer<'a> {
                 rest &= rest - 1;
                 continue;
             };
-            let side = stands.side(rest);
+            let side = Side::first(stands.hits, rest, stands.surfaces);
             let mut normals = Rows::ZERO;
             for number in numbers(side.mask) {
                 normals.set(number, stands.shapes[stands.place_of_shape(number)].normal);

@@ -63,7 +63,20 @@ pub(super) fn perturb(tracer: &Tracer, together: &Together<Bumps>, side: Side, n
     together.perturb(turn, &mut points, side.mask, normals);
 }
 
-impl Side<'_> {
+impl<'a> Side<'a> {
+    /// Returns the first of some surfaces, with those of the same side of the same object.
+    #[inline(always)]
+    pub fn first(hits: &'a [Hit], some: u32, surfaces: &'a SurfacePoints) -> Self {
+        let hit = &hits[some.trailing_zeros() as usize];
+        let mut mask = 0;
+        for number in numbers(some) {
+            let other = &hits[number];
+            let is_same = (other.object, other.leaving) == (hit.object, hit.leaving);
+            mask |= if is_same { 1 << number } else { 0 };
+        }
+        Self { hit, mask, surfaces }
+    }
+
     /// Finds the points of the surfaces in the space of a slot; returns the map to there.
     #[inline(always)]
     fn points<'w>(&self, world: &'w World, slot: u32, points: &mut Rows) -> Option<&'w Map> {
