@@ -57,6 +57,7 @@ mod deep;
 mod extent;
 mod file;
 mod fog;
+mod inherited;
 mod internal;
 mod made;
 mod promotion;

@@ -240,12 +240,19 @@ impl Evaluator<'_> {
         let source = self.pattern_source(token, word)?;
         Some(source.and_then(|source| {
             let site = self.whole(token);
-            if let Some(count) = source.list() {
-                open.entries = self.list_of_normals(count)?;
+            let listed = match source.list() {
+                Some(count) => self.list_of_normals(count)?,
+                None => None,
+            };
+            let has_list = listed.is_some();
+            if source.list().is_some() {
+                open.entries = listed;
             }
             open.pattern.choose(source, site);
             open.is_image = false;
-            if open.entries.is_none() && self.is_before_value() {
+            // Entries that an inherited normal has over its pattern stay, and the amount has no effect (measured on
+            // POV-Ray 3.7).
+            if !has_list && self.is_before_value() {
                 open.amount = self.number_after(token, "an amount")?.value;
             }
             Ok(())

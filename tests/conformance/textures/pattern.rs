@@ -140,7 +140,8 @@ impl Draw {
             14 if !self.in_blend => (self.slope(), String::new()),
             15 => (format!("spiral1 {}", self.whole(1, 6)), String::new()),
             16 => (format!("spiral2 {}", self.whole(1, 6)), String::new()),
-            _ => (format!("tiling {}", self.whole(1, 24)), String::new()),
+            // With 1, a negative amount behind it would make a number below 1.
+            _ => (format!("tiling {}", self.whole(2, 24)), String::new()),
         };
         Pattern { head, parameters, list: None }
     }

@@ -26,15 +26,22 @@ impl Reflection {
     };
 }
 
-impl Block for Reflection {
+/// A reflection during reading.
+struct OpenReflection {
+    reflection: Reflection,
+    /// `fresnel`, if it is written.
+    fresnel: Option<bool>,
+}
+
+impl Block for OpenReflection {
     const PLACE: Place = Place::REFLECTION;
     const PARTS: Parts<Self> = &[
-        Part::Ranged(Word::Falloff, POWER, |reflection, power, _| reflection.falloff = power),
-        Part::Special(Word::Exponent, |evaluator, token, reflection| {
-            evaluator.exponent(token).map(|exponent| reflection.exponent = exponent)
+        Part::Ranged(Word::Falloff, POWER, |open, power, _| open.reflection.falloff = power),
+        Part::Special(Word::Exponent, |evaluator, token, open| {
+            evaluator.exponent(token).map(|exponent| open.reflection.exponent = exponent)
         }),
-        Part::Optional(Word::Metallic, |reflection, metallic, _| reflection.metallic = metallic),
-        Part::Optional(Word::Fresnel, |reflection, on, _| reflection.fresnel = on != 0.0),
+        Part::Optional(Word::Metallic, |open, metallic, _| open.reflection.metallic = metallic),
+        Part::Optional(Word::Fresnel, |open, on, _| open.fresnel = Some(on != 0.0)),
     ];
 }
 
@@ -69,9 +76,12 @@ impl Evaluator<'_> {
                 evaluator.lint_reflection_order(&least, &most);
                 reflection.maximum = most.value;
             }
-            evaluator.parts(&mut reflection)?;
-            // With only one colour, the minimum is zero (measured on POV-Ray 3.7).
-            if reflection.fresnel && !both {
+            let mut open = OpenReflection { reflection, fresnel: None };
+            evaluator.parts(&mut open)?;
+            let OpenReflection { mut reflection, fresnel } = open;
+            reflection.fresnel = fresnel.unwrap_or(before.fresnel);
+            // With only one colour, the minimum is zero, unless `fresnel` is inherited (measured on POV-Ray 3.7).
+            if fresnel == Some(true) && !both {
                 reflection.minimum = Rgb::BLACK;
             }
             Ok(reflection)
