@@ -15,7 +15,7 @@ use super::Walk;
 use super::media::Within;
 use super::shade::{self, Place, Side};
 use super::shadow::{self, Aim};
-use super::surface::{Stand, Stands};
+use super::stands::{Stand, Stands};
 use super::tracer::Tracer;
 use crate::color::Rgb;
 use crate::math::random::Random;

@@ -10,8 +10,8 @@
 
 use super::area::Ground;
 use super::batch::{Back, Onward};
+use super::layered::Known;
 use super::media::Border;
-use super::painted::Known;
 use super::shade::{self, Flat, Place};
 use super::texture::SurfaceInteraction;
 use super::tracer::Tracer;
@@ -140,13 +140,15 @@ impl<'a: 'p, 'p> Surface<'a, 'p> {
     ) -> Rgb {
         match texture {
             Texture::Plain(plain) => {
-                let around = self.around.with(plain.normal.as_ref());
-                let known = if outer.is_none() { self.known.color(plain) } else { None };
-                let paint = known.unwrap_or_else(|| plain.pigment.color(outer, &around));
-                let normal = match &plain.normal {
-                    Some(bumps) => bumps.perturbed(self.normal, outer, &self.around),
-                    None => self.normal,
-                };
+                let known = if outer.is_none() { self.known.part(plain) } else { None };
+                let (paint, normal) = known.unwrap_or_else(|| {
+                    let around = self.around.with(plain.normal.as_ref());
+                    let normal = match &plain.normal {
+                        Some(bumps) => bumps.perturbed(self.normal, outer, &self.around),
+                        None => self.normal,
+                    };
+                    (plain.pigment.color(outer, &around), normal)
+                });
                 let part = Part { plain, paint, normal, above, share, tints };
                 let own = if tints { paint.transmittance() } else { paint.untinted() };
                 let through = match plain.finish.conserve_energy {

@@ -5,7 +5,7 @@
 use super::Walk;
 use super::shade::{self, Toward};
 use super::shadow::{self, Aim};
-use super::surface::{Stand, Stands};
+use super::stands::{Stand, Stands};
 use super::tracer::Tracer;
 use crate::color::Rgb;
 use crate::math::Vector;
@@ -32,22 +32,21 @@ struct Grounds<'a> {
 
 impl<'a> Grounds<'a> {
     #[inline(always)]
-    fn of(stands: &Stands<'_, '_, 'a>, by_object: bool) -> Self {
-        let (points, origins, normals) = stands.rows();
+    fn of(first: &Stands<'_, '_, 'a>, layers: &[Stands], by_object: bool) -> Self {
+        let (points, origins, normals) = first.rows();
         let (mut answers, mut seed, mut together) = (0, 0, SmallVec::new());
         let mut objects: SmallVec<[u32; ROW]> = SmallVec::new();
-        for number in numbers(stands.mask) {
-            let Some(finish) = stands.finish(number) else { continue };
-            if !shade::answers(finish) {
-                continue;
+        for layer in layers {
+            for number in numbers(layer.mask) {
+                let Some(finish) = layer.finish(number) else { continue };
+                let bit = if shade::answers(finish) { 1 << number } else { 0 };
+                answers |= bit;
+                seed |= if finish.seed { bit } else { 0 };
             }
+        }
+        for number in numbers(if by_object { answers } else { 0 }) {
             let bit = 1 << number;
-            answers |= bit;
-            seed |= if finish.seed { bit } else { 0 };
-            if !by_object {
-                continue;
-            }
-            let object = stands.hits[number].object;
+            let object = first.hits[number].object;
             match objects.iter().position(|known| *known == object) {
                 Some(place) => together[place] |= bit,
                 None => {
@@ -59,7 +58,7 @@ impl<'a> Grounds<'a> {
         if !by_object && answers != 0 {
             together.push(answers);
         }
-        let shaped = stands.shaped & answers;
+        let shaped = first.shaped & answers;
         Self { points, normals, origins, answers, seed, shaped, together }
     }
 }
@@ -142,7 +141,9 @@ impl Aims {
 }
 
 /// What surfaces send to the viewer of lights.
-struct Answers {
+pub(super) struct Answers {
+    /// A bit for each that answers lights.
+    mask: u32,
     /// The colour of each body, and its `diffuse`.
     bodies: Rows,
     diffuse: Row,
@@ -152,18 +153,22 @@ struct Answers {
 }
 
 impl Answers {
-    const NONE: Self = Self { bodies: Rows::ZERO, diffuse: [0.0; ROW], more: 0, sums: Rows::ZERO };
+    pub const NONE: Self =
+        Self { mask: 0, bodies: Rows::ZERO, diffuse: [0.0; ROW], more: 0, sums: Rows::ZERO };
 
+    /// Prepares the answers of surfaces: at first each shows what it shows by itself.
     #[inline(always)]
-    fn of(&mut self, stands: &Stands) {
+    fn begin(stands: &mut Stands) {
         for number in numbers(stands.mask) {
             let Some(finish) = stands.finish(number) else { continue };
-            self.sums.set(number, vector(stands.local[number]));
-            self.bodies.set(number, vector(stands.body(number)));
-            self.diffuse[number] = finish.diffuse;
+            let Stands { answers, local, bodies, .. } = stands;
+            answers.mask |= if shade::answers(finish) { 1 << number } else { 0 };
+            answers.sums.set(number, vector(local[number]));
+            answers.bodies.set(number, vector(bodies[number]));
+            answers.diffuse[number] = finish.diffuse;
             let answers_by_more =
                 finish.extras.is_some() || finish.brilliance != 1.0 || !finish.lobes.is_empty();
-            self.more |= if answers_by_more { 1 << number } else { 0 };
+            answers.more |= if answers_by_more { 1 << number } else { 0 };
         }
     }
 
@@ -194,24 +199,31 @@ fn vector(Rgb { red, green, blue }: Rgb) -> Vector {
 }
 
 impl Tracer<'_> {
-    /// Adds to what surfaces show what they send to the viewer of each light.
+    /// Adds to what surfaces show what they send to the viewer of each light; what layers of the same surfaces send is
+    /// found together. The first layer is seen at all of them, and all have its shapes.
     #[inline(never)]
-    pub(super) fn light(&self, walk: &mut Walk, stands: &mut Stands) {
-        let mut answers = Answers::NONE;
-        answers.of(stands);
-        let grounds = Grounds::of(stands, self.geometry.has_tree());
+    pub(super) fn light(&self, walk: &mut Walk, layers: &mut [Stands]) {
+        let Some(first) = layers.first() else { return };
+        let grounds = Grounds::of(first, layers, self.geometry.has_tree());
+        layers.iter_mut().for_each(Answers::begin);
         for (number, light) in self.world.lights.iter().enumerate() {
             if !light.is_plain() || !self.world.light_sets.is_empty() {
-                self.light_one_by_one(walk, stands, (number, light), |surface, lit| {
-                    answers.add_to(surface, lit);
-                });
+                for stands in layers.iter_mut() {
+                    let mut answers = std::mem::replace(&mut stands.answers, Answers::NONE);
+                    self.light_one_by_one(walk, stands, (number, light), |surface, lit| {
+                        answers.add_to(surface, lit);
+                    });
+                    stands.answers = answers;
+                }
             } else if grounds.answers != 0 {
-                self.light_together(walk, stands, &grounds, (number, light), &mut answers);
+                self.light_together(walk, layers, &grounds, (number, light));
             }
         }
-        for number in numbers(stands.mask) {
-            let Vector { x: red, y: green, z: blue } = answers.sums.at(number);
-            stands.local[number] = Rgb { red, green, blue };
+        for stands in layers {
+            for number in numbers(stands.mask) {
+                let Vector { x: red, y: green, z: blue } = stands.answers.sums.at(number);
+                stands.local[number] = Rgb { red, green, blue };
+            }
         }
     }
 
@@ -219,16 +231,16 @@ impl Tracer<'_> {
     fn light_together(
         &self,
         walk: &mut Walk,
-        stands: &Stands,
+        layers: &mut [Stands],
         grounds: &Grounds,
         (number, light): (usize, &Light),
-        answers: &mut Answers,
     ) {
+        let Some(first) = layers.first() else { return };
         let (kind, level) = (&light.kind, self.geometry.instructions().level());
         let mut aims = Aims::NONE;
         dispatch!(level, simd => aims.find(simd, kind, grounds));
         for surface in numbers(grounds.shaped) {
-            if let Some(stand) = stands.at(surface)
+            if let Some(stand) = first.at(surface)
                 && let Some(toward) = shade::toward(&stand.place, kind)
             {
                 let Toward { origin, aim, cosine, .. } = toward;
@@ -239,7 +251,7 @@ impl Tracer<'_> {
         let mut colors = Rows([[color.x; ROW], [color.y; ROW], [color.z; ROW]]);
         if light.attenuation.is_some() {
             for surface in numbers(aims.rays.mask) {
-                let (within, origin) = (stands.within(surface), aims.rays.origins.at(surface));
+                let (within, origin) = (first.within(surface), aims.rays.origins.at(surface));
                 match self.emitted(walk, (light, kind), within, origin, &aims.aim(surface)) {
                     Some(color) => colors.set(surface, vector(color)),
                     None => aims.rays.mask &= !(1 << surface),
@@ -260,25 +272,30 @@ impl Tracer<'_> {
         let mut lit = lit & !shadowed;
         if self.filters_shadows && light.casts_shadows {
             for surface in numbers(lit) {
-                let (within, origin) = (stands.within(surface), aims.rays.origins.at(surface));
+                let (within, origin) = (first.within(surface), aims.rays.origins.at(surface));
                 let through = self.filtered(walk, within, origin, &aims.aim(surface));
                 let color = colors.at(surface) * vector(through);
                 colors.set(surface, color);
                 lit &= if color == Vector::ZERO { !(1 << surface) } else { u32::MAX };
             }
         }
-        if self.counts {
-            let finishes = numbers(lit).filter_map(|surface| stands.finish(surface));
-            finishes.for_each(|finish| shade::count(walk, finish, light));
-        }
-        let (more, cosines) = (lit & answers.more, &aims.cosines);
-        dispatch!(level, simd => answers.add(simd, lit & !more, &colors, cosines));
-        for surface in numbers(more) {
-            let Some(Stand { place, .. }) = stands.at(surface) else { continue };
-            let to_light = aims.rays.directions.at(surface);
-            let answer = shade::answered(&place, (number, light), to_light, cosines[surface], 0);
-            let Vector { x: red, y: green, z: blue } = colors.at(surface);
-            answers.add_to(surface, Rgb { red, green, blue } * answer);
+        for stands in layers {
+            let lit = lit & stands.mask & stands.answers.mask;
+            if self.counts {
+                let finishes = numbers(lit).filter_map(|surface| stands.finish(surface));
+                finishes.for_each(|finish| shade::count(walk, finish, light));
+            }
+            let (more, cosines) = (lit & stands.answers.more, &aims.cosines);
+            let answers = &mut stands.answers;
+            dispatch!(level, simd => answers.add(simd, lit & !more, &colors, cosines));
+            for surface in numbers(more) {
+                let Some(Stand { place, .. }) = stands.at(surface) else { continue };
+                let to_light = aims.rays.directions.at(surface);
+                let light = (number, light);
+                let answer = shade::answered(&place, light, to_light, cosines[surface], 0);
+                let Vector { x: red, y: green, z: blue } = colors.at(surface);
+                stands.answers.add_to(surface, Rgb { red, green, blue } * answer);
+            }
         }
     }
 }

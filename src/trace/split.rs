@@ -2,7 +2,7 @@
 
 use super::batch::{Back, Onward};
 use super::media::Border;
-use super::surface::Stand;
+use super::stands::Stand;
 use super::tracer::Tracer;
 use super::way::{Inside, Way};
 use super::{Walk, dispersion, refraction};

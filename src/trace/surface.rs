@@ -4,111 +4,18 @@
 
 use super::area::Ground;
 use super::batch::{Back, Onward, SLICE, Surfaces};
-use super::media::Within;
-use super::painted::Known;
-use super::shade::{Flat, Place};
+use super::layered::Known;
+use super::shade::Flat;
+use super::stands::{Stand, Stands};
 use super::texture::Side;
 use super::tracer::Tracer;
 use super::way::Way;
-use super::{Walk, behind, reflection, sky, texture};
-use crate::color::{Color, Rgb};
-use crate::geometry::{self, Hit, SurfacePoints};
-use crate::math::Vector;
+use super::{Walk, behind, reflection, sky};
+use crate::color::Rgb;
+use crate::geometry::SurfacePoints;
 use crate::math::wide::{Rays, Rows, dispatch, numbers};
-use crate::shape::{Ray, Shape, SurfacePoint};
-use crate::world::{Finish, Pigment, Plain, Texture};
-use smallvec::SmallVec;
-
-/// A surface of a plain texture that a ray has met.
-pub(super) struct Stand<'a, 'b> {
-    pub way: &'b Way,
-    pub hit: &'b Hit,
-    pub surface: SurfacePoint,
-    pub paint: Color,
-    pub place: Place<'a>,
-}
-
-/// Surfaces of plain textures among those that are shaded together, by their number among these.
-pub(super) struct Stands<'a, 'b, 'c> {
-    pub ways: &'b [Way],
-    pub hits: &'b [Hit],
-    /// A bit for each.
-    pub mask: u32,
-    plains: [Option<&'a Plain>; SLICE],
-    surfaces: &'c SurfacePoints,
-    paints: [Color; SLICE],
-    bodies: [Rgb; SLICE],
-    /// Those that are lit by another normal than they lie by.
-    pub shaped: u32,
-    shapes: SmallVec<[Shaped; SLICE]>,
-    /// What each shows by itself.
-    pub local: [Rgb; SLICE],
-}
-
-/// How a surface is lit by another normal than it lies by.
-#[derive(Clone, Copy)]
-struct Shaped {
-    normal: Vector,
-    flat: Flat,
-    smooth: Option<Vector>,
-}
-
-impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
-    /// Returns the finish of the surface of this number, which is there.
-    #[inline(always)]
-    pub fn finish(&self, number: usize) -> Option<&'a Finish> {
-        self.plains[number].map(|plain| &plain.finish)
-    }
-
-    /// Returns the colour of the body of this number: of as much as is not clear.
-    #[inline(always)]
-    pub fn body(&self, number: usize) -> Rgb {
-        self.bodies[number]
-    }
-
-    /// Returns the solids that the ray of this number is in.
-    #[inline(always)]
-    pub fn within(&self, number: usize) -> Within {
-        self.ways[number].within
-    }
-
-    /// Returns the points of surfaces, where rays start that leave them, and the normals that they lie by.
-    pub fn rows(&self) -> (&'c Rows, &'c Rows, &'c Rows) {
-        let SurfacePoints { points, origins, facing, .. } = self.surfaces;
-        (points, origins, facing)
-    }
-
-    /// Returns the place among the shapes of that of this number.
-    #[inline(always)]
-    fn place_of_shape(&self, number: usize) -> usize {
-        (self.shaped & ((1 << number) - 1)).count_ones() as usize
-    }
-
-    /// Returns the surface of this number; `None` if it is not there.
-    #[inline(always)]
-    pub fn at(&self, number: usize) -> Option<Stand<'a, 'b>> {
-        let finish = self.finish(number)?;
-        let (way, hit) = (&self.ways[number], &self.hits[number]);
-        let (surface, paint) = (self.surfaces.at(number), self.paints[number]);
-        let mut place = Place {
-            finish,
-            color: paint.rgb,
-            body: self.bodies[number],
-            point: surface.point,
-            origin: self.surfaces.origins.at(number),
-            normal: self.surfaces.facing.at(number),
-            flat: None,
-            smooth: None,
-            to_viewer: -way.ray.direction,
-            within: way.within,
-        };
-        if self.shaped >> number & 1 == 1 {
-            let Shaped { normal, flat, smooth } = self.shapes[self.place_of_shape(number)];
-            (place.normal, place.flat, place.smooth) = (normal, Some(flat), smooth);
-        }
-        Some(Stand { way, hit, surface, paint, place })
-    }
-}
+use crate::shape::Ray;
+use crate::world::{Finish, Texture};
 
 impl<'a> Tracer<'a> {
     /// Shades surfaces side by side: tells what each shows by itself, and adds the rays that go on to the walk's.
@@ -159,21 +66,11 @@ impl<'a> Tracer<'a> {
             self.shade_layered(walk, &mut surfaces, side, &mut count);
             layered &= !side.mask;
         }
-        let mut stands = Stands {
-            ways,
-            hits,
-            mask,
-            plains,
-            surfaces: &points,
-            paints: [Color::default(); SLICE],
-            bodies: [Rgb::BLACK; SLICE],
-            shaped: 0,
-            shapes: SmallVec::new(),
-            local: [Rgb::BLACK; SLICE],
-        };
+        let clearness = self.world.settings.clearness;
+        let mut stands = Stands::new((ways, hits), plains, mask, &points, clearness);
         self.paint(&mut stands);
         if self.lights {
-            self.light(walk, &mut stands);
+            self.light(walk, std::slice::from_mut(&mut stands));
         }
         let mirrors = if self.secondary { self.mirrors(&stands) } else { 0 };
         let mut mirrored = Rows::ZERO;
@@ -209,28 +106,6 @@ impl<'a> Tracer<'a> {
         walk.patience.is_over_after(steps, self.watch);
     }
 
-    /// Shades the surfaces of a side with layers.
-    #[inline(never)]
-    fn shade_layered(
-        &self,
-        walk: &mut Walk,
-        surfaces: &mut Surfaces,
-        side: Side,
-        count: &mut impl FnMut(&Walk),
-    ) {
-        let object = &self.world.objects[side.hit.object as usize];
-        let texture = self.world.coat(object, side.hit.leaving).texture;
-        let Texture::Layers(layers) = &self.world.textures[texture as usize] else { return };
-        let painted = self.paint_layers(layers, side);
-        for number in numbers(side.mask) {
-            let (way, hit) = (&surfaces.ways[number], &surfaces.hits[number]);
-            let known = Known { painted: &painted, number };
-            let local = self.composite(walk, way, hit, surfaces.first + number as u32, known);
-            surfaces.show(number, local, false);
-            count(walk);
-        }
-    }
-
     /// What a surface shows of the light behind it; rays that go on are added to the walk's.
     #[inline(never)]
     fn rest(&self, walk: &mut Walk, stands: &Stands, number: usize, goes_on: bool, to: u32) -> Rgb {
@@ -244,91 +119,6 @@ impl<'a> Tracer<'a> {
             self.scatter(walk, &stand, to);
         }
         local
-    }
-
-    /// Finds the colours and normals of surfaces.
-    #[inline(always)]
-    fn paint(&self, stands: &mut Stands<'a, '_, '_>) {
-        let (mut patterned, mut bumpy) = (0, 0);
-        for number in numbers(stands.mask) {
-            match stands.plains[number].map(|plain| &plain.pigment) {
-                Some(Pigment::Color(color)) => stands.paints[number] = *color,
-                _ => patterned |= 1 << number,
-            }
-        }
-        if patterned != 0 {
-            self.paint_patterns(stands, patterned);
-        }
-        for number in numbers(stands.mask) {
-            let Some(plain) = stands.plains[number] else { continue };
-            let (ray, hit) = (&stands.ways[number].ray, &stands.hits[number]);
-            let body = stands.paints[number].body(self.world.settings.clearness);
-            stands.bodies[number] = body;
-            stands.local[number] = body * plain.finish.emission;
-            let shape = self.world.objects[hit.object as usize].shape;
-            if (matches!(shape, Shape::Placed(_)) || plain.normal.is_some())
-                && let Some(shaped) = self.shaped(plain, (ray, hit), stands.surfaces, number)
-            {
-                stands.shaped |= 1 << number;
-                stands.shapes.push(shaped);
-                bumpy |= if plain.normal.is_some() { 1 << number } else { 0 };
-            }
-        }
-        if bumpy != 0 {
-            self.perturb(stands, bumpy);
-        }
-    }
-
-    /// Finds the colours of surfaces with patterns: those of one side of an object together, where they can be.
-    #[inline(never)]
-    fn paint_patterns(&self, stands: &mut Stands<'a, '_, '_>, patterned: u32) {
-        let mut rest = patterned;
-        while rest != 0 {
-            let first = rest.trailing_zeros() as usize;
-            let Some(plain) = stands.plains[first] else { return };
-            let Some(together) = plain.pigment.together() else {
-                let (ray, hit) = (&stands.ways[first].ray, &stands.hits[first]);
-                let surface = stands.surfaces.at(first);
-                stands.paints[first] = texture::color(self, plain, ray, hit, &surface);
-                rest &= rest - 1;
-                continue;
-            };
-            let side = Side::first(stands.hits, rest, stands.surfaces);
-            texture::colors(self, &together, side, &mut stands.paints);
-            rest &= !side.mask;
-        }
-    }
-
-    /// Perturbs the normals of surfaces with bumps, likewise.
-    #[inline(never)]
-    fn perturb(&self, stands: &mut Stands<'a, '_, '_>, bumpy: u32) {
-        let mut rest = bumpy;
-        while rest != 0 {
-            let first = rest.trailing_zeros() as usize;
-            let Some(bumps) = stands.plains[first].and_then(|plain| plain.normal.as_ref()) else {
-                return;
-            };
-            let Some(together) = bumps.together() else {
-                let (ray, hit) = (&stands.ways[first].ray, &stands.hits[first]);
-                let surface = stands.surfaces.at(first);
-                let place = stands.place_of_shape(first);
-                let normal = &mut stands.shapes[place].normal;
-                *normal = texture::perturbed(self, bumps, *normal, (ray, hit, &surface));
-                rest &= rest - 1;
-                continue;
-            };
-            let side = Side::first(stands.hits, rest, stands.surfaces);
-            let mut normals = Rows::ZERO;
-            for number in numbers(side.mask) {
-                normals.set(number, stands.shapes[stands.place_of_shape(number)].normal);
-            }
-            texture::perturb(self, &together, side, &mut normals);
-            for number in numbers(side.mask) {
-                let place = stands.place_of_shape(number);
-                stands.shapes[place].normal = normals.at(number);
-            }
-            rest &= !side.mask;
-        }
     }
 
     /// Returns a bit for each surface that does nothing but show what it is like and mirror rays.
@@ -366,30 +156,6 @@ impl<'a> Tracer<'a> {
         let (spectrum, within) = (way.spectrum, way.within);
         let way = Way { ray, weight, level, mirrored, inside, spectrum, within };
         walk.onward.push(Onward { way, back: Back { to, factor, exponent: reflection.exponent } });
-    }
-
-    /// How a surface is lit that is smooth or bumpy, before its bumps perturb its normal.
-    #[inline(never)]
-    fn shaped(
-        &self,
-        plain: &Plain,
-        (ray, hit): (&Ray, &Hit),
-        surfaces: &SurfacePoints,
-        number: usize,
-    ) -> Option<Shaped> {
-        let (surface, facing) = (surfaces.at(number), surfaces.facing.at(number));
-        let behind = surface.spawn(-facing);
-        let flat = Flat { normal: facing, behind };
-        let smooth = geometry::shading_normal(self.world, hit, &surface);
-        let normal = match smooth {
-            None => facing,
-            Some(smooth) if smooth.dot(ray.direction) > 0.0 => -smooth,
-            Some(smooth) => smooth,
-        };
-        match &plain.normal {
-            None => smooth.map(|_| Shaped { normal, flat, smooth: None }),
-            Some(_) => Some(Shaped { normal, flat, smooth: Some(normal) }),
-        }
     }
 
     /// What the lights on the other side of a surface add that is lit on `both`, or scatters their light.

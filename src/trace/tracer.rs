@@ -7,7 +7,7 @@ use super::sharpness::Sharpness;
 use super::way::Way;
 use crate::geometry::Geometry;
 use crate::plan::{Effect, Plan, Stage};
-use crate::world::{Finish, Texture, World};
+use crate::world::{Finish, Light, Texture, World};
 
 /// A World to be traced: nothing in it is without weight, so nothing is asked twice.
 pub(super) struct Tracer<'a> {
@@ -21,6 +21,8 @@ pub(super) struct Tracer<'a> {
     pub sharpness: Sharpness,
     /// Surfaces are lit.
     pub lights: bool,
+    /// All lights are points or directions, and light everything.
+    pub lights_are_plain: bool,
     /// Rays go toward lights.
     pub shadows: bool,
     /// Rays go on from surfaces.
@@ -72,6 +74,8 @@ impl<'a> Tracer<'a> {
             in_reflections: geometry.in_reflections(),
             sharpness: Sharpness::of(world),
             lights: plan.runs(Stage::Light),
+            lights_are_plain: world.light_sets.is_empty()
+                && world.lights.iter().all(Light::is_plain),
             shadows: plan.runs(Stage::Shadow),
             secondary: plan.runs(Stage::Scatter),
             clear: plan.simulates(Effect::Transparency),

@@ -6,7 +6,7 @@ use super::batch::{Back, Onward};
 use super::media::Border;
 use super::shade::{Flat, Place};
 use super::split::Toward;
-use super::surface::Stand;
+use super::stands::Stand;
 use super::tracer::Tracer;
 use super::way::{Inside, Way};
 use super::{Walk, extras, reflection, refraction, texture};

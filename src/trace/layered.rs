@@ -1,0 +1,159 @@
+//! Surfaces with layers, of one side of an object.
+//!
+//! **In:** surfaces side by side. **Out:** what each shows by itself, and the rays that go on. **Invariant:** each
+//! shows, to the bit, what [`Tracer::composite`] says of it alone.
+//!
+//! The colours and normals of each layer are found for all surfaces where it is seen. Where all that layers do is to
+//! scatter light, and nothing is seen through them, they are lit together, too: what comes of a light is found once.
+
+use std::sync::Arc;
+
+use smallvec::SmallVec;
+
+use super::Walk;
+use super::batch::{SLICE, Surfaces};
+use super::stands::Stands;
+use super::texture::Side;
+use super::tracer::Tracer;
+use super::way::Way;
+use crate::color::{Clearness, Color, Rgb};
+use crate::geometry::Hit;
+use crate::math::Vector;
+use crate::math::wide::numbers;
+use crate::world::{Plain, Texture};
+
+/// The plain layers of a texture, from the top down, each at the surfaces where it is seen.
+struct Layers<'a, 'b, 'c> {
+    stands: SmallVec<[Stands<'a, 'b, 'c>; 3]>,
+    /// The part of the light of each layer that the layers above it let through, by surface.
+    above: SmallVec<[[Rgb; SLICE]; 3]>,
+    /// What all of them let through, at most.
+    through: [Rgb; SLICE],
+}
+
+/// What is known of the layers of one of the surfaces that are shaded together.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a, 'p> {
+    layers: &'p [Stands<'a, 'p, 'p>],
+    number: usize,
+}
+
+impl Known<'_, '_> {
+    pub const NOTHING: Self = Self { layers: &[], number: 0 };
+
+    /// Returns the colour of a plain texture, and the normal by which it is lit, if they are known.
+    #[inline]
+    pub fn part(&self, plain: &Plain) -> Option<(Color, Vector)> {
+        let number = self.number;
+        let is_it =
+            |layer: &&Stands| layer.plains[number].is_some_and(|one| std::ptr::eq(one, plain));
+        let layer = self.layers.iter().find(is_it)?;
+        Some((layer.paints[number], layer.normal(number)))
+    }
+}
+
+impl<'a> Tracer<'a> {
+    /// Shades the surfaces of a side with layers.
+    #[inline(never)]
+    pub(super) fn shade_layered(
+        &self,
+        walk: &mut Walk,
+        surfaces: &mut Surfaces,
+        side: Side,
+        count: &mut impl FnMut(&Walk),
+    ) {
+        let object = &self.world.objects[side.hit.object as usize];
+        let texture = self.world.coat(object, side.hit.leaving).texture as usize;
+        let Texture::Layers(textures) = &self.world.textures[texture] else { return };
+        let (ways, hits) = (surfaces.ways, surfaces.hits);
+        let mut layers = self.paint_layers(textures, (ways, hits), side);
+        let mut alone = side.mask;
+        if !object.double_illuminate && self.only_scatter(textures) {
+            let clear = self.secondary && self.clear && self.clear_composites[texture];
+            let mut open = 0;
+            for number in numbers(side.mask) {
+                let is_seen_through = hits[number].contested
+                    || layers.through[number].brightness() >= self.adc_bailout;
+                let goes_on = clear && ways[number].level < self.max_trace_level;
+                open |= if goes_on && is_seen_through { 1 << number } else { 0 };
+            }
+            let together = side.mask & !open;
+            layers.stands.iter_mut().for_each(|layer| layer.mask &= together);
+            if self.lights && together != 0 {
+                self.light(walk, &mut layers.stands);
+            }
+            for number in numbers(together) {
+                let mut local = Rgb::BLACK;
+                for (layer, above) in layers.stands.iter().zip(&layers.above) {
+                    if layer.mask >> number & 1 == 1 {
+                        local += layer.local[number] * above[number];
+                    }
+                }
+                surfaces.show(number, local, false);
+                count(walk);
+            }
+            alone = open;
+        }
+        for number in numbers(alone) {
+            let (way, to) = (&ways[number], surfaces.first + number as u32);
+            let known = Known { layers: &layers.stands, number };
+            let local = self.composite(walk, way, &hits[number], to, known);
+            surfaces.show(number, local, false);
+            count(walk);
+        }
+    }
+
+    /// Whether all that layers do is to scatter light, by one normal.
+    fn only_scatter(&self, layers: &[Arc<Texture>]) -> bool {
+        self.lights_are_plain
+            && layers.iter().all(|layer| match &**layer {
+                Texture::Plain(Plain { normal, finish, .. }) => {
+                    normal.is_none()
+                        && finish.reflection.is_none()
+                        && finish.extras.is_none()
+                        && !finish.seed
+                }
+                _ => false,
+            })
+    }
+
+    /// Finds the colours and normals of plain layers, from the top down to where nothing is seen any more.
+    fn paint_layers<'b, 'c>(
+        &self,
+        textures: &'a [Arc<Texture>],
+        (ways, hits): (&'b [Way], &'b [Hit]),
+        side: Side<'c>,
+    ) -> Layers<'a, 'b, 'c> {
+        let through = [Rgb::WHITE; SLICE];
+        let mut layers = Layers { stands: SmallVec::new(), above: SmallVec::new(), through };
+        let settings = &self.world.settings;
+        for (place, texture) in textures.iter().enumerate().rev() {
+            let Texture::Plain(plain) = &**texture else { continue };
+            let mut mask = 0;
+            let mut plains = [None; SLICE];
+            for number in numbers(side.mask) {
+                if layers.through[number].brightness() >= self.adc_bailout {
+                    (plains[number], mask) = (Some(plain), mask | 1 << number);
+                }
+            }
+            if mask == 0 {
+                break;
+            }
+            let tints = place == 0 || !settings.untinted_layers;
+            let clearness = if tints { settings.clearness } else { Clearness::Current };
+            let mut stands = Stands::new((ways, hits), plains, mask, side.surfaces, clearness);
+            self.paint(&mut stands);
+            layers.above.push(layers.through);
+            // What a finish reflects by itself is not known here.
+            if !plain.finish.conserve_energy {
+                for number in numbers(mask) {
+                    let paint = stands.paints[number];
+                    let own = if tints { paint.transmittance() } else { paint.untinted() };
+                    layers.through[number] = layers.through[number] * own;
+                }
+            }
+            layers.stands.push(stands);
+        }
+        layers
+    }
+}

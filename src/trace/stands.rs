@@ -1,0 +1,136 @@
+//! What is known of surfaces that are shaded together.
+
+use super::batch::SLICE;
+use super::light::Answers;
+use super::media::Within;
+use super::shade::{Flat, Place};
+use super::way::Way;
+use crate::color::{Clearness, Color, Rgb};
+use crate::geometry::{Hit, SurfacePoints};
+use crate::math::Vector;
+use crate::math::wide::Rows;
+use crate::shape::SurfacePoint;
+use crate::world::{Finish, Plain};
+use smallvec::SmallVec;
+
+/// A surface of a plain texture that a ray has met.
+pub(super) struct Stand<'a, 'b> {
+    pub way: &'b Way,
+    pub hit: &'b Hit,
+    pub surface: SurfacePoint,
+    pub paint: Color,
+    pub place: Place<'a>,
+}
+
+/// Surfaces of plain textures among those that are shaded together, by their number among these; or one layer of
+/// textures at them.
+pub(super) struct Stands<'a, 'b, 'c> {
+    pub ways: &'b [Way],
+    pub hits: &'b [Hit],
+    /// A bit for each.
+    pub mask: u32,
+    pub plains: [Option<&'a Plain>; SLICE],
+    pub surfaces: &'c SurfacePoints,
+    /// How clear paints are for bodies.
+    pub clearness: Clearness,
+    pub paints: [Color; SLICE],
+    pub bodies: [Rgb; SLICE],
+    /// Those that are lit by another normal than they lie by.
+    pub shaped: u32,
+    pub shapes: SmallVec<[Shaped; SLICE]>,
+    /// What each shows by itself.
+    pub local: [Rgb; SLICE],
+    pub answers: Answers,
+}
+
+/// How a surface is lit by another normal than it lies by.
+#[derive(Clone, Copy)]
+pub(super) struct Shaped {
+    pub normal: Vector,
+    pub flat: Flat,
+    pub smooth: Option<Vector>,
+}
+
+impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
+    /// Returns surfaces of which nothing is known yet.
+    #[inline(always)]
+    pub fn new(
+        (ways, hits): (&'b [Way], &'b [Hit]),
+        plains: [Option<&'a Plain>; SLICE],
+        mask: u32,
+        surfaces: &'c SurfacePoints,
+        clearness: Clearness,
+    ) -> Self {
+        Self {
+            ways,
+            hits,
+            mask,
+            plains,
+            surfaces,
+            clearness,
+            paints: [Color::default(); SLICE],
+            bodies: [Rgb::BLACK; SLICE],
+            shaped: 0,
+            shapes: SmallVec::new(),
+            local: [Rgb::BLACK; SLICE],
+            answers: Answers::NONE,
+        }
+    }
+
+    /// Returns the normal by which the surface of this number is lit.
+    pub fn normal(&self, number: usize) -> Vector {
+        match self.shaped >> number & 1 == 1 {
+            true => self.shapes[self.place_of_shape(number)].normal,
+            false => self.surfaces.facing.at(number),
+        }
+    }
+
+    /// Returns the finish of the surface of this number, which is there.
+    #[inline(always)]
+    pub fn finish(&self, number: usize) -> Option<&'a Finish> {
+        self.plains[number].map(|plain| &plain.finish)
+    }
+
+    /// Returns the solids that the ray of this number is in.
+    #[inline(always)]
+    pub fn within(&self, number: usize) -> Within {
+        self.ways[number].within
+    }
+
+    /// Returns the points of surfaces, where rays start that leave them, and the normals that they lie by.
+    pub fn rows(&self) -> (&'c Rows, &'c Rows, &'c Rows) {
+        let SurfacePoints { points, origins, facing, .. } = self.surfaces;
+        (points, origins, facing)
+    }
+
+    /// Returns the place among the shapes of that of this number.
+    #[inline(always)]
+    pub fn place_of_shape(&self, number: usize) -> usize {
+        (self.shaped & ((1 << number) - 1)).count_ones() as usize
+    }
+
+    /// Returns the surface of this number; `None` if it is not there.
+    #[inline(always)]
+    pub fn at(&self, number: usize) -> Option<Stand<'a, 'b>> {
+        let finish = self.finish(number)?;
+        let (way, hit) = (&self.ways[number], &self.hits[number]);
+        let (surface, paint) = (self.surfaces.at(number), self.paints[number]);
+        let mut place = Place {
+            finish,
+            color: paint.rgb,
+            body: self.bodies[number],
+            point: surface.point,
+            origin: self.surfaces.origins.at(number),
+            normal: self.surfaces.facing.at(number),
+            flat: None,
+            smooth: None,
+            to_viewer: -way.ray.direction,
+            within: way.within,
+        };
+        if self.shaped >> number & 1 == 1 {
+            let Shaped { normal, flat, smooth } = self.shapes[self.place_of_shape(number)];
+            (place.normal, place.flat, place.smooth) = (normal, Some(flat), smooth);
+        }
+        Some(Stand { way, hit, surface, paint, place })
+    }
+}
