@@ -31,6 +31,13 @@ struct Layers<'a, 'b, 'c> {
     through: [Rgb; SLICE],
 }
 
+impl Layers<'_, '_, '_> {
+    #[inline(always)]
+    fn new() -> Self {
+        Self { stands: SmallVec::new(), above: SmallVec::new(), through: [Rgb::WHITE; SLICE] }
+    }
+}
+
 /// What is known of the layers of one of the surfaces that are shaded together.
 #[derive(Clone, Copy)]
 pub(super) struct Known<'a, 'p> {
@@ -66,7 +73,8 @@ impl<'a> Tracer<'a> {
         let texture = self.world.coat(object, side.hit.leaving).texture as usize;
         let Texture::Layers(textures) = &self.world.textures[texture] else { return };
         let (ways, hits) = (surfaces.ways, surfaces.hits);
-        let mut layers = self.paint_layers(textures, (ways, hits), side);
+        let mut layers = Layers::new();
+        self.paint_layers(textures, (ways, hits), side, &mut layers);
         let mut alone = side.mask;
         if !object.double_illuminate && self.only_scatter(textures) {
             let clear = self.secondary && self.clear && self.clear_composites[texture];
@@ -123,9 +131,8 @@ impl<'a> Tracer<'a> {
         textures: &'a [Arc<Texture>],
         (ways, hits): (&'b [Way], &'b [Hit]),
         side: Side<'c>,
-    ) -> Layers<'a, 'b, 'c> {
-        let through = [Rgb::WHITE; SLICE];
-        let mut layers = Layers { stands: SmallVec::new(), above: SmallVec::new(), through };
+        layers: &mut Layers<'a, 'b, 'c>,
+    ) {
         let settings = &self.world.settings;
         for (place, texture) in textures.iter().enumerate().rev() {
             let Texture::Plain(plain) = &**texture else { continue };
@@ -141,9 +148,12 @@ impl<'a> Tracer<'a> {
             }
             let tints = place == 0 || !settings.untinted_layers;
             let clearness = if tints { settings.clearness } else { Clearness::Current };
-            let mut stands = Stands::new((ways, hits), plains, mask, side.surfaces, clearness);
-            self.paint(&mut stands);
             layers.above.push(layers.through);
+            // Built where it stays: it is large.
+            let rays = (ways, hits);
+            layers.stands.push(Stands::new(rays, plains, mask, side.surfaces, clearness));
+            let Some(stands) = layers.stands.last_mut() else { return };
+            self.paint(stands);
             // What a finish reflects by itself is not known here.
             if !plain.finish.conserve_energy {
                 for number in numbers(mask) {
@@ -152,8 +162,6 @@ impl<'a> Tracer<'a> {
                     layers.through[number] = layers.through[number] * own;
                 }
             }
-            layers.stands.push(stands);
         }
-        layers
     }
 }
