@@ -8,14 +8,11 @@
     reason = "closures would not be inlined where the instructions are"
 )]
 
-use super::lattice::{FAR, TO_LOW_BITS};
-use super::table::{ROWS, Row, TRIPLES, Triple};
-use super::{LATTICE_ORIGIN, NoiseGenerator, hashes, noise_by, triple};
+use super::lattice::{FAR, TO_LOW_BITS, smooth};
+use super::table::{CornerRow, ROWS, TRIPLES, Triple};
+use super::{LATTICE_ORIGIN, NoiseGenerator, SCALE, SHIFT, hashes, noise_by, triple};
 use crate::math::Vector;
 use crate::math::wide::*;
-
-/// A bit for each of four points.
-pub(crate) type Lanes = u32;
 
 /// Returns [`super::noise`] at four points.
 #[inline(always)]
@@ -23,14 +20,14 @@ pub(crate) fn noise_of_four<S: Simd>(
     simd: S,
     generator: NoiseGenerator,
     points: WideVector<S>,
-    lanes: Lanes,
+    lanes: u32,
 ) -> Wide<S> {
     if generator != NoiseGenerator::Perlin {
         let cells = Cells::new(simd, points);
         if let Some(low) = cells.shared(points, lanes) {
             let plain = cells.blend(&ROWS, hashes(low));
             let noise = match generator {
-                NoiseGenerator::RangeCorrected => (plain + 0.5 + 0.552_42) * 0.489_855_82,
+                NoiseGenerator::RangeCorrected => (plain + 0.5 + SHIFT) * SCALE,
                 _ => plain + 0.5,
             };
             return noise.max(all(simd, 0.0)).min(all(simd, 1.0));
@@ -51,7 +48,7 @@ pub(crate) fn noise_of_four<S: Simd>(
 pub(super) fn triples_of_four<S: Simd>(
     simd: S,
     points: WideVector<S>,
-    lanes: Lanes,
+    lanes: u32,
 ) -> WideVector<S> {
     let cells = Cells::new(simd, points);
     if let Some(low) = cells.shared(points, lanes) {
@@ -101,7 +98,7 @@ impl<S: Simd> Cells<S> {
 
     /// Returns the indices of the lower neighbours if all points that count have the same.
     #[inline(always)]
-    fn shared(&self, points: WideVector<S>, lanes: Lanes) -> Option<[usize; 3]> {
+    fn shared(&self, points: WideVector<S>, lanes: u32) -> Option<[usize; 3]> {
         let Self { simd, low: WideVector([x, y, z]), .. } = *self;
         let first = lanes.trailing_zeros() as usize % LANES;
         let [a, b, c] = [x, y, z].map(|low| <[f64; LANES]>::from(low)[first]);
@@ -114,7 +111,7 @@ impl<S: Simd> Cells<S> {
     }
 
     #[inline(always)]
-    fn blend<const N: usize>(&self, table: &[Row; N], places: [usize; 8]) -> Wide<S> {
+    fn blend<const N: usize>(&self, table: &[CornerRow; N], places: [usize; 8]) -> Wide<S> {
         let [x, y, z] = [self.weights(0), self.weights(1), self.weights(2)];
         let value = self.component(table, &places, 0, [x, y, z]);
         let by_x = self.component(table, &places, 1, [self.weighted(0), y, z]);
@@ -138,15 +135,15 @@ impl<S: Simd> Cells<S> {
     #[inline(always)]
     fn component<const N: usize>(
         &self,
-        table: &[Row; N],
+        table: &[CornerRow; N],
         places: &[usize; 8],
         component: usize,
         [x, y, z]: [[Wide<S>; 2]; 3],
     ) -> Wide<S> {
         let mut lines = [all(self.simd, 0.0); 4];
         for column in 0..4 {
-            let Row(near) = &table[places[2 * column] % N];
-            let Row(far) = &table[places[2 * column + 1] % N];
+            let CornerRow(near) = &table[places[2 * column] % N];
+            let CornerRow(far) = &table[places[2 * column + 1] % N];
             lines[column] =
                 all(self.simd, near[component]) * z[0] + all(self.simd, far[component]) * z[1];
         }
@@ -183,10 +180,4 @@ impl<S: Simd> Cells<S> {
         (all(self.simd, value[component]) + all(self.simd, by_x[component]) * x)
             + (all(self.simd, by_y[component]) * y + all(self.simd, by_z[component]) * z)
     }
-}
-
-/// Returns 3t² − 2t³.
-#[inline(always)]
-fn smooth<S: Simd>(simd: S, t: Wide<S>) -> Wide<S> {
-    t * t * (all(simd, 3.0) - t * 2.0)
 }

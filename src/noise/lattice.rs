@@ -5,7 +5,7 @@
 //!
 //! The data of a corner are four numbers side by side, weighted and summed as such: along z, then y, then x.
 
-use super::table::{Row, Triple};
+use super::table::{CornerRow, Triple};
 use crate::math::Vector;
 use crate::math::wide::*;
 
@@ -42,7 +42,7 @@ impl<S: Simd> Cell<S> {
         let low = point.floor();
         let index: [f64; 4] = (low + (TO_LOW_BITS + origin)).into();
         let t = point - low;
-        let upper = t * t * (all(simd, 3.0) - t * 2.0);
+        let upper = smooth(simd, t);
         let (offset, weight) = ([t, t - 1.0], [all(simd, 1.0) - upper, upper]);
         Self {
             simd,
@@ -55,7 +55,7 @@ impl<S: Simd> Cell<S> {
 
     /// Returns the blend of the linear functions of the corners, which `places` selects, by x, then y, then z.
     #[inline(always)]
-    pub fn blend<const N: usize>(&self, table: &[Row; N], places: [usize; 8]) -> f64 {
+    pub fn blend<const N: usize>(&self, table: &[CornerRow; N], places: [usize; 8]) -> f64 {
         let [x, y, z] = [self.weights(0), self.weights(1), self.weights(2)];
         let line = [
             self.row(table, places[0]) * z[0] + self.row(table, places[1]) * z[1],
@@ -69,8 +69,8 @@ impl<S: Simd> Cell<S> {
     }
 
     #[inline(always)]
-    fn row<const N: usize>(&self, table: &[Row; N], place: usize) -> Wide<S> {
-        let Row(row) = table[place % N];
+    fn row<const N: usize>(&self, table: &[CornerRow; N], place: usize) -> Wide<S> {
+        let CornerRow(row) = table[place % N];
         Wide::simd_from(self.simd, row)
     }
 
@@ -112,6 +112,12 @@ impl<S: Simd> Cell<S> {
         let [value, by_z] = [Wide::simd_from(self.simd, *value), Wide::simd_from(self.simd, *by_z)];
         (value + by_x * x) + (by_y * y + by_z * z)
     }
+}
+
+/// Returns 3t² − 2t³.
+#[inline(always)]
+pub(super) fn smooth<S: Simd>(simd: S, t: Wide<S>) -> Wide<S> {
+    t * t * (all(simd, 3.0) - t * 2.0)
 }
 
 /// Returns whether the number of each coordinate is exact; false if one is NaN.

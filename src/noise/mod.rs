@@ -43,6 +43,24 @@ pub enum NoiseGenerator {
     Perlin,
 }
 
+/// These make 0 … 1 of −0.55242 … 1.48900, the range of generator 1 before it is clamped.
+const SHIFT: f64 = 0.552_42;
+const SCALE: f64 = 0.489_855_82;
+
+/// Returns noise of generators 2 and 3 stretched to twice its range around 0.5: the spread of generator 1.
+///
+/// **Source:** measured on POV-Ray 3.7, in `granite`, `wrinkles` and turbulence.
+#[inline(always)]
+pub(crate) fn stretched(noise: f64) -> f64 {
+    2.0 * noise - 0.5
+}
+
+/// Returns [`stretched`] for four.
+#[inline(always)]
+pub(crate) fn four_stretched<S: Simd>(simd: S, noise: Wide<S>) -> Wide<S> {
+    noise * 2.0 - all(simd, 0.5)
+}
+
 /// Returns the noise at `point`, 0 … 1.
 pub fn noise(generator: NoiseGenerator, point: Vector) -> f64 {
     dispatch!(Instructions::best().level(), simd => noise_by(simd, generator, point))
@@ -53,8 +71,7 @@ pub fn noise(generator: NoiseGenerator, point: Vector) -> f64 {
 pub(crate) fn noise_by<S: Simd>(simd: S, generator: NoiseGenerator, point: Vector) -> f64 {
     let noise = match generator {
         NoiseGenerator::Plateaus => plain(simd, point) + 0.5,
-        // −0.55242 … 1.48900 becomes 0 … 1.
-        NoiseGenerator::RangeCorrected => (plain(simd, point) + 0.5 + 0.552_42) * 0.489_855_82,
+        NoiseGenerator::RangeCorrected => (plain(simd, point) + 0.5 + SHIFT) * SCALE,
         NoiseGenerator::Perlin => perlin::noise(simd, point),
     };
     noise.clamp(0.0, 1.0)
@@ -74,7 +91,7 @@ pub fn bounds_and_slopes(
     range::range(generator, point)
 }
 
-/// Replaces each of the values that the mask has a bit for by [`noise`].
+/// Replaces the values that the mask has a bit for by [`noise`]; others may have any value then.
 pub fn noises(generator: NoiseGenerator, points: &Rows, mask: u32, values: &mut Row) {
     dispatch!(Instructions::best().level(), simd => {
         for group in 0..GROUPS {
@@ -92,7 +109,7 @@ pub fn vector_noise(point: Vector) -> Vector {
     Vector::new(x, y, z)
 }
 
-/// Replaces each of the vectors that the mask has a bit for by [`vector_noise`].
+/// Replaces the vectors that the mask has a bit for by [`vector_noise`]; others may have any value then.
 pub fn vector_noises(points: &Rows, mask: u32, vectors: &mut Rows) {
     dispatch!(Instructions::best().level(), simd => {
         for group in 0..GROUPS {

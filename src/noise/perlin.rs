@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use super::lattice::Cell;
 use super::range::Linear;
-use super::table::{Row, Stream};
+use super::table::{CornerRow, Stream};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::math::wide::Simd;
@@ -41,7 +41,7 @@ pub(super) fn corner([i, j, k]: [usize; 3]) -> Linear {
 struct Lattice {
     steps: [u16; SIZE],
     /// Unit vectors, each after the value 0.
-    gradients: [Row; SIZE],
+    gradients: [CornerRow; SIZE],
 }
 
 static LATTICE: LazyLock<Lattice> = LazyLock::new(Lattice::draw);
@@ -51,7 +51,7 @@ impl Lattice {
         let mut stream = Stream::open(1);
         let gradients = [(); SIZE].map(|()| {
             let Vector { x, y, z } = direction(&mut stream);
-            Row([0.0, x, y, z])
+            CornerRow([0.0, x, y, z])
         });
         Self { steps: half_shuffled(&mut stream), gradients }
     }

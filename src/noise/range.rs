@@ -8,9 +8,15 @@
 //! 3t² − 2t³. A blend of intervals lies between the blends of their ends, at the ends of s; its slope is the
 //! blend of the slopes, plus s′ times the difference.
 
-use super::{LATTICE_ORIGIN, NoiseGenerator, corner, noise, perlin, vector_noise};
+#![expect(
+    clippy::needless_range_loop,
+    reason = "closures would not be inlined where the instructions are"
+)]
+
+use super::{LATTICE_ORIGIN, NoiseGenerator, SCALE, SHIFT, corner, noise, perlin, vector_noise};
 use crate::math::Vector;
 use crate::math::interval::Interval;
+use crate::math::wide::*;
 
 /// Coordinate beyond which rounding makes slopes meaningless.
 const FAR: f64 = 1e6;
@@ -29,9 +35,7 @@ pub(super) fn range(generator: NoiseGenerator, point: [Interval; 3]) -> (Interva
     // (v + shift)·scale, cut off; what rounding may do to v; the steepest slope.
     let (shift, scale, rounded, steepest) = match generator {
         NoiseGenerator::Plateaus => (0.5, 1.0, 1e-14, 11.5),
-        NoiseGenerator::RangeCorrected => {
-            (0.5 + 0.552_42, 0.489_855_82, 1e-14, 11.5 * 0.489_855_83)
-        }
+        NoiseGenerator::RangeCorrected => (0.5 + SHIFT, SCALE, 1e-14, 11.5 * SCALE.next_up()),
         // Its coordinates come in steps of 2⁻²⁹.
         NoiseGenerator::Perlin => (0.4925 / 0.795, 0.795, 1e-8, 6.2 * 0.795),
     };
@@ -164,92 +168,141 @@ fn over(
     origin: i64,
     corner: impl Fn([usize; 3]) -> Linear,
 ) -> (Interval, [Interval; 3]) {
-    let spans = point.map(|i| Span::of(i, origin));
-    let mut all: Option<(Interval, [Interval; 3])> = None;
-    for x in &spans[0].0[..spans[0].1] {
-        for y in &spans[1].0[..spans[1].1] {
-            for z in &spans[2].0[..spans[2].1] {
-                let (value, slopes) = within([*x, *y, *z], &corner);
+    let [x, y, z] = point.map(|i| Span::of(i, origin));
+    let mut all: Option<[Interval; 4]> = None;
+    for x in &x.0[..x.1] {
+        for y in &y.0[..y.1] {
+            for z in &z.0[..z.1] {
+                let spans = [*x, *y, *z];
+                let corners = corners(&spans, &corner);
+                let level = Instructions::best().level();
+                let here = dispatch!(level, simd => within(simd, &spans, &corners));
                 all = Some(match all {
-                    None => (value, slopes),
-                    Some((v, s)) => {
-                        (v.hull(value), std::array::from_fn(|axis| s[axis].hull(slopes[axis])))
-                    }
+                    None => here,
+                    Some(before) => std::array::from_fn(|i| before[i].hull(here[i])),
                 });
             }
         }
     }
-    all.unwrap_or((Interval::EVERYTHING, [Interval::EVERYTHING; 3]))
+    let [value, x, y, z] = all.unwrap_or([Interval::EVERYTHING; 4]);
+    (value, [x, y, z])
 }
 
-/// Range of a linear function, given its value at zero.
-#[inline]
-fn linear(at_zero: f64, slopes: [f64; 3], spans: &[Span; 3]) -> Interval {
-    let mut sum = Interval { low: at_zero, high: at_zero };
-    for (slope, span) in slopes.iter().zip(spans) {
-        let (a, b) = (slope * span.from[0], slope * span.from[1]);
-        let (less, more) = if a < b { (a, b) } else { (b, a) };
-        sum = Interval { low: sum.low + less, high: sum.high + more };
-    }
-    sum
-}
-
-/// Range of a + s·(b − a) over all s.
-#[inline]
-fn blend(a: Interval, b: Interval, weight: [f64; 2]) -> Interval {
-    let at = |a: f64, b: f64, s: f64| a + s * (b - a);
-    let (first, last) = (at(a.low, b.low, weight[0]), at(a.low, b.low, weight[1]));
-    let low = if first < last { first } else { last };
-    let (first, last) = (at(a.high, b.high, weight[0]), at(a.high, b.high, weight[1]));
-    Interval { low, high: if first > last { first } else { last } }
-}
-
-#[inline]
-fn times(a: Interval, positive: Interval) -> Interval {
-    let low = a.low * if a.low < 0.0 { positive.high } else { positive.low };
-    Interval { low, high: a.high * if a.high > 0.0 { positive.high } else { positive.low } }
-}
-
-#[inline]
-fn plus(a: Interval, b: Interval) -> Interval {
-    Interval { low: a.low + b.low, high: a.high + b.high }
-}
-
-/// Range within one cell. Corner i + 2j + 4k is offset by (i, j, k).
-fn within(spans: [Span; 3], corner: &impl Fn([usize; 3]) -> Linear) -> (Interval, [Interval; 3]) {
+/// Returns the corners of a cell, each from the cell's first corner on. Corner i + 2j + 4k is offset by (i, j, k).
+fn corners(spans: &[Span; 3], corner: &impl Fn([usize; 3]) -> Linear) -> [Linear; 8] {
     let index = |axis: usize, further: usize| spans[axis].index.wrapping_add(further);
-    // Each from the cell's first corner on.
-    let all: [Linear; 8] = std::array::from_fn(|at| {
+    std::array::from_fn(|at| {
         let further = [at & 1, at >> 1 & 1, at >> 2];
         let [value, x, y, z] =
             corner([index(0, further[0]), index(1, further[1]), index(2, further[2])]);
         let [i, j, k] = further.map(|further| further as f64);
         [value - x * i - y * j - z * k, x, y, z]
-    });
-    let of = |[value, x, y, z]: Linear| linear(value, [x, y, z], &spans);
-    let single = |value: f64| Interval { low: value, high: value };
-    let values = all.map(of);
-    // Blended along the axes of `ways`, but for the one that is left out by the caller.
-    let weights = spans.map(|span| span.weight);
-    let plane = |four: [Interval; 4], first: usize, second: usize| {
-        let near = blend(four[0], four[1], weights[first]);
-        let off = blend(four[2], four[3], weights[first]);
-        blend(near, off, weights[second])
+    })
+}
+
+/// Four intervals.
+#[derive(Clone, Copy)]
+struct Ranges<S: Simd> {
+    low: Wide<S>,
+    high: Wide<S>,
+}
+
+impl<S: Simd> Ranges<S> {
+    /// Returns the ranges of four linear functions, given their values at zero and their slopes.
+    #[inline(always)]
+    fn linear(simd: S, [at_zero, x, y, z]: [Wide<S>; 4], spans: &[Span; 3]) -> Self {
+        let mut sum = Self { low: at_zero, high: at_zero };
+        let slopes = [x, y, z];
+        for axis in 0..3 {
+            let [from, to] = spans[axis].from;
+            let (a, b) = (slopes[axis] * all(simd, from), slopes[axis] * all(simd, to));
+            sum = Self { low: sum.low + a.min(b), high: sum.high + a.max(b) };
+        }
+        sum
+    }
+
+    /// Returns the ranges of a + s·(b − a) over all s, given s at its ends.
+    #[inline(always)]
+    fn blend(self, other: Self, [from, to]: [Wide<S>; 2]) -> Self {
+        let (low, high) = (other.low - self.low, other.high - self.high);
+        Self {
+            low: (self.low + from * low).min(self.low + to * low),
+            high: (self.high + from * high).max(self.high + to * high),
+        }
+    }
+
+    /// Returns the products with an interval of positive numbers.
+    #[inline(always)]
+    fn times(self, simd: S, positive: Interval) -> Self {
+        let [zero, low, high] = [0.0, positive.low, positive.high].map(|n| all(simd, n));
+        Self {
+            low: self.low * self.low.simd_lt(zero).select(high, low),
+            high: self.high * self.high.simd_gt(zero).select(high, low),
+        }
+    }
+}
+
+/// Returns the range within one cell, and of the slopes along its axes.
+#[inline(always)]
+fn within<S: Simd>(simd: S, spans: &[Span; 3], corners: &[Linear; 8]) -> [Interval; 4] {
+    // A row for each: at four edges along an axis, which are ordered by the two other axes.
+    let mut edges = [[[0.0; 4]; 4]; 2];
+    for axis in 0..3 {
+        let [first, second] = [(axis + 1) % 3, (axis + 2) % 3];
+        let place = |at: usize| (at & 1) << first | (at >> 1) << second;
+        let near = four_of(simd, corners, [place(0), place(1), place(2), place(3)]);
+        let along = 1 << axis;
+        let far = [place(0) | along, place(1) | along, place(2) | along, place(3) | along];
+        let far = four_of(simd, corners, far);
+        let weights = [all(simd, spans[axis].weight[0]), all(simd, spans[axis].weight[1])];
+        if axis == 0 {
+            let [near, far] = [Ranges::linear(simd, near, spans), Ranges::linear(simd, far, spans)];
+            let value = near.blend(far, weights);
+            (edges[0][0], edges[1][0]) = (value.low.into(), value.high.into());
+        }
+        let difference = [far[0] - near[0], far[1] - near[1], far[2] - near[2], far[3] - near[3]];
+        let rise = Ranges::linear(simd, difference, spans).times(simd, spans[axis].rise);
+        let [near, far] = [near[axis + 1], far[axis + 1]];
+        let slope = Ranges { low: near, high: near }.blend(Ranges { low: far, high: far }, weights);
+        edges[0][axis + 1] = (slope.low + rise.low).into();
+        edges[1][axis + 1] = (slope.high + rise.high).into();
+    }
+    // Now the lanes are the value and the slopes, which are blended along the two axes that are left.
+    let column = |at: usize| {
+        let [low, high] = edges.map(|rows| rows.map(|row| row[at]));
+        (low, high)
     };
-    let value = {
-        let edge = |at: usize| blend(values[at], values[at + 1], weights[0]);
-        plane([edge(0), edge(2), edge(4), edge(6)], 1, 2)
-    };
-    let slope = |axis: usize| {
-        let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
-        let edges = std::array::from_fn(|at| {
-            let near = (at & 1) << first | (at >> 1) << second;
-            let (a, b) = (all[near], all[near | 1 << axis]);
-            let difference = of(std::array::from_fn(|i| b[i] - a[i]));
-            let slopes = blend(single(a[axis + 1]), single(b[axis + 1]), weights[axis]);
-            plus(slopes, times(difference, spans[axis].rise))
-        });
-        plane(edges, first, second)
-    };
-    (value, [slope(0), slope(1), slope(2)])
+    let mut four = [Ranges { low: all(simd, 0.0), high: all(simd, 0.0) }; 4];
+    for at in 0..4 {
+        let (low, high) = column(at);
+        four[at] = Ranges { low: Wide::simd_from(simd, low), high: Wide::simd_from(simd, high) };
+    }
+    let ends = |axes: [usize; 4], end: usize| axes.map(|axis| spans[axis].weight[end]);
+    let weights = |axes: [usize; 4]| [ends(axes, 0), ends(axes, 1)];
+    let [from, to] = weights([1, 1, 2, 0]);
+    let first = [Wide::simd_from(simd, from), Wide::simd_from(simd, to)];
+    let [from, to] = weights([2, 2, 0, 1]);
+    let second = [Wide::simd_from(simd, from), Wide::simd_from(simd, to)];
+    let near = four[0].blend(four[1], first);
+    let blend = near.blend(four[2].blend(four[3], first), second);
+    let (low, high): ([f64; 4], [f64; 4]) = (blend.low.into(), blend.high.into());
+    [0, 1, 2, 3].map(|lane| Interval { low: low[lane], high: high[lane] })
+}
+
+/// Returns four of the corners, by their value and slopes.
+#[inline(always)]
+fn four_of<S: Simd>(simd: S, corners: &[Linear; 8], places: [usize; 4]) -> [Wide<S>; 4] {
+    let mut rows = [[0.0; 4]; 4];
+    for lane in 0..4 {
+        let corner = &corners[places[lane] % 8];
+        for component in 0..4 {
+            rows[component][lane] = corner[component];
+        }
+    }
+    [
+        Wide::simd_from(simd, rows[0]),
+        Wide::simd_from(simd, rows[1]),
+        Wide::simd_from(simd, rows[2]),
+        Wide::simd_from(simd, rows[3]),
+    ]
 }

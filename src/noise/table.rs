@@ -52,17 +52,17 @@ const fn hashes() -> [u8; 4096] {
 }
 
 /// The first component's data at a lattice point, by hash: its value, then its gradient.
-pub(super) static ROWS: [Row; 256] = rows();
+pub(super) static ROWS: [CornerRow; 256] = rows();
 
 #[derive(Clone, Copy)]
 #[repr(align(32))]
-pub(super) struct Row(pub [f64; 4]);
+pub(super) struct CornerRow(pub [f64; 4]);
 
-const fn rows() -> [Row; 256] {
-    let mut rows = [Row([0.0; 4]); 256];
+const fn rows() -> [CornerRow; 256] {
+    let mut rows = [CornerRow([0.0; 4]); 256];
     let mut i = 0;
     while i < 256 {
-        rows[i] = Row([0.5 * NUMBERS[i], NUMBERS[i + 1], NUMBERS[i + 2], NUMBERS[i + 3]]);
+        rows[i] = CornerRow([0.5 * NUMBERS[i], NUMBERS[i + 1], NUMBERS[i + 2], NUMBERS[i + 3]]);
         i += 1;
     }
     rows

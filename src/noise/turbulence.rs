@@ -3,9 +3,9 @@
 //! **Invariant:** layer i has weight ωⁱ and is noise at λⁱ times the point. λ and ω are in single precision
 //! (`f32`), their powers in double precision, as found in POV-Ray 3.7.
 
-use super::four::{Lanes, noise_of_four, triples_of_four};
+use super::four::{noise_of_four, triples_of_four};
 use super::range::vector_range;
-use super::{NoiseGenerator, bounds, noise_by, triple};
+use super::{NoiseGenerator, bounds, four_stretched, noise_by, stretched, triple};
 use crate::math::Vector;
 use crate::math::finite::single;
 use crate::math::interval::Interval;
@@ -51,7 +51,7 @@ impl Turbulence {
         sum
     }
 
-    /// Replaces each of the vectors that the mask has a bit for by [`vector`](Self::vector).
+    /// Replaces the vectors that the mask has a bit for by [`vector`](Self::vector); others may have any value then.
     pub fn vectors(&self, points: &Rows, mask: u32, vectors: &mut Rows) {
         dispatch!(Instructions::best().level(), simd => {
             for group in 0..GROUPS {
@@ -68,7 +68,7 @@ impl Turbulence {
         &self,
         simd: S,
         points: WideVector<S>,
-        lanes: Lanes,
+        lanes: u32,
     ) -> WideVector<S> {
         let mut sum = WideVector::splat(simd, Vector::ZERO);
         for (finer, weight) in self.layers() {
@@ -97,7 +97,7 @@ impl Turbulence {
         sum
     }
 
-    /// Replaces each of the numbers that the mask has a bit for by [`number`](Self::number).
+    /// Replaces the numbers that the mask has a bit for by [`number`](Self::number); others may have any value then.
     pub fn numbers(&self, generator: NoiseGenerator, points: &Rows, mask: u32, numbers: &mut Row) {
         dispatch!(Instructions::best().level(), simd => {
             for group in 0..GROUPS {
@@ -115,15 +115,17 @@ impl Turbulence {
         simd: S,
         generator: NoiseGenerator,
         points: WideVector<S>,
-        lanes: Lanes,
+        lanes: u32,
     ) -> Wide<S> {
         let (mut sum, mut is_first) = (all(simd, 0.0), true);
         for (finer, weight) in self.layers() {
             let noise = noise_of_four(simd, generator, points * all(simd, finer), lanes);
             let layer = match generator {
                 NoiseGenerator::Plateaus => noise,
-                _ if is_first => stretched(simd, noise).max(all(simd, 0.0)).min(all(simd, 1.0)),
-                _ => stretched(simd, noise),
+                _ if is_first => {
+                    four_stretched(simd, noise).max(all(simd, 0.0)).min(all(simd, 1.0))
+                }
+                _ => four_stretched(simd, noise),
             };
             sum += layer * weight;
             is_first = false;
@@ -157,18 +159,12 @@ impl Turbulence {
     }
 }
 
-#[inline(always)]
-fn stretched<S: Simd>(simd: S, noise: Wide<S>) -> Wide<S> {
-    noise * 2.0 - all(simd, 0.5)
-}
-
 /// Returns what a layer of [`Turbulence::number`] has for a noise.
 #[inline]
 fn layer(generator: NoiseGenerator, noise: f64, is_first: bool) -> f64 {
-    let stretched = 2.0 * noise - 0.5;
     match generator {
         NoiseGenerator::Plateaus => noise,
-        _ if is_first => stretched.clamp(0.0, 1.0),
-        _ => stretched,
+        _ if is_first => stretched(noise).clamp(0.0, 1.0),
+        _ => stretched(noise),
     }
 }

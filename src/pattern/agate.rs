@@ -73,7 +73,6 @@ impl Pattern for Agate {
     }
 }
 
-/// Returns the value for a sine.
 impl Agate {
     /// Returns the value at a point, given its turbulence.
     fn band(&self, point: Vector, turbulence: f64) -> f64 {
@@ -82,6 +81,7 @@ impl Agate {
     }
 }
 
+/// Returns the value for a sine.
 fn height(sine: f64) -> f64 {
     pow(((1.0 + sine) / 2.0).clamp(0.0, 1.0), 0.77)
 }

@@ -70,10 +70,13 @@ fn values_side_by_side_have_the_bits_of_each_alone() {
         kind.values(&points, mask, &setting, &mut values);
         for number in numbers(mask) {
             let point = points.at(number);
-            let sample = Sample { point, error: Vector::ZERO, setting: &setting };
+            let error = Vector::splat([0.0, 1e-12, NEAR * 0.249][random.below(3)]);
+            let sample = Sample { point, error, setting: &setting };
             let Measured { value, error } = kind.measured(&sample);
             assert_eq!(error, 0.0, "{kind:?} {setting:?} {point}");
             assert_eq!(values[number].to_bits(), value.to_bits(), "{kind:?} {setting:?} {point}");
+            let near = kind.value_off_seams(&sample);
+            assert!(near.is_some_and(|near| near == Measured { value, error }), "{kind:?} {point}");
         }
     }
 }

@@ -4,7 +4,7 @@ use super::Setting;
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::math::wide::*;
-use crate::noise::{self, NoiseGenerator, noise_by, noise_of_four};
+use crate::noise::{self, NoiseGenerator, four_stretched, noise_by, noise_of_four, stretched};
 
 /// Returns an interval that contains the noise at each point within `reach` of `point` along each axis.
 pub(super) fn noise_bounds(generator: NoiseGenerator, point: Vector, reach: Vector) -> Interval {
@@ -21,9 +21,7 @@ pub(super) fn noise_bounds(generator: NoiseGenerator, point: Vector, reach: Vect
 fn spread(generator: NoiseGenerator, noise: f64) -> f64 {
     match generator {
         NoiseGenerator::Plateaus => noise,
-        NoiseGenerator::RangeCorrected | NoiseGenerator::Perlin => {
-            (2.0 * noise - 0.5).clamp(0.0, 1.0)
-        }
+        NoiseGenerator::RangeCorrected | NoiseGenerator::Perlin => stretched(noise).clamp(0.0, 1.0),
     }
 }
 
@@ -58,7 +56,7 @@ impl Layers {
         sum
     }
 
-    /// Replaces each of the values that the mask has a bit for by [`Layers::value`].
+    /// Replaces the values that the mask has a bit for by [`Layers::value`]; others may have any value then.
     pub fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
         dispatch!(Instructions::best().level(), simd => {
             for group in 0..GROUPS {
@@ -85,7 +83,7 @@ impl Layers {
             let finer = points * all(simd, frequency);
             let mut noise = noise_of_four(simd, generator, finer, lanes);
             if generator != NoiseGenerator::Plateaus {
-                noise = (noise * 2.0 - half).max(zero).min(one);
+                noise = four_stretched(simd, noise).max(zero).min(one);
             }
             sum += if self.is_folded { (half - noise).abs() } else { noise } * amplitude;
             frequency *= 2.0;

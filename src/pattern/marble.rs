@@ -22,6 +22,10 @@ impl Pattern for Marble {
     const APPLIES_TURBULENCE: bool = true;
     const RANGE: Interval = Interval::EVERYTHING;
 
+    fn is_exact(&self, setting: &Setting) -> bool {
+        !is_still(setting)
+    }
+
     #[inline]
     fn value(&self, sample: &Sample) -> f64 {
         finite(sample.point.x + number(sample.setting, sample.point))

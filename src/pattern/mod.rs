@@ -163,15 +163,15 @@ macro_rules! patterns {
                 }
             }
 
-            /// Returns whether the value at a point is all that maps need, wherever the point is.
+            /// Returns whether its values do not depend on the error of a point.
             pub fn is_exact(&self, setting: &Setting) -> bool {
                 match self {
                     $(Self::$kind(kind) => kind.is_exact(setting),)*
                 }
             }
 
-            /// Replaces each of the values that the mask has a bit for by its value at that point. It must be
-            /// [exact](Self::is_exact).
+            /// Replaces the values that the mask has a bit for by those at its points; others may have any value
+            /// then. The pattern must be [exact](Self::is_exact).
             pub fn values(
                 &self,
                 points: &Rows,
@@ -230,8 +230,8 @@ macro_rules! patterns {
                 }
             }
 
-            /// Replaces each of the vectors that the mask has a bit for by [`Kind::displacement`]; returns false if
-            /// that is `None`.
+            /// Replaces the vectors that the mask has a bit for by [`Kind::displacement`]; others may have any value
+            /// then. Returns false if that is `None`.
             pub fn displacements(
                 &self,
                 normals: &Rows,

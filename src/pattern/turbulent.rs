@@ -17,8 +17,7 @@ pub(super) fn number(setting: &Setting, point: Vector) -> f64 {
     }
 }
 
-/// Returns an interval that contains [`number`] at each point of a box.
-/// Replaces each of the values that the mask has a bit for by [`number`].
+/// Replaces the values by [`number`]; see [`super::Kind::values`].
 pub(super) fn numbers(setting: &Setting, points: &Rows, mask: u32, values: &mut Row) {
     if setting.amount.x == 0.0 {
         *values = [0.0; ROW];
@@ -30,6 +29,7 @@ pub(super) fn numbers(setting: &Setting, points: &Rows, mask: u32, values: &mut 
     }
 }
 
+/// Returns an interval that contains [`number`] at each point of a box.
 pub(super) fn number_bounds(setting: &Setting, sides: [Interval; 3]) -> Interval {
     match setting.amount.x == 0.0 {
         true => Interval::point(0.0),
@@ -45,12 +45,12 @@ pub(super) fn planar(setting: &Setting, point: Vector) -> [f64; 2] {
     in_plane(setting.turbulence.vector(point))
 }
 
-/// Returns whether there is no turbulence.
 /// Returns x and y of turbulence, 0 where they overflow.
 pub(super) fn in_plane(Vector { x, y, .. }: Vector) -> [f64; 2] {
     if x.is_finite() && y.is_finite() { [x, y] } else { [0.0; 2] }
 }
 
+/// Returns whether there is no turbulence.
 #[inline]
 pub(super) fn is_still(setting: &Setting) -> bool {
     setting.amount == Vector::ZERO

@@ -15,7 +15,7 @@ use super::Walk;
 use super::media::Within;
 use super::shade::{self, Place, Side};
 use super::shadow::{self, Aim};
-use super::stands::{Stand, Stands};
+use super::surface_batch::{ShadedSurface, SurfaceBatch};
 use super::tracer::Tracer;
 use crate::color::Rgb;
 use crate::math::random::Random;
@@ -403,12 +403,11 @@ impl<'a> Tracer<'a> {
     pub(super) fn light_one_by_one(
         &self,
         walk: &mut Walk,
-        stands: &Stands,
+        stands: &mut SurfaceBatch,
         (number, light): (usize, &Light),
-        mut add: impl FnMut(usize, Rgb),
     ) {
         for of in numbers(stands.mask) {
-            let Some(Stand { hit, place, surface, .. }) = stands.at(of) else { continue };
+            let Some(ShadedSurface { hit, place, surface, .. }) = stands.at(of) else { continue };
             let normal = place.flat.map_or(place.normal, |flat| flat.normal);
             let behind = place.flat.map_or_else(|| surface.spawn(-normal), |flat| flat.behind);
             let ground = Ground { place: &place, behind, lights: self.lights_of(hit.object) };
@@ -419,7 +418,7 @@ impl<'a> Tracer<'a> {
                 && ground.is_lit_by(number)
                 && let Some(lit) = shade::before(self, walk, &ground, (number, light))
             {
-                add(of, lit);
+                stands.answers.add_to(of, lit);
             }
         }
     }

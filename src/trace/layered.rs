@@ -1,10 +1,10 @@
-//! Surfaces with layers, of one side of an object.
+//! Shading of layered textures on one side of an object.
 //!
-//! **In:** surfaces side by side. **Out:** what each shows by itself, and the rays that go on. **Invariant:** each
-//! shows, to the bit, what [`Tracer::composite`] says of it alone.
+//! **In:** surfaces side by side. **Out:** the radiance of each by itself, and the rays that go on. **Invariant:** each
+//! has, to the bit, the radiance that [`Tracer::composite`] returns for it alone.
 //!
-//! The colours and normals of each layer are found for all surfaces where it is seen. Where all that layers do is to
-//! scatter light, and nothing is seen through them, they are lit together, too: what comes of a light is found once.
+//! The colours and normals of each layer are evaluated together for all surfaces where it is visible. Opaque layers that
+//! only scatter light are lit together, too: each light is sampled once for all of them.
 
 use std::sync::Arc;
 
@@ -12,8 +12,8 @@ use smallvec::SmallVec;
 
 use super::Walk;
 use super::batch::{SLICE, Surfaces};
-use super::stands::Stands;
-use super::texture::Side;
+use super::surface_batch::SurfaceBatch;
+use super::texture::ObjectSide;
 use super::tracer::Tracer;
 use super::way::Way;
 use crate::color::{Clearness, Color, Rgb};
@@ -23,25 +23,25 @@ use crate::math::wide::numbers;
 use crate::world::{Plain, Texture};
 
 /// The plain layers of a texture, from the top down, each at the surfaces where it is seen.
-struct Layers<'a, 'b, 'c> {
-    stands: SmallVec<[Stands<'a, 'b, 'c>; 3]>,
+struct PaintedLayers<'a, 'b, 'c> {
+    batches: SmallVec<[SurfaceBatch<'a, 'b, 'c>; 3]>,
     /// The part of the light of each layer that the layers above it let through, by surface.
     above: SmallVec<[[Rgb; SLICE]; 3]>,
     /// What all of them let through, at most.
     through: [Rgb; SLICE],
 }
 
-impl Layers<'_, '_, '_> {
+impl PaintedLayers<'_, '_, '_> {
     #[inline(always)]
     fn new() -> Self {
-        Self { stands: SmallVec::new(), above: SmallVec::new(), through: [Rgb::WHITE; SLICE] }
+        Self { batches: SmallVec::new(), above: SmallVec::new(), through: [Rgb::WHITE; SLICE] }
     }
 }
 
-/// What is known of the layers of one of the surfaces that are shaded together.
+/// The evaluated layers of one of the surfaces that are shaded together.
 #[derive(Clone, Copy)]
 pub(super) struct Known<'a, 'p> {
-    layers: &'p [Stands<'a, 'p, 'p>],
+    layers: &'p [SurfaceBatch<'a, 'p, 'p>],
     number: usize,
 }
 
@@ -52,8 +52,9 @@ impl Known<'_, '_> {
     #[inline]
     pub fn part(&self, plain: &Plain) -> Option<(Color, Vector)> {
         let number = self.number;
-        let is_it =
-            |layer: &&Stands| layer.plains[number].is_some_and(|one| std::ptr::eq(one, plain));
+        let is_it = |layer: &&SurfaceBatch| {
+            layer.plains[number].is_some_and(|one| std::ptr::eq(one, plain))
+        };
         let layer = self.layers.iter().find(is_it)?;
         Some((layer.paints[number], layer.normal(number)))
     }
@@ -66,33 +67,35 @@ impl<'a> Tracer<'a> {
         &self,
         walk: &mut Walk,
         surfaces: &mut Surfaces,
-        side: Side,
+        side: ObjectSide,
         count: &mut impl FnMut(&Walk),
     ) {
         let object = &self.world.objects[side.hit.object as usize];
         let texture = self.world.coat(object, side.hit.leaving).texture as usize;
         let Texture::Layers(textures) = &self.world.textures[texture] else { return };
         let (ways, hits) = (surfaces.ways, surfaces.hits);
-        let mut layers = Layers::new();
-        self.paint_layers(textures, (ways, hits), side, &mut layers);
+        let mut layers = PaintedLayers::new();
+        if !side.is_single() {
+            self.paint_layers(textures, (ways, hits), side, &mut layers);
+        }
         let mut alone = side.mask;
-        if !object.double_illuminate && self.only_scatter(textures) {
+        if !layers.batches.is_empty() && !object.double_illuminate && self.only_scatter(textures) {
             let clear = self.secondary && self.clear && self.clear_composites[texture];
             let mut open = 0;
             for number in numbers(side.mask) {
                 let is_seen_through = hits[number].contested
-                    || layers.through[number].brightness() >= self.adc_bailout;
+                    || layers.through[number].brightness().abs() >= self.adc_bailout;
                 let goes_on = clear && ways[number].level < self.max_trace_level;
                 open |= if goes_on && is_seen_through { 1 << number } else { 0 };
             }
             let together = side.mask & !open;
-            layers.stands.iter_mut().for_each(|layer| layer.mask &= together);
+            layers.batches.iter_mut().for_each(|layer| layer.mask &= together);
             if self.lights && together != 0 {
-                self.light(walk, &mut layers.stands);
+                self.light(walk, &mut layers.batches);
             }
             for number in numbers(together) {
                 let mut local = Rgb::BLACK;
-                for (layer, above) in layers.stands.iter().zip(&layers.above) {
+                for (layer, above) in layers.batches.iter().zip(&layers.above) {
                     if layer.mask >> number & 1 == 1 {
                         local += layer.local[number] * above[number];
                     }
@@ -104,7 +107,7 @@ impl<'a> Tracer<'a> {
         }
         for number in numbers(alone) {
             let (way, to) = (&ways[number], surfaces.first + number as u32);
-            let known = Known { layers: &layers.stands, number };
+            let known = Known { layers: &layers.batches, number };
             let local = self.composite(walk, way, &hits[number], to, known);
             surfaces.show(number, local, false);
             count(walk);
@@ -130,8 +133,8 @@ impl<'a> Tracer<'a> {
         &self,
         textures: &'a [Arc<Texture>],
         (ways, hits): (&'b [Way], &'b [Hit]),
-        side: Side<'c>,
-        layers: &mut Layers<'a, 'b, 'c>,
+        side: ObjectSide<'c>,
+        layers: &mut PaintedLayers<'a, 'b, 'c>,
     ) {
         let settings = &self.world.settings;
         for (place, texture) in textures.iter().enumerate().rev() {
@@ -151,13 +154,13 @@ impl<'a> Tracer<'a> {
             layers.above.push(layers.through);
             // Built where it stays: it is large.
             let rays = (ways, hits);
-            layers.stands.push(Stands::new(rays, plains, mask, side.surfaces, clearness));
-            let Some(stands) = layers.stands.last_mut() else { return };
-            self.paint(stands);
+            layers.batches.push(SurfaceBatch::new(rays, plains, mask, side.surfaces, clearness));
+            let Some(batch) = layers.batches.last_mut() else { return };
+            self.paint(batch);
             // What a finish reflects by itself is not known here.
             if !plain.finish.conserve_energy {
                 for number in numbers(mask) {
-                    let paint = stands.paints[number];
+                    let paint = batch.paints[number];
                     let own = if tints { paint.transmittance() } else { paint.untinted() };
                     layers.through[number] = layers.through[number] * own;
                 }

@@ -5,7 +5,7 @@
 use super::Walk;
 use super::shade::{self, Toward};
 use super::shadow::{self, Aim};
-use super::stands::{Stand, Stands};
+use super::surface_batch::{ShadedSurface, SurfaceBatch};
 use super::tracer::Tracer;
 use crate::color::Rgb;
 use crate::math::Vector;
@@ -32,7 +32,8 @@ struct Grounds<'a> {
 
 impl<'a> Grounds<'a> {
     #[inline(always)]
-    fn of(first: &Stands<'_, '_, 'a>, layers: &[Stands], by_object: bool) -> Self {
+    fn of(layers: &[SurfaceBatch<'_, '_, 'a>], by_object: bool) -> Option<Self> {
+        let first = layers.first()?;
         let (points, origins, normals) = first.rows();
         let (mut answers, mut seed, mut together) = (0, 0, SmallVec::new());
         let mut objects: SmallVec<[u32; ROW]> = SmallVec::new();
@@ -59,7 +60,7 @@ impl<'a> Grounds<'a> {
             together.push(answers);
         }
         let shaped = first.shaped & answers;
-        Self { points, normals, origins, answers, seed, shaped, together }
+        Some(Self { points, normals, origins, answers, seed, shaped, together })
     }
 }
 
@@ -158,10 +159,10 @@ impl Answers {
 
     /// Prepares the answers of surfaces: at first each shows what it shows by itself.
     #[inline(always)]
-    fn begin(stands: &mut Stands) {
+    fn begin(stands: &mut SurfaceBatch) {
         for number in numbers(stands.mask) {
             let Some(finish) = stands.finish(number) else { continue };
-            let Stands { answers, local, bodies, .. } = stands;
+            let SurfaceBatch { answers, local, bodies, .. } = stands;
             answers.mask |= if shade::answers(finish) { 1 << number } else { 0 };
             answers.sums.set(number, vector(local[number]));
             answers.bodies.set(number, vector(bodies[number]));
@@ -189,7 +190,7 @@ impl Answers {
     }
 
     #[inline(always)]
-    fn add_to(&mut self, number: usize, light: Rgb) {
+    pub fn add_to(&mut self, number: usize, light: Rgb) {
         self.sums.set(number, self.sums.at(number) + vector(light));
     }
 }
@@ -199,21 +200,20 @@ fn vector(Rgb { red, green, blue }: Rgb) -> Vector {
 }
 
 impl Tracer<'_> {
-    /// Adds to what surfaces show what they send to the viewer of each light; what layers of the same surfaces send is
-    /// found together. The first layer is seen at all of them, and all have its shapes.
+    /// Adds to the radiance of surfaces by themselves the light that they scatter to the viewer, for all layers of the
+    /// same surfaces together. The first layer is visible at all of them, and all have its shading normals.
     #[inline(never)]
-    pub(super) fn light(&self, walk: &mut Walk, layers: &mut [Stands]) {
-        let Some(first) = layers.first() else { return };
-        let grounds = Grounds::of(first, layers, self.geometry.has_tree());
+    pub(super) fn light(&self, walk: &mut Walk, layers: &mut [SurfaceBatch]) {
+        let Some(grounds) = Grounds::of(layers, self.geometry.has_tree()) else { return };
+        debug_assert!(layers.iter().all(|layer| {
+            let mask = layer.mask;
+            mask & !layers[0].mask == 0 && layer.shaped & mask == layers[0].shaped & mask
+        }));
         layers.iter_mut().for_each(Answers::begin);
         for (number, light) in self.world.lights.iter().enumerate() {
             if !light.is_plain() || !self.world.light_sets.is_empty() {
                 for stands in layers.iter_mut() {
-                    let mut answers = std::mem::replace(&mut stands.answers, Answers::NONE);
-                    self.light_one_by_one(walk, stands, (number, light), |surface, lit| {
-                        answers.add_to(surface, lit);
-                    });
-                    stands.answers = answers;
+                    self.light_one_by_one(walk, stands, (number, light));
                 }
             } else if grounds.answers != 0 {
                 self.light_together(walk, layers, &grounds, (number, light));
@@ -231,7 +231,7 @@ impl Tracer<'_> {
     fn light_together(
         &self,
         walk: &mut Walk,
-        layers: &mut [Stands],
+        layers: &mut [SurfaceBatch],
         grounds: &Grounds,
         (number, light): (usize, &Light),
     ) {
@@ -289,7 +289,7 @@ impl Tracer<'_> {
             let answers = &mut stands.answers;
             dispatch!(level, simd => answers.add(simd, lit & !more, &colors, cosines));
             for surface in numbers(more) {
-                let Some(Stand { place, .. }) = stands.at(surface) else { continue };
+                let Some(ShadedSurface { place, .. }) = stands.at(surface) else { continue };
                 let to_light = aims.rays.directions.at(surface);
                 let light = (number, light);
                 let answer = shade::answered(&place, light, to_light, cosines[surface], 0);

@@ -3,8 +3,8 @@
 //! **In:** surfaces with their plain textures. **Out:** the colour of each, and the normal by which it is lit.
 
 use super::shade::Flat;
-use super::stands::{Shaped, Stands};
-use super::texture::{self, Side};
+use super::surface_batch::{ShadingNormal, SurfaceBatch};
+use super::texture::{self, ObjectSide};
 use super::tracer::Tracer;
 use crate::geometry::{self, Hit, SurfacePoints};
 use crate::math::wide::{Rows, numbers};
@@ -14,7 +14,7 @@ use crate::world::{Pigment, Plain};
 impl<'a> Tracer<'a> {
     /// Finds the colours and normals of surfaces.
     #[inline(always)]
-    pub(super) fn paint(&self, stands: &mut Stands<'a, '_, '_>) {
+    pub(super) fn paint(&self, stands: &mut SurfaceBatch<'a, '_, '_>) {
         let (mut patterned, mut bumpy) = (0, 0);
         for number in numbers(stands.mask) {
             match stands.plains[number].map(|plain| &plain.pigment) {
@@ -45,59 +45,64 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Finds the colours of surfaces with patterns: those of one side of an object together, where they can be.
+    /// Finds the colours of surfaces with patterns: those of one side of an object together where possible.
     #[inline(never)]
-    fn paint_patterns(&self, stands: &mut Stands<'a, '_, '_>, patterned: u32) {
+    fn paint_patterns(&self, stands: &mut SurfaceBatch<'a, '_, '_>, patterned: u32) {
         let mut rest = patterned;
         while rest != 0 {
-            let first = rest.trailing_zeros() as usize;
-            let Some(plain) = stands.plains[first] else { return };
-            let Some(together) = plain.pigment.together() else {
-                let (ray, hit) = (&stands.ways[first].ray, &stands.hits[first]);
-                let surface = stands.surfaces.at(first);
-                stands.paints[first] = texture::color(self, plain, ray, hit, &surface);
-                rest &= rest - 1;
-                continue;
-            };
-            let side = Side::first(stands.hits, rest, stands.surfaces);
-            texture::colors(self, &together, side, &mut stands.paints);
+            let side = ObjectSide::first(stands.hits, rest, stands.surfaces);
             rest &= !side.mask;
+            let first = side.first_number();
+            let Some(plain) = stands.plains[first] else { return };
+            match plain.pigment.together() {
+                Some(together) if !side.is_single() => {
+                    texture::colors(self, &together, side, &mut stands.paints);
+                }
+                _ => {
+                    for number in numbers(side.mask) {
+                        let (ray, hit) = (&stands.ways[number].ray, &stands.hits[number]);
+                        let surface = stands.surfaces.at(number);
+                        stands.paints[number] = texture::color(self, plain, ray, hit, &surface);
+                    }
+                }
+            }
         }
     }
 
     /// Perturbs the normals of surfaces with bumps, likewise.
     #[inline(never)]
-    fn perturb(&self, stands: &mut Stands<'a, '_, '_>, bumpy: u32) {
+    fn perturb(&self, stands: &mut SurfaceBatch<'a, '_, '_>, bumpy: u32) {
         let mut rest = bumpy;
         while rest != 0 {
-            let first = rest.trailing_zeros() as usize;
-            let Some(bumps) = stands.plains[first].and_then(|plain| plain.normal.as_ref()) else {
-                return;
-            };
-            let Some(together) = bumps.together() else {
-                let (ray, hit) = (&stands.ways[first].ray, &stands.hits[first]);
-                let surface = stands.surfaces.at(first);
-                let place = stands.place_of_shape(first);
-                let normal = &mut stands.shapes[place].normal;
-                *normal = texture::perturbed(self, bumps, *normal, (ray, hit, &surface));
-                rest &= rest - 1;
-                continue;
-            };
-            let side = Side::first(stands.hits, rest, stands.surfaces);
+            let side = ObjectSide::first(stands.hits, rest, stands.surfaces);
+            rest &= !side.mask;
+            let plain = stands.plains[side.first_number()];
+            let Some(bumps) = plain.and_then(|plain| plain.normal.as_ref()) else { return };
             let mut normals = Rows::ZERO;
             for number in numbers(side.mask) {
-                normals.set(number, stands.shapes[stands.place_of_shape(number)].normal);
+                normals.set(number, stands.normal(number));
             }
-            texture::perturb(self, &together, side, &mut normals);
+            match bumps.together() {
+                Some(together) if !side.is_single() => {
+                    texture::perturb(self, &together, side, &mut normals);
+                }
+                _ => {
+                    for number in numbers(side.mask) {
+                        let (ray, hit) = (&stands.ways[number].ray, &stands.hits[number]);
+                        let at = (ray, hit, &stands.surfaces.at(number));
+                        let normal = texture::perturbed(self, bumps, normals.at(number), at);
+                        normals.set(number, normal);
+                    }
+                }
+            }
             for number in numbers(side.mask) {
                 let place = stands.place_of_shape(number);
                 stands.shapes[place].normal = normals.at(number);
             }
-            rest &= !side.mask;
         }
     }
 
-    /// How a surface is lit that is smooth or bumpy, before its bumps perturb its normal.
+    /// Returns the shading normal of a smooth or bumpy surface, before its bumps perturb it.
     #[inline(never)]
     fn shaped(
         &self,
@@ -105,7 +110,7 @@ impl<'a> Tracer<'a> {
         (ray, hit): (&Ray, &Hit),
         surfaces: &SurfacePoints,
         number: usize,
-    ) -> Option<Shaped> {
+    ) -> Option<ShadingNormal> {
         let (surface, facing) = (surfaces.at(number), surfaces.facing.at(number));
         let behind = surface.spawn(-facing);
         let flat = Flat { normal: facing, behind };
@@ -116,8 +121,8 @@ impl<'a> Tracer<'a> {
             Some(smooth) => smooth,
         };
         match &plain.normal {
-            None => smooth.map(|_| Shaped { normal, flat, smooth: None }),
-            Some(_) => Some(Shaped { normal, flat, smooth: Some(normal) }),
+            None => smooth.map(|_| ShadingNormal { normal, flat, smooth: None }),
+            Some(_) => Some(ShadingNormal { normal, flat, smooth: Some(normal) }),
         }
     }
 }

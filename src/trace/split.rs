@@ -2,7 +2,7 @@
 
 use super::batch::{Back, Onward};
 use super::media::Border;
-use super::stands::Stand;
+use super::surface_batch::ShadedSurface;
 use super::tracer::Tracer;
 use super::way::{Inside, Way};
 use super::{Walk, dispersion, refraction};
@@ -30,13 +30,13 @@ impl Tracer<'_> {
     pub(super) fn split(
         &self,
         walk: &mut Walk,
-        stand: &Stand,
+        stand: &ShadedSurface,
         toward: &Toward,
         samples: u32,
         (weight, factor): (f64, Rgb),
         to: u32,
     ) {
-        let &Stand { way, hit, ref place, .. } = stand;
+        let &ShadedSurface { way, hit, ref place, .. } = stand;
         let Toward { normal, fresnel, border, left, behind } = *toward;
         let Border { from, to: after, within: [within, within_behind], .. } = border;
         if self.counts {

@@ -6,8 +6,8 @@ use super::area::Ground;
 use super::batch::{Back, Onward, SLICE, Surfaces};
 use super::layered::Known;
 use super::shade::Flat;
-use super::stands::{Stand, Stands};
-use super::texture::Side;
+use super::surface_batch::{ShadedSurface, SurfaceBatch};
+use super::texture::ObjectSide;
 use super::tracer::Tracer;
 use super::way::Way;
 use super::{Walk, behind, reflection, sky};
@@ -62,12 +62,12 @@ impl<'a> Tracer<'a> {
         let mut points = SurfacePoints::NONE;
         points.find(self.world, self.geometry.instructions(), (&rays, mask | layered), hits);
         while layered != 0 {
-            let side = Side::first(hits, layered, &points);
+            let side = ObjectSide::first(hits, layered, &points);
             self.shade_layered(walk, &mut surfaces, side, &mut count);
             layered &= !side.mask;
         }
         let clearness = self.world.settings.clearness;
-        let mut stands = Stands::new((ways, hits), plains, mask, &points, clearness);
+        let mut stands = SurfaceBatch::new((ways, hits), plains, mask, &points, clearness);
         self.paint(&mut stands);
         if self.lights {
             self.light(walk, std::slice::from_mut(&mut stands));
@@ -108,7 +108,14 @@ impl<'a> Tracer<'a> {
 
     /// What a surface shows of the light behind it; rays that go on are added to the walk's.
     #[inline(never)]
-    fn rest(&self, walk: &mut Walk, stands: &Stands, number: usize, goes_on: bool, to: u32) -> Rgb {
+    fn rest(
+        &self,
+        walk: &mut Walk,
+        stands: &SurfaceBatch,
+        number: usize,
+        goes_on: bool,
+        to: u32,
+    ) -> Rgb {
         let Some(stand) = stands.at(number) else { return Rgb::BLACK };
         let both = self.world.objects[stand.hit.object as usize].double_illuminate;
         let local = match both || stand.place.finish.extras.is_some() {
@@ -123,7 +130,7 @@ impl<'a> Tracer<'a> {
 
     /// Returns a bit for each surface that does nothing but show what it is like and mirror rays.
     #[inline(always)]
-    fn mirrors(&self, stands: &Stands) -> u32 {
+    fn mirrors(&self, stands: &SurfaceBatch) -> u32 {
         let mut mirrors = 0;
         for number in numbers(stands.mask & !stands.shaped) {
             let Some(finish) = stands.finish(number) else { continue };
@@ -161,8 +168,8 @@ impl<'a> Tracer<'a> {
     /// What the lights on the other side of a surface add that is lit on `both`, or scatters their light.
     #[cold]
     #[inline(never)]
-    fn lit_behind(&self, walk: &mut Walk, stand: &Stand, both: bool) -> Rgb {
-        let Stand { place, surface, .. } = stand;
+    fn lit_behind(&self, walk: &mut Walk, stand: &ShadedSurface, both: bool) -> Rgb {
+        let ShadedSurface { place, surface, .. } = stand;
         if !behind::is_lit_behind(place.finish, both) {
             return Rgb::BLACK;
         }

@@ -33,10 +33,12 @@ pub(super) fn color(
     }
 }
 
-/// Surfaces of one side of an object: a bit for each of those that are shaded together.
+/// The surfaces of one side of an object among those that are shaded together.
 #[derive(Clone, Copy)]
-pub(super) struct Side<'a> {
+pub(super) struct ObjectSide<'a> {
+    /// The first of its hits.
     pub hit: &'a Hit,
+    /// A bit for each.
     pub mask: u32,
     pub surfaces: &'a SurfacePoints,
 }
@@ -46,7 +48,7 @@ pub(super) struct Side<'a> {
 pub(super) fn colors(
     tracer: &Tracer,
     together: &Together<Blend<Color>>,
-    side: Side,
+    side: ObjectSide,
     colors: &mut [Color; ROW],
 ) {
     let mut points = Rows::ZERO;
@@ -56,14 +58,19 @@ pub(super) fn colors(
 
 /// Perturbs the normals of the surfaces of a side, which point toward the viewer.
 #[inline(never)]
-pub(super) fn perturb(tracer: &Tracer, together: &Together<Bumps>, side: Side, normals: &mut Rows) {
+pub(super) fn perturb(
+    tracer: &Tracer,
+    together: &Together<Bumps>,
+    side: ObjectSide,
+    normals: &mut Rows,
+) {
     let mut points = Rows::ZERO;
     let map = side.points(tracer.world, together.slot, &mut points);
     let turn = map.map_or(Turn::NONE, Turn::of);
     together.perturb(turn, &mut points, side.mask, normals);
 }
 
-impl<'a> Side<'a> {
+impl<'a> ObjectSide<'a> {
     /// Returns the first of some surfaces, with those of the same side of the same object.
     #[inline(always)]
     pub fn first(hits: &'a [Hit], some: u32, surfaces: &'a SurfacePoints) -> Self {
@@ -77,23 +84,28 @@ impl<'a> Side<'a> {
         Self { hit, mask, surfaces }
     }
 
+    /// Returns the number of its first surface.
+    #[inline(always)]
+    pub fn first_number(&self) -> usize {
+        self.mask.trailing_zeros() as usize % ROW
+    }
+
+    /// Returns whether it has only one surface, which gains nothing by rows.
+    #[inline(always)]
+    pub fn is_single(&self) -> bool {
+        self.mask.count_ones() == 1
+    }
+
     /// Finds the points of the surfaces in the space of a slot; returns the map to there.
     #[inline(always)]
     fn points<'w>(&self, world: &'w World, slot: u32, points: &mut Rows) -> Option<&'w Map> {
         let Self { hit, mask, surfaces } = *self;
         let object = &world.objects[hit.object as usize];
         let coat = world.coat(object, hit.leaving);
-        let map = coat.places.map(|first| &world.texture_maps[(first + slot) as usize]);
+        let map = map_of(world, &coat, slot);
         for number in numbers(mask) {
-            let mut point = surfaces.points.at(number);
-            if let Some(map) = map {
-                point = map.point(point);
-            }
-            if coat.faces.is_some() {
-                let face = surfaces.face(number);
-                point = level(point, constants(world, object, &coat, (slot, face)));
-            }
-            points.set(number, point);
+            let constants = constants(world, object, &coat, (slot, surfaces.face(number)));
+            points.set(number, in_slot(map, constants, surfaces.points.at(number)));
         }
         map
     }
@@ -112,9 +124,20 @@ fn constants(
     world.faces[(first + slot * count + face) as usize]
 }
 
-/// Returns a point of a face, with the coordinates that are constant there.
+/// Returns the map from the world into the space of a slot, unless that is the world.
 #[inline]
-fn level(point: Vector, FaceCoordinates([x, y, z]): FaceCoordinates) -> Vector {
+fn map_of<'w>(world: &'w World, coat: &Coat, slot: u32) -> Option<&'w Map> {
+    coat.places.map(|first| &world.texture_maps[(first + slot) as usize])
+}
+
+/// Returns a point of a face in the space of a slot, with the coordinates that are constant there.
+#[inline]
+fn in_slot(
+    map: Option<&Map>,
+    FaceCoordinates([x, y, z]): FaceCoordinates,
+    point: Vector,
+) -> Vector {
+    let point = map.map_or(point, |map| map.point(point));
     Vector::new(x.unwrap_or(point.x), y.unwrap_or(point.y), z.unwrap_or(point.z))
 }
 
@@ -307,11 +330,8 @@ impl Surroundings for SurfaceInteraction<'_, '_> {
     /// On a flat face, the coordinates that are constant there are those that `lower` computed, not those of
     /// the rounded hit.
     fn point(&self, slot: u32) -> Vector {
-        let mut point = self.surface.point;
-        if let Some(first) = self.coat.places {
-            point = self.world.texture_maps[(first + slot) as usize].point(point);
-        }
-        level(point, self.constants(slot))
+        let map = map_of(self.world, &self.coat, slot);
+        in_slot(map, self.constants(slot), self.surface.point)
     }
 
     #[cold]

@@ -6,7 +6,7 @@ use super::batch::{Back, Onward};
 use super::media::Border;
 use super::shade::{Flat, Place};
 use super::split::Toward;
-use super::stands::Stand;
+use super::surface_batch::ShadedSurface;
 use super::tracer::Tracer;
 use super::way::{Inside, Way};
 use super::{Walk, extras, reflection, refraction, texture};
@@ -16,7 +16,7 @@ use crate::math::Vector;
 use crate::shape::Ray;
 use crate::world::Finish;
 
-impl Stand<'_, '_> {
+impl ShadedSurface<'_, '_> {
     /// Where rays start that go on behind the surface.
     pub(super) fn behind(&self) -> Vector {
         match self.place.flat {
@@ -29,8 +29,8 @@ impl Stand<'_, '_> {
 impl Tracer<'_> {
     /// Adds the rays that go on from a surface to the walk's; what they see goes back `to` the surface of that number.
     #[inline(always)]
-    pub(super) fn scatter(&self, walk: &mut Walk, stand: &Stand, to: u32) {
-        let Stand { way, place, paint, .. } = stand;
+    pub(super) fn scatter(&self, walk: &mut Walk, stand: &ShadedSurface, to: u32) {
+        let ShadedSurface { way, place, paint, .. } = stand;
         let by_fresnel = |finish: &Finish| finish.reflection.as_ref().is_some_and(|r| r.fresnel);
         if (self.clear && paint.is_clear()) || (self.bends && by_fresnel(place.finish)) {
             self.part(walk, stand, to);
@@ -74,8 +74,8 @@ impl Tracer<'_> {
     ///
     /// **Source:** POV-Ray 3.7's behaviour, measured to 1/65,535.
     #[inline(never)]
-    fn part(&self, walk: &mut Walk, stand: &Stand, to: u32) {
-        let &Stand { way, hit, ref place, paint, .. } = stand;
+    fn part(&self, walk: &mut Walk, stand: &ShadedSurface, to: u32) {
+        let &ShadedSurface { way, hit, ref place, paint, .. } = stand;
         let clear = self.clear && paint.is_clear();
         let behind = stand.behind();
         walk.coinciding.clear();
@@ -155,8 +155,13 @@ impl Tracer<'_> {
 
     /// The weight of the ray behind a clear surface and the part of what it sees that comes back;
     /// `None` where it is cut or nothing comes back.
-    fn through(&self, stand: &Stand, coinciding: &[Hit], fresnel: f64) -> Option<(f64, Rgb)> {
-        let Stand { way, paint, .. } = stand;
+    fn through(
+        &self,
+        stand: &ShadedSurface,
+        coinciding: &[Hit],
+        fresnel: f64,
+    ) -> Option<(f64, Rgb)> {
+        let ShadedSurface { way, paint, .. } = stand;
         let Place { finish, color, normal, to_viewer, .. } = stand.place;
         let own = paint.transmittance();
         let others = coinciding.iter().map(|hit| texture::transmittance(self, &way.ray, hit));

@@ -240,13 +240,10 @@ impl Evaluator<'_> {
         let source = self.pattern_source(token, word)?;
         Some(source.and_then(|source| {
             let site = self.whole(token);
-            let listed = match source.list() {
-                Some(count) => self.list_of_normals(count)?,
-                None => None,
-            };
-            let has_list = listed.is_some();
-            if source.list().is_some() {
-                open.entries = listed;
+            let mut has_list = false;
+            if let Some(count) = source.list() {
+                open.entries = self.list_of_normals(count)?;
+                has_list = open.entries.is_some();
             }
             open.pattern.choose(source, site);
             open.is_image = false;

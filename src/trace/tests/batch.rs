@@ -4,7 +4,7 @@ use super::*;
 use crate::math::wide::{ROW, Rays};
 
 /// What the camera sees along the rays of a picture, each by itself or all together.
-fn seen(world: &World, plan: &Plan, together: bool) -> (Vec<Rgb>, usize) {
+pub(super) fn seen(world: &World, plan: &Plan, together: bool) -> (Vec<Rgb>, usize) {
     let geometry = Geometry::build(world);
     let tracer = Tracer::new(world, &geometry, plan, &Unwatched);
     let Frame { width, height, .. } = plan.frame;

@@ -4,6 +4,7 @@ mod batch;
 mod film;
 mod fog;
 mod glass;
+mod layered;
 mod light;
 mod projection;
 mod single;

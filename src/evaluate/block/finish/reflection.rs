@@ -79,7 +79,7 @@ impl Evaluator<'_> {
             let mut open = OpenReflection { reflection, fresnel: None };
             evaluator.parts(&mut open)?;
             let OpenReflection { mut reflection, fresnel } = open;
-            reflection.fresnel = fresnel.unwrap_or(before.fresnel);
+            reflection.fresnel = fresnel.unwrap_or(reflection.fresnel);
             // With only one colour, the minimum is zero, unless `fresnel` is inherited (measured on POV-Ray 3.7).
             if fresnel == Some(true) && !both {
                 reflection.minimum = Rgb::BLACK;

@@ -1,4 +1,4 @@
-//! What is known of surfaces that are shaded together.
+//! Surfaces that are shaded together, with their textures as far as these are evaluated.
 
 use super::batch::SLICE;
 use super::light::Answers;
@@ -13,8 +13,8 @@ use crate::shape::SurfacePoint;
 use crate::world::{Finish, Plain};
 use smallvec::SmallVec;
 
-/// A surface of a plain texture that a ray has met.
-pub(super) struct Stand<'a, 'b> {
+/// A surface with a plain texture, at the hit of a ray.
+pub(super) struct ShadedSurface<'a, 'b> {
     pub way: &'b Way,
     pub hit: &'b Hit,
     pub surface: SurfacePoint,
@@ -24,7 +24,7 @@ pub(super) struct Stand<'a, 'b> {
 
 /// Surfaces of plain textures among those that are shaded together, by their number among these; or one layer of
 /// textures at them.
-pub(super) struct Stands<'a, 'b, 'c> {
+pub(super) struct SurfaceBatch<'a, 'b, 'c> {
     pub ways: &'b [Way],
     pub hits: &'b [Hit],
     /// A bit for each.
@@ -37,22 +37,22 @@ pub(super) struct Stands<'a, 'b, 'c> {
     pub bodies: [Rgb; SLICE],
     /// Those that are lit by another normal than they lie by.
     pub shaped: u32,
-    pub shapes: SmallVec<[Shaped; SLICE]>,
+    pub shapes: SmallVec<[ShadingNormal; SLICE]>,
     /// What each shows by itself.
     pub local: [Rgb; SLICE],
     pub answers: Answers,
 }
 
-/// How a surface is lit by another normal than it lies by.
+/// The normal by which a smooth or bumpy surface is lit.
 #[derive(Clone, Copy)]
-pub(super) struct Shaped {
+pub(super) struct ShadingNormal {
     pub normal: Vector,
     pub flat: Flat,
     pub smooth: Option<Vector>,
 }
 
-impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
-    /// Returns surfaces of which nothing is known yet.
+impl<'a, 'b, 'c> SurfaceBatch<'a, 'b, 'c> {
+    /// Returns surfaces whose textures are not evaluated yet.
     #[inline(always)]
     pub fn new(
         (ways, hits): (&'b [Way], &'b [Hit]),
@@ -111,7 +111,7 @@ impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
 
     /// Returns the surface of this number; `None` if it is not there.
     #[inline(always)]
-    pub fn at(&self, number: usize) -> Option<Stand<'a, 'b>> {
+    pub fn at(&self, number: usize) -> Option<ShadedSurface<'a, 'b>> {
         let finish = self.finish(number)?;
         let (way, hit) = (&self.ways[number], &self.hits[number]);
         let (surface, paint) = (self.surfaces.at(number), self.paints[number]);
@@ -128,9 +128,9 @@ impl<'a, 'b, 'c> Stands<'a, 'b, 'c> {
             within: way.within,
         };
         if self.shaped >> number & 1 == 1 {
-            let Shaped { normal, flat, smooth } = self.shapes[self.place_of_shape(number)];
+            let ShadingNormal { normal, flat, smooth } = self.shapes[self.place_of_shape(number)];
             (place.normal, place.flat, place.smooth) = (normal, Some(flat), smooth);
         }
-        Some(Stand { way, hit, surface, paint, place })
+        Some(ShadedSurface { way, hit, surface, paint, place })
     }
 }
