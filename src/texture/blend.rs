@@ -88,12 +88,12 @@ impl Pattern {
             Source::Object(region) => Measured { value: region.value(place.point), error: 0.0 },
             Source::Slope(slope) => {
                 let around = place.around;
-                let value = slope.value(around.normal(), place.point, around.in_world());
-                Measured { value, error: 0.0 }
+                let value = |normal| slope.value(normal, place.point, around.in_world());
+                Measured { value: around.normal().map_or(0.0, value), error: 0.0 }
             }
             Source::Aoi => {
-                let value = slope::aoi(place.around.direction(), place.around.normal());
-                Measured { value, error: 0.0 }
+                let value = |normal| slope::aoi(place.around.direction(), normal);
+                Measured { value: place.around.normal().map_or(0.0, value), error: 0.0 }
             }
             Source::Pigment(pigment) => Measured {
                 value: pigment.color(Some(place), place.around).rgb.brightness(),

@@ -2,7 +2,7 @@
 //!
 //! The normal is the perturbed one, in the world, of length 1 and toward the viewer. Of the object's and the
 //! texture's transforms none turns the direction of a slope; those of the texture move the point of its
-//! altitude.
+//! altitude. Where there is no surface, in the sky and in functions, both are 0 (measured on POV-Ray 3.7).
 
 use crate::math::elementary::{acos, asin};
 use crate::math::{UnitVector, Vector};

@@ -97,8 +97,9 @@ pub trait Surroundings {
     /// Returns the point in the world.
     fn in_world(&self) -> Vector;
 
-    /// Returns the normal by which the surface is lit, in the world, of length 1, toward the viewer.
-    fn normal(&self) -> Vector;
+    /// Returns the normal by which the surface is lit, in the world, of length 1, toward the viewer; `None` where
+    /// there is no surface.
+    fn normal(&self) -> Option<Vector>;
 
     /// Returns the direction of the ray that sees the surface, in the world, of length 1.
     fn direction(&self) -> Vector;
@@ -151,9 +152,8 @@ impl Surroundings for Nowhere {
         self.point
     }
 
-    /// A point of no surface faces up.
-    fn normal(&self) -> Vector {
-        Vector::Y
+    fn normal(&self) -> Option<Vector> {
+        None
     }
 
     fn direction(&self) -> Vector {

@@ -373,17 +373,17 @@ impl Surroundings for SurfaceInteraction<'_, '_> {
         self.surface.point
     }
 
-    fn normal(&self) -> Vector {
+    fn normal(&self) -> Option<Vector> {
         let (world, direction) = (self.world, self.ray.direction);
         let own = match geometry::shading_normal(world, self.hit, self.surface) {
             Some(smooth) => smooth,
             None => self.surface.normal,
         };
         let facing = if own.dot(direction) > 0.0 { -own } else { own };
-        match self.bumps {
+        Some(match self.bumps {
             Some(bumps) => bumps.perturbed(facing, None, &self.with(None)),
             None => facing,
-        }
+        })
     }
 
     fn direction(&self) -> Vector {
