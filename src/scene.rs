@@ -252,6 +252,8 @@ pub struct SkySphere {
     /// Layers, the last on top.
     pub pigments: Vec<PigmentId>,
     pub transforms: Vec<TransformId>,
+    /// The colour that multiplies what the pigments show.
+    pub emission: Rgb,
     pub site: Site,
     /// The site of each pigment, with its block.
     pub items: Vec<Site>,

@@ -335,6 +335,8 @@ pub struct FaceCoordinates(pub [Option<f64>; 3]);
 pub struct Sky {
     /// Layers, the last on top.
     pub pigments: Vec<Pigment>,
+    /// Multiplies what they show, but not what is seen through them.
+    pub emission: Rgb,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]

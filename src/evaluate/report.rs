@@ -391,7 +391,6 @@ pub(super) fn count(range: &RangeInclusive<usize>, what: &str) -> String {
 fn what_is_not_built(word: Word) -> String {
     let name = word.name();
     match word {
-        Word::Emission => "the `emission` of a sky is".to_owned(),
         Word::Macro => "a macro whose parentheses do not pair is".to_owned(),
         _ => format!("`{name}` is"),
     }

@@ -268,7 +268,8 @@ impl<'s> Lowering<'s, '_> {
             let site = scene.pigments[id.index()].site;
             pigments.extend(self.reporter.made(lowered, site));
         }
-        self.world.sky = (!pigments.is_empty()).then_some(Sky { pigments });
+        let emission = sky.emission.bounded();
+        self.world.sky = (!pigments.is_empty()).then_some(Sky { pigments, emission });
         let written = sky.pigments.iter().flat_map(|id| pigments_in(scene, *id));
         let pattern = written.filter_map(|id| pattern_site(&scene.pigments[id.index()]));
         let (site, items, pattern) = (sky.site, sky.items.clone(), pattern.collect());

@@ -15,7 +15,7 @@ use super::{
     LightSource, Modifier, ModifierKind, ObjectId, ObjectKind, Scene, Settings, TextureId,
     TransformId,
 };
-use crate::color::Clearness;
+use crate::color::{Clearness, Rgb};
 use crate::math::transform::Step as TransformStep;
 use crate::math::vector::written as vector;
 use crate::source::Sources;
@@ -69,6 +69,9 @@ impl Printer<'_> {
             }
             for &id in &sky.transforms {
                 self.transform(out, id, "  ")?;
+            }
+            if sky.emission != Rgb::WHITE {
+                writeln!(out, "  emission {}", sky.emission)?;
             }
         }
         self.fogs(out)?;

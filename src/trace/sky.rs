@@ -7,8 +7,8 @@ use crate::texture::space::Nowhere;
 use crate::world::World;
 
 /// The sky's pigments painted one over the other, the last on top and `background` below all: each
-/// shows its colour where it is opaque, and what lies below untinted through its `transmit` and
-/// tinted through its `filter`.
+/// shows its colour where it is opaque, times the sky's `emission`, and what lies below untinted through its
+/// `transmit` and tinted through its `filter`.
 ///
 /// In old scenes the pigments do not tint each other but all of them the background, and what is tinted once
 /// is not let through untinted further down.
@@ -17,6 +17,7 @@ use crate::world::World;
 #[inline(never)]
 pub(super) fn seen(world: &World, sharpness: &Sharpness, direction: Vector) -> Rgb {
     let pigments = world.sky.as_ref().map_or(&[][..], |sky| &sky.pigments);
+    let emission = world.sky.as_ref().map_or(Rgb::WHITE, |sky| sky.emission);
     let pigments = pigments.iter().zip(&sharpness.sky);
     let pigments = pigments.map(|(pigment, &is_sharp)| {
         let error = Vector::splat(ROUNDED);
@@ -27,7 +28,7 @@ pub(super) fn seen(world: &World, sharpness: &Sharpness, direction: Vector) -> R
         let (mut sum, mut above) = (Rgb::BLACK, None::<Color>);
         for top in pigments.rev() {
             let weight = above.map_or(1.0, |above| above.filter + above.transmit);
-            sum += top.rgb * ((1.0 - top.filter - top.transmit) * weight);
+            sum += top.rgb * emission * ((1.0 - top.filter - top.transmit) * weight);
             let Color { rgb, filter, transmit } = above.unwrap_or(all);
             above = Some(Color {
                 rgb: rgb * top.rgb,
@@ -40,10 +41,10 @@ pub(super) fn seen(world: &World, sharpness: &Sharpness, direction: Vector) -> R
     }
     pigments.fold(world.background, |below, top| {
         if top.filter == 0.0 && top.transmit == 0.0 {
-            return top.rgb;
+            return top.rgb * emission;
         }
         let opacity = 1.0 - top.filter - top.transmit;
-        top.rgb * opacity + below * top.rgb * top.filter + below * top.transmit
+        top.rgb * emission * opacity + below * top.rgb * top.filter + below * top.transmit
     })
 }
 
@@ -56,11 +57,13 @@ mod tests {
     fn pigments_cover_what_lies_below_by_filter_and_transmit() {
         let background = Rgb::new(1.0, 0.5, 0.25);
         let rgb = Rgb::new(0.2, 0.4, 0.6);
-        let see = |colors: &[Color]| {
+        let glow = |emission: Rgb, colors: &[Color]| {
             let pigments = colors.iter().copied().map(Pigment::Color).collect();
-            let world = World { background, sky: Some(Sky { pigments }), ..World::default() };
+            let world =
+                World { background, sky: Some(Sky { pigments, emission }), ..World::default() };
             seen(&world, &Sharpness::of(&world), Vector::Z)
         };
+        let see = |colors: &[Color]| glow(Rgb::WHITE, colors);
         let close =
             |a: Rgb, b: [f64; 3]| a.components().iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
         assert_eq!(see(&[]), background);
@@ -73,5 +76,11 @@ mod tests {
         assert!(close(see(&[filtering]), [0.2, 0.3, 0.375]));
         let both = Color { rgb, filter: 0.3, transmit: 0.5 };
         assert!(close(see(&[both]), [0.6, 0.39, 0.29]));
+        // `emission` multiplies what a pigment shows, and not what is seen through it.
+        let emission = Rgb::new(0.5, 1.0, 1.5);
+        assert!(close(glow(emission, &[Color::opaque(rgb)]), [0.1, 0.4, 0.9]));
+        assert!(close(glow(Rgb::WHITE * 0.5, &[transmitting]), [0.55, 0.35, 0.275]));
+        let top = Color { rgb: Rgb::new(0.3, 0.6, 0.1), filter: 0.3, transmit: 0.5 };
+        assert!(close(glow(emission, &[Color::opaque(rgb), top]), [0.089, 0.392, 0.507]));
     }
 }

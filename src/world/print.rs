@@ -11,7 +11,7 @@ use super::{
     Absorption, Area, Attenuation, Beam, CameraKind, Churn, Coat, CsgSolid, Cutaway, Dispersion,
     Fade, Focus, Ground, LightKind, Object, Origins, Rainbow, World,
 };
-use crate::color::Clearness;
+use crate::color::{Clearness, Rgb};
 use crate::math::placement::{Map, Placement};
 use crate::math::vector::written as vector;
 use crate::math::{Matrix, UnitVector};
@@ -54,6 +54,9 @@ impl Printer<'_> {
             writeln!(out, "sky{}", self.at(self.origins.sky.as_ref().map(|sky| sky.site)))?;
             for layer in &sky.pigments {
                 texture::pigment(out, layer, "  ")?;
+            }
+            if sky.emission != Rgb::WHITE {
+                writeln!(out, "  emission {}", sky.emission)?;
             }
         }
         self.fogs(out)?;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::color::Gamma;
+use crate::color::{Gamma, Rgb};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Background, Dialect, SkySphere, TransformId};
 use crate::source::Site;
@@ -59,11 +59,14 @@ impl Block for GlobalSettings {
 
 impl Block for SkySphere {
     const PLACE: Place = Place::SKY_SPHERE;
-    const PARTS: Parts<Self> = &[Part::Special(Word::Pigment, |evaluator, token, sky| {
-        sky.pigments.push(evaluator.pigment(token)?);
-        sky.items.push(evaluator.whole(token));
-        Ok(())
-    })];
+    const PARTS: Parts<Self> = &[
+        Part::Special(Word::Pigment, |evaluator, token, sky| {
+            sky.pigments.push(evaluator.pigment(token)?);
+            sky.items.push(evaluator.whole(token));
+            Ok(())
+        }),
+        Part::Color(Word::Emission, "a number or a colour", |sky, light, _| sky.emission = light),
+    ];
 
     fn inherit(&mut self, _: &Evaluator, value: &Value) -> bool {
         let Value::SkySphere(sky) = value else { return false };
@@ -155,6 +158,7 @@ impl Evaluator<'_> {
         let mut sky = SkySphere {
             pigments: Vec::new(),
             transforms: Vec::new(),
+            emission: Rgb::WHITE,
             site: token.here.site(token.span),
             items: Vec::new(),
         };

@@ -305,6 +305,7 @@ fn the_skys_patterns_keep_their_own_places() {
     build.0.sky_sphere = Some(SkySphere {
         pigments: vec![pigment],
         transforms: vec![turn],
+        emission: Rgb::WHITE,
         site: site(7),
         items: vec![],
     });

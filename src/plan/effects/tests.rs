@@ -216,7 +216,7 @@ fn a_sky_and_its_patterns_are_called_for_by_the_sky() {
     };
     let entries = vec![(0.0, Color::WHITE)];
     let blend = Blend { space: Space::default(), pattern: checker, entries };
-    world.sky = Some(Sky { pigments: vec![Pigment::Ramp(blend)] });
+    world.sky = Some(Sky { pigments: vec![Pigment::Ramp(blend)], emission: Rgb::WHITE });
     let plan = plan(&world, &origins, &OPTIONS);
     let by = |effect| plan.called(effect).map(|called| called.by.clone());
     assert_eq!(by(Effect::Sky), Some(vec![site(40), site(42)]));

@@ -79,7 +79,7 @@ fn index_behind(built: Built) -> f64 {
     };
     let along = |direction: Vector| {
         let world = Built(built.0.clone()).world(|world| {
-            world.sky = Some(Sky { pigments: vec![axis(direction)] });
+            world.sky = Some(Sky { pigments: vec![axis(direction)], emission: Rgb::WHITE });
             world.settings.max_trace_level = 50;
         });
         centre(&world).red / 0.499_999 - 1.0

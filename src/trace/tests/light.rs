@@ -203,7 +203,10 @@ fn a_pattern_is_read_in_the_textures_space_and_then_in_its_own() {
 
 #[test]
 fn the_sky_is_seen_directly_and_in_mirrors() {
-    let sky = Sky { pigments: vec![Pigment::Color(Color::opaque(Rgb::new(0.1, 0.2, 0.3)))] };
+    let sky = Sky {
+        pigments: vec![Pigment::Color(Color::opaque(Rgb::new(0.1, 0.2, 0.3)))],
+        emission: Rgb::WHITE,
+    };
     let world = Built::default().plane(UnitVector::Z, -3.0, mirror(0.5, 0.0));
     let world = world.world(|world| world.sky = Some(sky));
     assert_eq!(centre(&world), Rgb::new(0.05, 0.1, 0.15));
