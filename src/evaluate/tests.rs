@@ -381,7 +381,7 @@ fn a_lights_words_may_stand_in_any_order() {
         &light("spotlight radius 30 falloff 5 point_at 0"),
         &light("spotlight radius 30 falloff 30 point_at 0"),
     );
-    assert_alike(&light("spotlight parallel point_at 0"), &light("parallel point_at 0"));
+    assert_alike(&light("spotlight parallel point_at 0"), &light("parallel spotlight point_at 0"));
     assert_alike(
         &light("cylinder parallel point_at 0"),
         &light("cylinder radius 0.75 falloff 1 point_at 0"),

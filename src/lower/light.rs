@@ -7,7 +7,9 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::math::double::DoubleVector;
 use crate::math::elementary::cos;
 use crate::math::{UnitVector, Vector};
-use crate::scene::{LightKind, LightSource, LooksLike, ObjectId, ProjectedThrough, TransformId};
+use crate::scene::{
+    Dialect, LightKind, LightSource, LooksLike, ObjectId, ProjectedThrough, TransformId,
+};
 use crate::source::Site;
 use crate::world::{self, Area, Attenuation, Beam, Fade, Light, World};
 
@@ -30,6 +32,7 @@ impl<'s> Lowering<'s, '_> {
         let place = self.place_of_like(light, like, &here.world_from_here);
         here.world_from_here = self.reporter.made(place, site)?;
         here.flags.no_shadow = true;
+        here.light_group = self.group_of_like(here.light_group);
         Some(std::slice::from_ref(&like.object))
     }
 
@@ -46,7 +49,7 @@ impl<'s> Lowering<'s, '_> {
         let area_site = light.area.site;
         let spent = self.undone(&light.aimed_after).and_then(|aim| {
             let sides = self.undone(&light.area.sides_after)?;
-            spend(light, map, &aim, &sides)
+            spend(light, map, &aim, &sides, self.scene.dialect)
         });
         let Some(mut placed) = self.reporter.made(spent, site) else { return };
         self.origins.area_lights.extend(area_site.filter(|_| placed.area.is_some()));
@@ -113,7 +116,13 @@ impl<'s> Lowering<'s, '_> {
     }
 }
 
-fn spend(light: &LightSource, map: &Affine, aim: &Affine, sides: &Affine) -> Result<Light, Fault> {
+fn spend(
+    light: &LightSource,
+    map: &Affine,
+    aim: &Affine,
+    sides: &Affine,
+    dialect: Dialect,
+) -> Result<Light, Fault> {
     let kind = match light.kind {
         LightKind::Point { location } | LightKind::Spotlight { location, .. } => {
             world::LightKind::Point { position: map.point(exact(location)).round() }
@@ -121,7 +130,7 @@ fn spend(light: &LightSource, map: &Affine, aim: &Affine, sides: &Affine) -> Res
         LightKind::Direction { to_light } => {
             world::LightKind::Directional { to_light: unit(map.direction(exact(to_light)))? }
         }
-        LightKind::Parallel { location, point_at }
+        LightKind::Parallel { location, point_at, .. }
         | LightKind::Cylinder { location, point_at, .. } => world::LightKind::Parallel {
             position: map.point(exact(location)).round(),
             to_light: unit(map.direction(exact(location) - aim.point(exact(point_at))))?,
@@ -137,7 +146,7 @@ fn spend(light: &LightSource, map: &Affine, aim: &Affine, sides: &Affine) -> Res
     if !finite || !color.is_finite() {
         return Err(Fault::not_finite("this light"));
     }
-    let attenuation = attenuation(light, map, aim)?;
+    let attenuation = attenuation(light, map, aim, dialect)?;
     let area = area(light, map, aim, sides)?;
     let casts_shadows = !light.shadowless;
     Ok(Light { kind, color, casts_shadows, attenuation, area, through: None })
@@ -167,9 +176,9 @@ fn area(
     };
     let moved = |side: Vector| map.direction(sides.direction(exact(side))).round();
     let mut moved = from.sides.map(moved);
-    // A side of one light has no length.
+    // A side of one light has no length. All sides that turn have that of the first.
     for (side, nodes) in moved.iter_mut().zip(from.nodes) {
-        if nodes == 1 {
+        if nodes == 1 && !from.orient {
             *side = Vector::ZERO;
         }
     }
@@ -204,10 +213,14 @@ fn attenuation(
     light: &LightSource,
     map: &Affine,
     aim: &Affine,
+    dialect: Dialect,
 ) -> Result<Option<Attenuation>, Fault> {
     let beam = match light.kind {
-        LightKind::Point { .. } | LightKind::Parallel { .. } | LightKind::Direction { .. } => None,
-        LightKind::Spotlight { location, point_at, beam } => {
+        LightKind::Point { .. }
+        | LightKind::Parallel { beam: None, .. }
+        | LightKind::Direction { .. } => None,
+        LightKind::Parallel { location, point_at, beam: Some(beam) }
+        | LightKind::Spotlight { location, point_at, beam } => {
             let axis = unit(map.direction(aim.point(exact(point_at)) - exact(location)))?;
             let cosine = |degrees: f64| cos(degrees.abs().min(180.0).to_radians());
             let edge = cosine(beam.falloff.max(beam.radius));
@@ -224,7 +237,13 @@ fn attenuation(
         Some(Beam::Cylinder { radius, core, tightness }) => [radius, core, tightness],
         None => [0.0; 3],
     };
-    let fade = light.fade.map(|fade| Fade { distance: fade.distance, power: fade.power });
+    // In a `.scene`, light fades the same way on both sides of its plane.
+    let is_parallel = matches!(light.kind, LightKind::Parallel { .. } | LightKind::Cylinder { .. });
+    let fade = light.fade.map(|fade| Fade {
+        distance: fade.distance,
+        power: fade.power,
+        signed: is_parallel && dialect == Dialect::Pov && fade.power % 2.0 != 0.0,
+    });
     let fades = fade.map_or([0.0; 2], |fade| [fade.distance, fade.power]);
     if numbers.iter().chain(&fades).any(|number| !number.is_finite()) {
         return Err(Fault::not_finite("this light"));

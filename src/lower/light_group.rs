@@ -10,6 +10,8 @@ pub(super) struct LightGroup {
     lights: Vec<u32>,
     /// The lights of no group light its objects, too.
     global: bool,
+    /// A group whose lights light its objects, too.
+    other: Option<u32>,
 }
 
 impl Lowering<'_, '_> {
@@ -27,8 +29,16 @@ impl Lowering<'_, '_> {
         if outer.is_none() {
             self.origins.light_groups.push(item);
         }
-        self.light_groups.push(LightGroup { lights: Vec::new(), global });
+        self.light_groups.push(LightGroup { lights: Vec::new(), global, other: None });
         self.light_groups.len() as u32 - 1
+    }
+
+    /// Returns the group of the object that a light of a group looks like: the lights of no group light it in any
+    /// case (measured on POV-Ray 3.7).
+    pub(super) fn group_of_like(&mut self, group: Option<u32>) -> Option<u32> {
+        let other = Some(group?);
+        self.light_groups.push(LightGroup { lights: Vec::new(), global: true, other });
+        Some(self.light_groups.len() as u32 - 1)
     }
 
     /// Adds the last light to a group.
@@ -52,6 +62,9 @@ impl Lowering<'_, '_> {
         let global: Vec<u32> = lights().filter(|&light| is_global[light as usize]).collect();
         let of_group = |group: &LightGroup| {
             let mut set = group.lights.clone();
+            set.extend(
+                group.other.iter().flat_map(|&other| &self.light_groups[other as usize].lights),
+            );
             set.extend(global.iter().filter(|_| group.global));
             set.sort_unstable();
             set

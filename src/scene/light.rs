@@ -135,10 +135,12 @@ pub enum LightKind {
     Point {
         location: Vector,
     },
-    /// Parallel rays from the plane through `location` toward `point_at`.
+    /// Parallel rays from the plane through `location` toward `point_at`. One with a `beam` is also a spotlight,
+    /// and shines in front of its plane only.
     Parallel {
         location: Vector,
         point_at: Vector,
+        beam: Option<Beam>,
     },
     /// Light from infinitely far away: `to_light` is the direction to it, of any length but zero.
     Direction {

@@ -355,8 +355,12 @@ fn light(out: &mut String, source: &LightSource) -> fmt::Result {
     write!(out, "light_source ")?;
     match source.kind {
         LightKind::Point { location } => write!(out, "{}", vector(location))?,
-        LightKind::Parallel { location, point_at } => {
+        LightKind::Parallel { location, point_at, beam } => {
             write!(out, "{} parallel point_at {}", vector(location), vector(point_at))?;
+            if let Some(beam) = beam {
+                write!(out, " spotlight")?;
+                write_beam(out, beam)?;
+            }
         }
         LightKind::Direction { to_light } => write!(out, "direction {}", vector(to_light))?,
         LightKind::Spotlight { location, point_at, beam } => {

@@ -22,7 +22,7 @@ use crate::math::random::Random;
 use crate::math::wide::{ROW, Rays, numbers};
 use crate::math::{UnitVector, Vector};
 use crate::shape::Ray;
-use crate::world::{Area, Light, LightKind};
+use crate::world::{Area, Beam, Light, LightKind};
 
 /// Corners that differ by more than this, summed over the components of the light, divide a block.
 const LEAST_DIFFERENCE: f64 = 0.1;
@@ -298,8 +298,8 @@ pub(super) fn mean(
     Some(sum * (1.0 / (f64::from(m) * f64::from(n))) * visible?)
 }
 
-/// Returns the light of one node without shadows, as it comes to a point. A node of a parallel light has the beam of
-/// the light's position (measured).
+/// Returns the light of one node without shadows, as it comes to a point. A node of a cylinder of light has the
+/// beam of the light's position (measured).
 pub(super) fn emitted(
     tracer: &Tracer,
     walk: &mut Walk,
@@ -308,13 +308,12 @@ pub(super) fn emitted(
     (kind, aim): (&LightKind, &Aim),
     origin: Vector,
 ) -> Option<Rgb> {
-    match of.light.kind {
-        LightKind::Point { .. } => tracer.emitted(walk, (of.light, kind), within, origin, aim),
-        _ => {
-            let aim = shadow::aim(&of.light.kind, origin)?;
-            tracer.emitted(walk, (of.light, &of.light.kind), within, origin, &aim)
-        }
+    let beam = of.light.attenuation.and_then(|attenuation| attenuation.beam);
+    if !matches!(beam, Some(Beam::Cylinder { .. })) {
+        return tracer.emitted(walk, (of.light, kind), within, origin, aim);
     }
+    let aim = shadow::aim(&of.light.kind, origin)?;
+    tracer.emitted(walk, (of.light, &of.light.kind), within, origin, &aim)
 }
 
 /// Returns the light at one node of a grid, as it lights a point.

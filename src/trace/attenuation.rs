@@ -22,13 +22,14 @@ pub(super) fn attenuated(
     aim: Aim,
 ) -> Option<Rgb> {
     let beam = attenuation.beam.map_or(1.0, |beam| in_beam(beam, kind, point, &aim));
-    let fade = attenuation.fade.map_or(1.0, |fade| faded(fade, aim.reach.abs()));
+    let fade = attenuation.fade.map_or(1.0, |fade| faded(fade, aim.reach));
     let left = color * (beam * fade);
     (!left.is_black()).then_some(left)
 }
 
 fn in_beam(beam: Beam, kind: &LightKind, point: Vector, aim: &Aim) -> f64 {
     match beam {
+        Beam::Cone { .. } if aim.reach <= 0.0 => 0.0,
         Beam::Cone { axis, edge, core, tightness } => {
             beam_at(-axis.get().dot(aim.to_light), (edge, core), tightness)
         }
@@ -61,8 +62,21 @@ fn smooth(edge: f64, core: f64, v: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-fn faded(fade: Fade, distance: f64) -> f64 {
-    2.0 / (1.0 + power(distance / fade.distance, fade.power))
+/// `reach` is negative behind the plane of a parallel light.
+fn faded(fade: Fade, reach: f64) -> f64 {
+    let part = power(reach.abs() / fade.distance, fade.power);
+    if reach >= 0.0 || !fade.signed {
+        return 2.0 / (1.0 + part);
+    }
+    let is_odd = fade.power == fade.power.trunc();
+    if is_odd { 2.0 / nonzero(1.0 - part) } else { 0.0 }
+}
+
+/// The least denominator of light that grows behind its plane.
+const LEAST: f64 = 1e-30;
+
+fn nonzero(x: f64) -> f64 {
+    if x.abs() < LEAST { LEAST } else { x }
 }
 
 #[cfg(test)]
@@ -95,7 +109,7 @@ mod tests {
     }
 
     fn fading(distance: f64, power: f64, x: f64) -> f64 {
-        let fade = Some(Fade { distance, power });
+        let fade = Some(Fade { distance, power, signed: false });
         let kind = LightKind::Point { position: Vector::Y };
         lit(kind, Attenuation { beam: None, fade, fog: false }, x)
     }
@@ -131,10 +145,43 @@ mod tests {
         assert_eq!(lit(kind, Attenuation { beam, fade: None, fog: false }, 0.0), 0.0);
     }
 
+    /// The numbers on the right are POV-Ray 3.7's: 0 where light is taken away, too.
+    #[test]
+    fn light_fades_by_the_signed_distance_from_the_plane_of_a_parallel_light() {
+        for (power, reach, theirs) in [
+            (1.0, -18.0, -0.77),
+            (1.0, -10.0, -2.0),
+            (1.0, -3.6, 7.143),
+            (1.0, -2.0, 3.333),
+            (1.0, 7.6, 0.7937),
+            (3.0, -3.6, 3.192),
+            (3.0, -0.4, 2.001),
+            (1.5, -2.0, 0.0),
+            (0.5, -18.0, 0.0),
+            (4.721, 4.4, 1.293),
+        ] {
+            let ours = faded(Fade { distance: 5.0, power, signed: true }, reach);
+            assert!((ours - theirs).abs() < 2e-3 * (1.0 + ours.abs()), "{ours} is not {theirs}");
+        }
+        let pole = faded(Fade { distance: 5.0, power: 1.0, signed: true }, -5.0);
+        assert!(pole > 1e9 && pole.is_finite(), "{pole}");
+    }
+
+    #[test]
+    fn a_parallel_spotlight_is_dark_behind_its_plane_and_whole_before_it() {
+        let axis = -UnitVector::Y;
+        let beam = Some(Beam::Cone { axis, edge: 0.5, core: 0.9, tightness: 7.0 });
+        let shines = |position: Vector| {
+            let kind = LightKind::Parallel { position, to_light: UnitVector::Y };
+            lit(kind, Attenuation { beam, fade: None, fog: false }, 3.0)
+        };
+        assert_eq!([shines(Vector::Y), shines(-Vector::Y)], [1.0, 0.0]);
+    }
+
     #[test]
     fn light_at_its_fade_distance_has_its_colour_at_any_scale() {
         for size in [1e-200, 1.0, 1e200] {
-            assert_eq!(faded(Fade { distance: size, power: 2.0 }, size), 1.0);
+            assert_eq!(faded(Fade { distance: size, power: 2.0, signed: false }, size), 1.0);
         }
     }
 }

@@ -36,8 +36,8 @@ pub struct Attenuation {
 /// A beam, in terms of s(a, b; v) = t²(3 − 2t), where t = (v − a)/(b − a) is clamped to 0 … 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Beam {
-    /// For a point light: c^tightness · s(edge, core; c), where c is the cosine of the angle between `axis`
-    /// and the light ray; 0 where c ≤ 0.
+    /// c^tightness · s(edge, core; c), where c is the cosine of the angle between `axis` and the light ray; 0
+    /// where c ≤ 0, and behind the plane of a parallel light. Only the nodes of an area differ in c for that.
     Cone { axis: UnitVector, edge: f64, core: f64, tightness: f64 },
     /// For a parallel light, in front of its plane: d^tightness · s(0, core; d), where d = 1 − r/radius and r
     /// is the distance from its axis; 0 where d ≤ 0.
@@ -50,6 +50,9 @@ pub enum Beam {
 pub struct Fade {
     pub distance: f64,
     pub power: f64,
+    /// Behind the plane of a parallel light, d is negative: with an odd power, the light grows up to −`distance`
+    /// and is less than none beyond, and with a broken one there is none. `false` for even powers.
+    pub signed: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -376,8 +376,9 @@ fn attenuation(attenuation: &Attenuation) -> String {
             format!(" cylinder radius {radius} core {core} tightness {tightness}")
         }
     };
-    let fade = attenuation.fade.map_or(String::new(), |Fade { distance, power }| {
-        format!(" fade distance {distance} power {power}")
+    let fade = attenuation.fade.map_or(String::new(), |Fade { distance, power, signed }| {
+        let signed = if signed { " signed" } else { "" };
+        format!(" fade distance {distance} power {power}{signed}")
     });
     beam + &fade + if attenuation.fog { " dimmed by fog" } else { "" }
 }

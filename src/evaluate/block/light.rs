@@ -165,18 +165,13 @@ impl Evaluator<'_> {
                     self.second_direction(&token, light.as_deref())
                 }
                 TokenKind::Word(word @ (Word::Parallel | Word::Spotlight | Word::Cylinder)) => {
-                    if word != Word::Parallel
-                        && written.shapes.iter().any(|of| ![word, Word::Parallel].contains(of))
-                    {
-                        written.second = Some(token.clone());
-                    }
-                    written.shapes.push(word);
-                    written.last = Some(token.clone());
-                    if let Some(light) = &mut light
-                        && word != Word::Parallel
-                    {
+                    let light = light.as_deref_mut().filter(|_| word != Word::Parallel);
+                    if let Some(light) = light {
                         light.beam_site = Some(self.whole(&token));
+                        light.shadowless &= ours;
                     }
+                    written.shape(word, &token);
+                    written.last = Some(token.clone());
                     self.kind_without_braces(&token)
                 }
                 TokenKind::Word(Word::PointAt) => {
@@ -212,6 +207,9 @@ impl Evaluator<'_> {
                 TokenKind::Word(Word::Shadowless) => {
                     if let Some(light) = &mut light {
                         light.shadowless = true;
+                    }
+                    if !ours {
+                        written.shape(Word::Shadowless, &token);
                     }
                     Ok(())
                 }

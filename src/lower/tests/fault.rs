@@ -115,7 +115,8 @@ fn a_black_light_is_dropped_and_that_is_said() {
 #[test]
 fn parallel_light_comes_from_where_it_stands() {
     let mut build = Build::new();
-    let kind = LightKind::Parallel { location: v(0.0, 9.0, 0.0), point_at: v(0.0, 1.0, 0.0) };
+    let kind =
+        LightKind::Parallel { location: v(0.0, 9.0, 0.0), point_at: v(0.0, 1.0, 0.0), beam: None };
     let source = LightSource { shadowless: true, ..LightSource::new(kind, Rgb::WHITE) };
     let light =
         build.moved(ObjectKind::LightSource(Box::new(source)), vec![rotate(90.0, 0.0, 0.0)]);

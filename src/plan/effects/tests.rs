@@ -160,7 +160,7 @@ fn what_lights_and_objects_do_apart_from_the_rest_is_called_for_by_them() {
     assert!(why_not(Effect::Attenuation, |_| {}).0.contains("everywhere in its colour"));
     assert_eq!(why_not(Effect::DoubleIllumination, |_| {}).0, "no object is lit from behind");
     assert_eq!(why_not(Effect::Hiding, |_| {}).0, "every object is seen");
-    let fade = crate::world::Fade { distance: 3.0, power: 2.0 };
+    let fade = crate::world::Fade { distance: 3.0, power: 2.0, signed: false };
     let attenuation = Some(crate::world::Attenuation { beam: None, fade: Some(fade), fog: false });
     let dark = |w: &mut World| {
         w.objects[0].double_illuminate = true;

@@ -161,7 +161,7 @@ fn any_grid_at_any_place_gives_finite_light() {
                 illuminates: is(3),
                 target: Some(Vector::ZERO),
             };
-            let fade = Some(Fade { distance: 1.0, power: 2.0 });
+            let fade = Some(Fade { distance: 1.0, power: 2.0, signed: false });
             let mut world = wall(Some(area));
             world.lights[0].attenuation = Some(Attenuation { beam: None, fade, fog: false });
             for kind in [

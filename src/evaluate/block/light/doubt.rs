@@ -74,8 +74,16 @@ impl Evaluator<'_> {
             let help = "give the light a place: `light_source { <place>, rgb 1 … }`";
             return Err(self.report(&first.here, diagnostic.help(help)));
         }
-        if let Some(second) = &written.second {
-            let message = "a light is a `spotlight` or a `cylinder`; the last one is used";
+        if let Some((second, other)) = &written.second {
+            let message = match (&second.kind, other) {
+                (TokenKind::Word(Word::Shadowless), other) => {
+                    format!("`shadowless` after `{0}` makes it a light without `{0}`", other.name())
+                }
+                (TokenKind::Word(word), Word::Shadowless) => {
+                    format!("`{}` after `shadowless` makes it a light with shadows", word.name())
+                }
+                _ => "a light is a `spotlight` or a `cylinder`; the last one is used".to_owned(),
+            };
             let diagnostic = Diagnostic::new(Code::UnlikelyLight, message)
                 .at(second.span, "this light has the other before it");
             self.report(&second.here, diagnostic);

@@ -11,11 +11,11 @@ use super::super::part::Given;
 
 /// Settings of a light.
 pub(super) struct Written {
-    /// `parallel`, `spotlight` and `cylinder`, in source order. The last counts, but a `parallel` light is
-    /// not a spotlight.
+    /// `parallel`, `spotlight` and `cylinder`, in source order. The last counts; it may be `parallel`, too. In a `.pov`, `shadowless` is a kind of light, too.
     pub shapes: Vec<Word>,
-    /// A second kind of beam.
-    pub second: Option<Token>,
+    /// A second kind, and the one that it replaces.
+    pub second: Option<(Token, Word)>,
+    dialect: Dialect,
     /// The last keyword that sets its axis.
     pub last: Option<Token>,
     pub point_at: Vector,
@@ -47,6 +47,7 @@ impl Written {
         let mut written = Self {
             shapes: Vec::new(),
             second: None,
+            dialect,
             last: None,
             point_at,
             aimed_after: light.map_or_else(Vec::new, |light| light.aimed_after.clone()),
@@ -59,9 +60,10 @@ impl Written {
             of_a_place: Vec::new(),
         };
         match light.map(|light| &light.kind) {
-            Some(LightKind::Parallel { point_at, .. }) => written.point_at = *point_at,
+            Some(LightKind::Parallel { point_at, beam: None, .. }) => written.point_at = *point_at,
             Some(
-                LightKind::Spotlight { point_at, beam, .. }
+                LightKind::Parallel { point_at, beam: Some(beam), .. }
+                | LightKind::Spotlight { point_at, beam, .. }
                 | LightKind::Cylinder { point_at, beam, .. },
             ) => {
                 written.point_at = *point_at;
@@ -71,6 +73,23 @@ impl Written {
             Some(LightKind::Point { .. } | LightKind::Direction { .. }) | None => {}
         }
         written
+    }
+
+    /// Records a kind of light.
+    ///
+    /// In a `.pov`, `spotlight`, `cylinder` and `shadowless` exclude each other, and the last counts, with the
+    /// numbers after it: a `spotlight` that is `shadowless` shines all around, and a `shadowless` light that is
+    /// a `spotlight` casts shadows. (Measured on POV-Ray 3.7.)
+    pub fn shape(&mut self, word: Word, token: &Token) {
+        let other = self.shapes.iter().rev().find(|of| ![word, Word::Parallel].contains(of));
+        if let Some(other) = other.filter(|_| word != Word::Parallel) {
+            self.second = Some((token.clone(), *other));
+        }
+        let is_first = self.shapes.iter().all(|of| *of == Word::Parallel);
+        if self.dialect == Dialect::Pov && word != Word::Parallel && !is_first {
+            (self.radius, self.falloff, self.tightness) = (None, None, 0.0);
+        }
+        self.shapes.push(word);
     }
 
     /// Records the number of a keyword.
@@ -93,20 +112,33 @@ impl Written {
     /// Returns the kind of beam that [`Self::spend`] creates: `spotlight`, `cylinder`, or none.
     pub fn round(&self, light: &LightSource) -> Option<Word> {
         let before = match light.kind {
-            LightKind::Spotlight { .. } => Some(Word::Spotlight),
+            LightKind::Spotlight { .. } | LightKind::Parallel { beam: Some(_), .. } => {
+                Some(Word::Spotlight)
+            }
             LightKind::Cylinder { .. } => Some(Word::Cylinder),
-            LightKind::Parallel { .. } => Some(Word::Parallel),
+            LightKind::Parallel { beam: None, .. } => Some(Word::Parallel),
             LightKind::Point { .. } | LightKind::Direction { .. } => None,
         };
-        let parallel = before == Some(Word::Parallel) || self.shapes.contains(&Word::Parallel);
         let mut round = self.shapes.iter().rev().copied().chain(before);
         let round = round.find(|word| *word != Word::Parallel)?;
-        (round == Word::Cylinder || !parallel).then_some(round)
+        (round != Word::Shadowless).then_some(round)
+    }
+
+    /// Returns whether rays are parallel. In a `.pov`, they still are if a kind after `cylinder` replaces it
+    /// (measured on POV-Ray 3.7).
+    fn is_parallel(&self, light: &LightSource) -> bool {
+        let stays = |word| self.dialect == Dialect::Pov && word == Word::Cylinder;
+        let before = match light.kind {
+            LightKind::Parallel { .. } => true,
+            LightKind::Cylinder { .. } => stays(Word::Cylinder),
+            _ => false,
+        };
+        before || self.shapes.iter().any(|&word| word == Word::Parallel || stays(word))
     }
 
     /// Applies the settings to the light; returns the keyword that needs another `point_at`.
     pub fn spend(self, light: &mut LightSource) -> Option<Token> {
-        let round = self.round(light);
+        let (round, is_parallel) = (self.round(light), self.is_parallel(light));
         let Self { shapes, last, point_at, radius, falloff, tightness, fade, .. } = self;
         light.aimed_after = self.aimed_after;
         light.fade = (fade.distance > 0.0 && fade.power > 0.0).then_some(fade);
@@ -133,8 +165,15 @@ impl Written {
             Some(Word::Cylinder) => {
                 LightKind::Cylinder { location, point_at, beam: beam(0.75, 1.0) }
             }
+            Some(_) if is_parallel => {
+                LightKind::Parallel { location, point_at, beam: Some(beam(30.0, 45.0)) }
+            }
             Some(_) => LightKind::Spotlight { location, point_at, beam: beam(30.0, 45.0) },
-            None => LightKind::Parallel { location, point_at },
+            None if is_parallel => LightKind::Parallel { location, point_at, beam: None },
+            None => {
+                light.kind = LightKind::Point { location };
+                return None;
+            }
         };
         last.filter(|_| location == point_at && light.aimed_after.is_empty())
     }
