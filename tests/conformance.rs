@@ -8,10 +8,15 @@ use std::path::{Path, PathBuf};
 
 use crate::programs::is_installed;
 
+mod cameras;
+mod drawn;
 mod examples;
+mod lights;
+mod noisy;
 mod pictures;
 mod plain;
 mod proofs;
+mod sky;
 mod syntax;
 mod textures;
 

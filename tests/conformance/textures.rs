@@ -1,10 +1,5 @@
 //! Textures drawn at random look as POV-Ray 3.7 shows them.
 //!
-//! A draw is *same* if the mean of FLIP's errors is at most [`SAME`], or if few pixels differ visibly; at least
-//! 97 % must be. Twelve are drawn; `LUCARNE_LONG=N` draws N times as many. `LUCARNE_SEED=NUMBER` draws one
-//! again, and with `LUCARNE_LONG` begins there. `LUCARNE_PICTURES=FOLDER` keeps scenes that differ, with both
-//! pictures.
-//!
 //! What is not drawn, as POV-Ray 3.7 is at fault (measured at 64×48, of 3072 pixels):
 //!
 //! * `aoi` and `slope` in a blend of textures, whose entry has a normal. There the angle depends on how the
@@ -25,100 +20,22 @@
 //! Nor is `interpolate` drawn for a `material_map`, where lucarne interpolates the numbers of textures in
 //! another way.
 
-mod draw;
-mod files;
 mod pattern;
 mod scene;
 mod surface;
 
-use std::fmt::Write as _;
-use std::path::Path;
+pub use surface::{DEEPEST, finish, normal, pigment};
 
-use image::RgbImage;
+use super::drawn::{Kind, difference, hold, repeat};
 
-use crate::flip;
-use crate::programs::{Size, is_povray_there, ours, theirs};
-
-const SIZE: Size = [96, 72];
-
-/// The mean of FLIP's errors up to which two pictures are the same.
-const SAME: f32 = 0.02;
-/// The difference of a channel above which pixels differ visibly, and the share of such pixels that is allowed.
-const VISIBLE: u8 = 12;
-const FEW: f64 = 0.005;
-
-const DRAWS: u64 = 12;
-
-/// The numbers of the draws.
-fn numbers() -> std::ops::Range<u64> {
-    let number = |name: &str| std::env::var(name).ok().map(|n| n.parse::<u64>().expect("a number"));
-    let (first, times) = (number("LUCARNE_SEED"), number("LUCARNE_LONG"));
-    let count = if first.is_some() && times.is_none() { 1 } else { DRAWS * times.unwrap_or(1) };
-    let first = first.unwrap_or(0);
-    first..first + count
-}
-
-/// Returns how much two pictures differ; `None` if they are the same.
-fn difference(pictures: &[RgbImage; 2]) -> Option<String> {
-    let mean = flip::mean(&flip::errors(pictures));
-    let [ours, theirs] = pictures;
-    let pairs = ours.pixels().zip(theirs.pixels());
-    let differ = |(a, b): &(&image::Rgb<u8>, &image::Rgb<u8>)| {
-        a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > VISIBLE)
-    };
-    let share = pairs.filter(differ).count() as f64 / f64::from(SIZE[0] * SIZE[1]);
-    let is_same = mean <= SAME || share <= FEW;
-    (!is_same).then(|| format!("FLIP {mean:.4}, {:.1} % of the pixels", 100.0 * share))
-}
-
-/// Draws a scene in both; `None` if they show the same.
-fn failure(number: u64, folder: &Path) -> Option<String> {
-    let text = scene::scene(number);
-    let scene = folder.join("drawn.pov");
-    std::fs::write(&scene, &text).expect("it is written");
-    let pictures =
-        ours(&scene, folder, SIZE).and_then(|ours| Ok([ours, theirs(&scene, folder, SIZE)?]));
-    let told = match &pictures {
-        Ok(pictures) => difference(pictures)?,
-        Err(told) => format!("no picture: {told}"),
-    };
-    if let (Some(folder), Ok(pictures)) = (std::env::var_os("LUCARNE_PICTURES"), &pictures) {
-        let folder = Path::new(&folder);
-        std::fs::write(folder.join(format!("{number}.pov")), &text).expect("the folder is there");
-        for (picture, whose) in pictures.iter().zip(["ours", "theirs"]) {
-            picture
-                .save(folder.join(format!("{number}.{whose}.png")))
-                .expect("the folder is there");
-        }
-    }
-    Some(format!("LUCARNE_SEED={number}: {told}\n{text}"))
-}
+const KIND: Kind = Kind { name: "textures", count: 12, scene: scene::scene, difference };
 
 #[test]
 fn textures_drawn_at_random_look_the_same() {
-    if !is_povray_there() {
-        return;
-    }
-    let place = tempfile::tempdir().expect("a folder");
-    files::write(place.path());
-    let (mut differing, mut report) = (0, String::new());
-    let numbers = numbers();
-    for number in numbers.clone() {
-        if let Some(told) = failure(number, place.path()) {
-            differing += 1;
-            let _ = writeln!(report, "{told}");
-        }
-    }
-    let count = numbers.end - numbers.start;
-    println!("{differing} of {count} differ\n{report}");
-    assert!(100 * differing <= 3 * count, "{differing} of {count} differ\n{report}");
+    hold(&KIND);
 }
 
 #[test]
 fn a_number_draws_the_same_scene_again() {
-    for number in 0..200 {
-        let drawn = scene::scene(number);
-        assert_eq!(drawn, scene::scene(number));
-        assert_ne!(drawn, scene::scene(number + 1));
-    }
+    repeat(&KIND);
 }

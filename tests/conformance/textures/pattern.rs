@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::draw::{Draw, GRID, PICTURES};
 use super::surface::pigment;
+use crate::conformance::drawn::draw::{Draw, GRID, PICTURES};
 
 /// What a pattern is for.
 #[derive(Clone, Copy, PartialEq)]

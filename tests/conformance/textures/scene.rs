@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
-use super::draw::Draw;
 use super::surface::{finish, normal, pigment, textures};
+use crate::conformance::drawn::draw::Draw;
+use crate::conformance::drawn::{Drawn, SIZE};
 
 /// The scene of a number.
-pub fn scene(number: u64) -> String {
+pub fn scene(number: u64) -> Drawn {
     let mut draw = Draw::new(number);
     let draw = &mut draw;
     let mut text = "#version 3.7;\nglobal_settings { assumed_gamma 1".to_owned();
@@ -27,7 +28,7 @@ pub fn scene(number: u64) -> String {
     }
     let is_fresnel = text.contains("fresnel");
     text += &object(draw, is_fresnel);
-    text
+    Drawn { text, size: SIZE }
 }
 
 fn default(draw: &mut Draw) -> String {

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::draw::{CLEAR, Draw};
 use super::pattern::Of;
+use crate::conformance::drawn::draw::{CLEAR, Draw};
 
 /// How deep blocks of maps are nested.
-const DEEPEST: usize = 2;
+pub const DEEPEST: usize = 2;
 
 /// Runs a draw one block deeper.
 fn deeper<T>(draw: &mut Draw, inner: impl FnOnce(&mut Draw) -> T) -> T {
