@@ -9,7 +9,7 @@ use lucarne::diagnostic::render::{Style, human};
 use lucarne::film::{Depth, develop};
 use lucarne::picture::{Format, encode};
 use lucarne::pilot::pilot;
-use lucarne::plan::{Antialias, Effect, Frame, Kind, Plan, PlanOptions, Stage, plan};
+use lucarne::plan::{Antialias, Effect, Frame, Kind, Plan, PlanOptions, Samples, Stage, plan};
 use lucarne::road::{Options, Road, dialect};
 use lucarne::source::{FileError, Files, Found, Sources, Span};
 use lucarne::standard::include;
@@ -26,6 +26,8 @@ const OPTIONS: PlanOptions = PlanOptions {
     adc_bailout: None,
     root_tolerance: 0.0,
     julia_iterations: None,
+    light_samples: Samples::Scene,
+    blur_samples: Samples::Scene,
 };
 
 /// Files as they lie on disk, or are built in, but for those that were changed here.

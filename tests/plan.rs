@@ -54,6 +54,11 @@ fn written(plan: &Value) -> String {
     if let Some(most) = plan["julia_iterations"].as_u64() {
         out += &format!("julia_iterations {most}\n");
     }
+    for name in ["light_samples", "blur_samples"] {
+        if let Some(samples) = plan[name].as_str() {
+            out += &format!("{name} {samples}\n");
+        }
+    }
     let stages: Vec<&str> = list(&plan["stages"]).iter().map(text).collect();
     out += &format!("stages: {}\n", stages.join(", "));
     let (on, off): (Vec<&Value>, Vec<&Value>) =
@@ -240,6 +245,8 @@ difference {{ sphere {{ 0, 1 }} box {{ 0, 2 }} }} merge {{ box {{ 0, 2 }} box {{
         "scenes/gallery/still_life.scene --size 32x24".to_owned(),
         "scenes/shapes/torus.scene --root-tolerance 1e-4".to_owned(),
         "scenes/shapes/julia_fractal.scene --julia-iterations 2 --size 16x12".to_owned(),
+        "scenes/lights/area_light.scene --light-samples 16 --size 16x12".to_owned(),
+        "scenes/cameras/aperture.scene --blur-samples adaptive:0.1:9 --size 16x12".to_owned(),
         format!("{hard} --size 640x480"),
     ] {
         let said = plan(&words);

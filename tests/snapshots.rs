@@ -3,7 +3,7 @@
 //! The cases are `tests/cases/*.scene`; `cargo insta review` shows what changed.
 
 use lucarne::diagnostic::render::{Style, human};
-use lucarne::plan::{Antialias, Frame, PlanOptions, plan};
+use lucarne::plan::{Antialias, Frame, PlanOptions, Samples, plan};
 use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
 use lucarne::source::NoFiles;
@@ -19,6 +19,8 @@ const PLAN: PlanOptions = PlanOptions {
     adc_bailout: None,
     root_tolerance: 0.0,
     julia_iterations: None,
+    light_samples: Samples::Scene,
+    blur_samples: Samples::Scene,
 };
 
 fn stages(name: &str, text: &str) -> String {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use super::knob::{Knob, cost};
 use super::reference::{Reference, Studio};
 use super::statistics::{Estimate, Metric};
-use crate::plan::{Antialias, PlanOptions, plan};
+use crate::plan::{Antialias, PlanOptions, Samples, plan};
 use crate::trace::{Counters, Sampling, Watch};
 use crate::world::Origins;
 
@@ -139,7 +139,7 @@ impl<'a> Tuning<'a> {
                 .map(|place| {
                     let mut trial = places.clone();
                     trial[turned] = place;
-                    most_samples(self.options(&trial).antialias)
+                    self.most_samples(&self.options(&trial))
                 })
                 .collect();
             let all = samples.iter().sum::<f64>();
@@ -174,14 +174,20 @@ impl<'a> Tuning<'a> {
             None => self.dearest(),
         }
     }
-}
 
-/// Maximum number of samples with which a pixel is tried. If neighbours decide, theirs are included.
-fn most_samples(antialias: Antialias) -> f64 {
-    let samples = |grid: u32| f64::from(grid) * f64::from(grid);
-    match antialias {
-        Antialias::Off => 1.0,
-        Antialias::Grid(grid) => samples(grid),
-        Antialias::Adaptive { grid, .. } => 9.0 + samples(grid),
+    /// Maximum number of samples with which a pixel is tried. If neighbours decide, theirs are included.
+    fn most_samples(&self, options: &PlanOptions) -> f64 {
+        let samples = |grid: u32| f64::from(grid) * f64::from(grid);
+        if let Some(focus) = &self.studio.world.camera.focus {
+            return f64::from(match options.blur_samples {
+                Samples::Scene => focus.most,
+                Samples::Fixed(most) | Samples::Adaptive { most, .. } => most,
+            });
+        }
+        match options.antialias {
+            Antialias::Off => 1.0,
+            Antialias::Grid(grid) => samples(grid),
+            Antialias::Adaptive { grid, .. } => 9.0 + samples(grid),
+        }
     }
 }

@@ -12,7 +12,7 @@ use super::reference::Studio;
 use super::refine::{MOST_IN_PART, Spread, place};
 use super::render_settings::Easel;
 use crate::film::Film;
-use crate::plan::{Antialias, Plan, PlanOptions, plan};
+use crate::plan::{Antialias, Plan, PlanOptions, Samples, plan};
 use crate::trace::{Sampling, Traced, Watch};
 use crate::world::Origins;
 
@@ -57,7 +57,8 @@ pub fn begin(
     seed: u64,
     (clock, until): (&dyn Clock, f64),
 ) -> Begun {
-    let own = PlanOptions { antialias: Antialias::Off, ..easel.own };
+    let one = (Antialias::Off, Samples::Fixed(1));
+    let own = PlanOptions { antialias: one.0, blur_samples: one.1, ..easel.own };
     let least = least(easel, own);
     let in_time = Deadline { clock, until, watch: studio.watch };
     let in_all = Studio { watch: &in_time, ..*studio };
@@ -91,7 +92,7 @@ fn least(easel: &Easel, own: PlanOptions) -> PlanOptions {
 
 /// Returns the knobs that the first pass may change.
 fn turned<'a>(easel: &'a Easel) -> impl Iterator<Item = &'a Knob> {
-    easel.knobs.iter().copied().filter(|knob| knob.name != "antialias")
+    easel.knobs.iter().copied().filter(|knob| !knob.samples_pixels())
 }
 
 /// Traces the unfinished pixels, spread over the picture, and returns how many are left when the clock

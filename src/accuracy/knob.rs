@@ -4,8 +4,9 @@
 //! that the scene does not use is skipped. Unit costs are constants, so choices based on them are the same
 //! on every machine and run.
 
+use super::ladder::{BLURS, LADDER, LIGHTS, flag_of, place_of, places, rung, samples};
 use crate::geometry::Work;
-use crate::plan::{Antialias, Effect, Plan, PlanOptions};
+use crate::plan::{Antialias, Effect, Plan, PlanOptions, Samples};
 use crate::trace::Counters;
 use crate::world::World;
 
@@ -21,6 +22,9 @@ pub struct Knob {
     /// report orders them by measured cost.
     pub settings: &'static [f64],
     pub own: Own,
+    /// Setting of the reference: the finest, unless a coarser one has no error but noise, which the reference's many
+    /// samples of a pixel average.
+    pub reference: Option<f64>,
     pub set: fn(&mut PlanOptions, f64),
     pub get: fn(&PlanOptions) -> f64,
     /// Minimum cost of a setting, in camera rays per pixel.
@@ -46,7 +50,7 @@ pub enum Own {
 /// What a scene must contain.
 #[derive(Debug, Clone, Copy)]
 pub enum Need {
-    /// Anything that is not a single uniform color.
+    /// Anything that is not a single uniform color, seen by a camera that does not blur it.
     Edges,
     /// One of these effects.
     Effect(&'static [Effect]),
@@ -59,7 +63,10 @@ pub enum Need {
 impl Need {
     pub fn is_met(self, world: &World, plan: &Plan) -> bool {
         match self {
-            Self::Edges => !world.objects.is_empty() || plan.simulates(Effect::Patterns),
+            Self::Edges => {
+                let is_seen = !world.objects.is_empty() || plan.simulates(Effect::Patterns);
+                is_seen && !plan.simulates(Effect::FocalBlur)
+            }
             Self::Effect(effects) => effects.iter().any(|&effect| plan.simulates(effect)),
             Self::IteratedRoots => world.has_iterated_roots(),
             Self::Fractals => world.julia_iterations().is_some(),
@@ -72,9 +79,10 @@ pub const KNOBS: &[Knob] = &[
     Knob {
         name: "antialias",
         needs: Need::Edges,
-        idle: "there is nothing to see",
-        settings: &RUNGS,
+        idle: "there is nothing to see, or a lens blurs it",
+        settings: &places::<{ LADDER.len() }>(),
         own: Own::Among,
+        reference: None,
         set: |options, place| options.antialias = rung(place),
         get: |options| {
             LADDER.iter().position(|&rung| rung == options.antialias).unwrap_or(0) as f64
@@ -105,6 +113,7 @@ pub const KNOBS: &[Knob] = &[
         idle: "no surface reflects or is clear",
         settings: &[1.0, 2.0, 3.0, 5.0, 10.0, 25.0, 250.0],
         own: Own::Between,
+        reference: None,
         set: |options, depth| options.depth = Some(depth as u32),
         get: |options| options.depth.map_or(0.0, f64::from),
         least: |_| 1.0,
@@ -118,6 +127,7 @@ pub const KNOBS: &[Knob] = &[
         idle: "no surface reflects or is clear",
         settings: &[0.1, 1.0 / 64.0, 1.0 / 255.0, 1.0 / 4096.0, 1e-6],
         own: Own::Between,
+        reference: None,
         set: |options, weight| options.adc_bailout = Some(weight),
         get: |options| options.adc_bailout.unwrap_or(0.0),
         least: |_| 1.0,
@@ -131,6 +141,7 @@ pub const KNOBS: &[Knob] = &[
         idle: "no solid's crossings are found by steps that come nearer and nearer",
         settings: &[1e-2, 1e-4, 1e-6, 0.0],
         own: Own::Among,
+        reference: None,
         set: |options, tolerance| options.root_tolerance = tolerance,
         get: |options| options.root_tolerance,
         least: |_| 1.0,
@@ -151,6 +162,7 @@ pub const KNOBS: &[Knob] = &[
         idle: "there is no julia_fractal",
         settings: &[1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0],
         own: Own::Last,
+        reference: None,
         set: |options, most| options.julia_iterations = Some(most as u32),
         get: |options| options.julia_iterations.map_or(0.0, f64::from),
         least: |_| 1.0,
@@ -158,6 +170,37 @@ pub const KNOBS: &[Knob] = &[
         factor: |_| 1.0,
         label: |most| format!("{most}"),
         flag: |most| format!("--julia-iterations {most}"),
+    },
+    Knob {
+        name: "light-samples",
+        needs: Need::Effect(&[Effect::AreaLights]),
+        idle: "no light has an area",
+        settings: &places::<{ LIGHTS.len() }>(),
+        own: Own::Among,
+        reference: Some(3.0),
+        set: |options, place| options.light_samples = samples(&LIGHTS, place),
+        get: |options| place_of(&LIGHTS, options.light_samples),
+        least: |_| 1.0,
+        factor: |_| 1.0,
+        label: |place| samples(&LIGHTS, place).to_string(),
+        flag: |place| format!("--light-samples {}", flag_of(samples(&LIGHTS, place))),
+    },
+    Knob {
+        name: "blur-samples",
+        needs: Need::Effect(&[Effect::FocalBlur]),
+        idle: "everything is in focus",
+        settings: &places::<{ BLURS.len() }>(),
+        own: Own::Among,
+        reference: None,
+        set: |options, place| options.blur_samples = samples(&BLURS, place),
+        get: |options| place_of(&BLURS, options.blur_samples),
+        least: |place| match samples(&BLURS, place) {
+            Samples::Scene | Samples::Adaptive { .. } => 1.0,
+            Samples::Fixed(count) => f64::from(count),
+        },
+        factor: |_| 1.0,
+        label: |place| samples(&BLURS, place).to_string(),
+        flag: |place| format!("--blur-samples {}", flag_of(samples(&BLURS, place))),
     },
 ];
 
@@ -174,46 +217,16 @@ pub fn share(weight: f64) -> String {
     }
 }
 
-/// Antialiasing modes, approximately from coarse to fine; the third is the default of `render`.
-const LADDER: [Antialias; 14] = [
-    Antialias::Off,
-    Antialias::Adaptive { threshold: 0.1, grid: 3 },
-    Antialias::Adaptive { threshold: 0.05, grid: 4 },
-    Antialias::Adaptive { threshold: 0.02, grid: 6 },
-    Antialias::Adaptive { threshold: 0.01, grid: 8 },
-    Antialias::Grid(2),
-    Antialias::Grid(3),
-    Antialias::Grid(4),
-    Antialias::Grid(6),
-    Antialias::Grid(8),
-    Antialias::Grid(12),
-    Antialias::Grid(16),
-    Antialias::Grid(24),
-    Antialias::Grid(32),
-];
-
-/// Indices into [`LADDER`], as settings.
-const RUNGS: [f64; LADDER.len()] = {
-    let mut places = [0.0; LADDER.len()];
-    let mut place = 1;
-    while place < places.len() {
-        places[place] = places[place - 1] + 1.0;
-        place += 1;
-    }
-    places
-};
-
-/// Returns the mode for an index in [`RUNGS`].
-fn rung(place: f64) -> Antialias {
-    debug_assert!(RUNGS.contains(&place), "{place} is no rung");
-    LADDER[(place as usize).min(LADDER.len() - 1)]
-}
-
 impl Knob {
     /// Whether a coarser setting changes the scene's solids, rather than only the accuracy of their
     /// picture.
     pub fn changes_solids(&self) -> bool {
         matches!(self.needs, Need::IteratedRoots | Need::Fractals)
+    }
+
+    /// Whether it sets how many samples each pixel has, rather than what each of them is.
+    pub fn samples_pixels(&self) -> bool {
+        matches!(self.name, "antialias" | "blur-samples")
     }
 
     /// Returns the setting with the lowest cost in any scene.
@@ -302,12 +315,24 @@ mod tests {
     }
 
     #[test]
+    fn the_scenes_samples_are_its_own_and_the_reference_of_lights_is_unbiased() {
+        let options = PlanOptions::new(Frame::whole(1, 1));
+        let knob = |name: &str| KNOBS.iter().find(|knob| knob.name == name).expect("a knob");
+        for name in ["light-samples", "blur-samples"] {
+            assert_eq!((knob(name).label)((knob(name).get)(&options)), "scene");
+        }
+        let lights = knob("light-samples");
+        assert_eq!(lights.reference.map(lights.label).as_deref(), Some("16"));
+        assert_eq!((lights.flag)(4.0), "--light-samples adaptive:0.05:64");
+    }
+
+    #[test]
     fn the_cheapest_setting_costs_least_and_the_last_is_the_finest() {
         let cheapest: Vec<String> = KNOBS.iter().map(|k| (k.label)(k.cheapest())).collect();
-        assert_eq!(cheapest, ["off", "1", "1/10", "1e-2", "1"]);
+        assert_eq!(cheapest, ["off", "1", "1/10", "1e-2", "1", "1", "1"]);
         let finest = |knob: &Knob| (knob.label)(knob.settings[knob.settings.len() - 1]);
         let finest: Vec<String> = KNOBS.iter().map(finest).collect();
-        assert_eq!(finest, ["32×32", "250", "1e-6", "all digits", "20"]);
+        assert_eq!(finest, ["32×32", "250", "1e-6", "all digits", "20", "256", "1000"]);
     }
 
     #[test]

@@ -16,6 +16,7 @@ mod front;
 mod glare;
 pub mod json;
 mod knob;
+mod ladder;
 mod measure;
 mod promise;
 mod proof;
@@ -75,13 +76,14 @@ pub enum Unmeasured {
     },
 }
 
-/// Returns the options with every knob except antialiasing at its most expensive, for tracing the
-/// reference.
+/// Returns the options for tracing the reference: every knob at its most expensive, unless it has another setting
+/// for that. The samples of pixels are the reference's own.
 fn dearest(own: PlanOptions, knobs: &[Knob]) -> PlanOptions {
     let mut options = own;
     for knob in knobs {
         let all = knob.with((knob.get)(&own));
-        all.last().into_iter().for_each(|&setting| (knob.set)(&mut options, setting));
+        let setting = knob.reference.or(all.last().copied());
+        setting.into_iter().for_each(|setting| (knob.set)(&mut options, setting));
     }
     options
 }

@@ -30,7 +30,7 @@ impl<'a> Easel<'a> {
 
     /// Returns the flags without the number of samples, which differs between pixels.
     pub fn flags_of_rays(&self, options: &PlanOptions) -> String {
-        let knobs = self.knobs.iter().filter(|knob| knob.name != "antialias");
+        let knobs = self.knobs.iter().filter(|knob| !knob.samples_pixels());
         let flags = knobs.map(|knob| (knob.flag)((knob.get)(options)));
         flags.collect::<Vec<_>>().join(" ")
     }

@@ -156,6 +156,7 @@ const PLANTED: Knob = Knob {
     idle: "nothing ever calls for it",
     settings: &[1.0, 2.0, 3.0],
     own: Own::Among,
+    reference: None,
     set: |_, _| (),
     get: |_| 2.0,
     least: |_| 1.0,
@@ -203,6 +204,13 @@ fn a_knob_whose_effect_the_scene_does_not_call_for_does_not_appear() {
     assert_eq!(names(&cut), ["antialias", "root-tolerance"]);
     let fractal = format!("{lit} julia_fractal {{ 0.1 max_iteration 5 pigment {{ rgb 1 }} }}");
     assert_eq!(names(&fractal), ["antialias", "root-tolerance", "julia-iterations"]);
+    let soft = "camera { location 9*z look_at 0 }
+        light_source { 9, rgb 1 area_light 2*x, 2*y, 3, 3 } sphere { 0, 1 pigment { rgb 1 } }";
+    assert_eq!(names(soft), ["antialias", "light-samples"]);
+    // A lens spreads its samples over the pixel, too.
+    let blurred = "camera { location 9*z look_at 0 aperture 1 focal_point 0 blur_samples 9 }
+        light_source { 9, rgb 1 } sphere { 0, 1 pigment { rgb 1 } }";
+    assert_eq!(names(blurred), ["blur-samples"]);
     // A sky, and nothing that a ray could meet.
     assert_eq!(names("camera { } background { rgb 0.5 }"), [""; 0]);
     let sky = "camera { } sky_sphere { pigment { gradient y color_map { [0 rgb 0] [1 rgb 1] } } }";

@@ -9,6 +9,7 @@
 
 mod build;
 pub mod packet;
+pub mod shaft;
 #[cfg(test)]
 mod tests;
 

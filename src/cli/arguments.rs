@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lucarne::diagnostic::{Code, Level};
-use lucarne::plan::{Antialias, Frame, PlanOptions, Region};
+use lucarne::plan::{Antialias, Frame, PlanOptions, Region, Samples};
 use lucarne::road::Options;
 use lucarne::scene::Dialect;
 
@@ -14,8 +14,8 @@ use super::messages;
 use super::scene::SceneArguments;
 use super::text::is_include;
 use super::values::{
-    MetricArgument, antialias, depth, error, knob, region, seconds, seed, size, threads, tolerance,
-    weight,
+    MetricArgument, antialias, depth, error, knob, region, samples, seconds, seed, size, threads,
+    tolerance, weight,
 };
 
 /// Compiler and ray tracer for a POV-Ray-like scene language
@@ -85,14 +85,14 @@ pub struct RenderArguments {
     /// error on pixels not used for that choice; exits with 5 if the bound cannot be verified
     #[arg(long, value_name = "E", value_parser = error, allow_negative_numbers = true)]
     #[arg(group = "promise")]
-    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "root_tolerance", "julia_iterations", "time_budget"])]
+    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "root_tolerance", "julia_iterations", "light_samples", "blur_samples", "time_budget"])]
     pub max_error: Option<f64>,
     /// Render the best picture possible within time T (500ms, 60s, 5m; a plain number is in seconds) and
     /// report its error; exits with 4 if one ray per pixel does not fit, and with 5 if no time is left to
     /// estimate the error
     #[arg(long, value_name = "T", value_parser = seconds, allow_hyphen_values = true)]
     #[arg(group = "promise")]
-    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "root_tolerance", "julia_iterations"])]
+    #[arg(conflicts_with_all = ["antialias", "depth", "adc_bailout", "root_tolerance", "julia_iterations", "light_samples", "blur_samples"])]
     pub time_budget: Option<f64>,
     /// Error metric for `--max-error` and `--time-budget`
     #[arg(long, value_enum, default_value_t, value_name = "METRIC", requires = "promise")]
@@ -293,6 +293,17 @@ pub struct PictureArguments {
     /// Maximum number of iterations of a julia_fractal; a lower number in the scene is kept
     #[arg(long, value_name = "N", value_parser = depth, allow_negative_numbers = true)]
     julia_iterations: Option<u32>,
+    /// Samples of each area light at each place that it may light: `scene` takes the nodes of the scene's
+    /// grid; N spreads N samples over the light's area; `adaptive:T:N` takes up to N until the light is known
+    /// to about T, where 1 is white
+    #[arg(long, value_name = "scene|N|adaptive:T:N", value_parser = samples, default_value = "scene")]
+    #[arg(allow_negative_numbers = true)]
+    light_samples: Samples,
+    /// Samples of each pixel that a lens with an `aperture` blurs: `scene` takes the scene's blur_samples,
+    /// confidence and variance; N takes N; `adaptive:T:N` takes up to N until the pixel is known to about T
+    #[arg(long, value_name = "scene|N|adaptive:T:N", value_parser = samples, default_value = "scene")]
+    #[arg(allow_negative_numbers = true)]
+    blur_samples: Samples,
 }
 
 impl CheckArguments {
@@ -335,8 +346,16 @@ impl PictureArguments {
 
     /// Returns the plan options that these arguments select.
     pub fn options(&self, frame: Frame) -> PlanOptions {
-        let Self { antialias, depth, adc_bailout, root_tolerance, julia_iterations, .. } = *self;
-        PlanOptions { frame, antialias, depth, adc_bailout, root_tolerance, julia_iterations }
+        PlanOptions {
+            frame,
+            antialias: self.antialias,
+            depth: self.depth,
+            adc_bailout: self.adc_bailout,
+            root_tolerance: self.root_tolerance,
+            julia_iterations: self.julia_iterations,
+            light_samples: self.light_samples,
+            blur_samples: self.blur_samples,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! `lucarne plan`: prints what will be simulated, what requires it, what it costs, and what is left out.
 
 use lucarne::pilot::pilot;
-use lucarne::plan::{Antialias, Effect, Measured, Plan, plan, print};
+use lucarne::plan::{Antialias, Effect, Measured, Plan, Samples, plan, print};
 use lucarne::road::Road;
 use lucarne::source::{Position, Site, Sources, Span};
 use serde::Serialize;
@@ -47,6 +47,11 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     Ok::<Exit, Failure>(messages.exit())
 }
 
+/// Returns samples as the text of a plan names them; `None` if they are the scene's.
+fn named(samples: Samples) -> Option<String> {
+    (samples != Samples::Scene).then(|| samples.to_string())
+}
+
 /// Plan as printed by `--json`; `docs/effects.md` explains each name.
 #[derive(Serialize)]
 struct Report<'a> {
@@ -60,6 +65,8 @@ struct Report<'a> {
     adc_bailout: f64,
     root_tolerance: f64,
     julia_iterations: Option<u32>,
+    light_samples: Option<String>,
+    blur_samples: Option<String>,
     stages: Vec<&'a str>,
     effects: Vec<Row<'a>>,
     dropped: Vec<Part<'a>>,
@@ -228,6 +235,8 @@ impl<'a> Report<'a> {
             adc_bailout: plan.adc_bailout,
             root_tolerance: plan.root_tolerance,
             julia_iterations: plan.julia_iterations,
+            light_samples: named(plan.light_samples),
+            blur_samples: named(plan.blur_samples),
             stages: plan.stages.iter().map(|stage| stage.name()).collect(),
             effects,
             dropped: plan

@@ -2,13 +2,14 @@
 //!
 //! **In:** the text of one value. **Out:** the value, or a sentence that says what was expected.
 
+use std::ops::RangeInclusive;
 use std::time::SystemTime;
 
 use clap::ValueEnum;
 use lucarne::accuracy::{KNOBS, Metric};
 use lucarne::diagnostic::Code;
 use lucarne::diagnostic::suggest::closest;
-use lucarne::plan::{Antialias, Region};
+use lucarne::plan::{Antialias, Region, Samples};
 use lucarne::vocabulary::Word;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -101,12 +102,32 @@ pub fn antialias(text: &str) -> Result<Antialias, String> {
     }
 }
 
-/// Parses `adaptive:THRESHOLD:N`.
 fn adaptive(text: &str) -> Option<Antialias> {
-    let (threshold, grid) = text.strip_prefix("adaptive:")?.split_once(':')?;
-    let threshold = threshold.parse().ok().filter(|t: &f64| (0.0..=1.0).contains(t))?;
-    let grid = grid.parse().ok().filter(|n| (2..=64).contains(n))?;
+    let (threshold, grid) = adaptive_to(text, 2..=64)?;
     Some(Antialias::Adaptive { threshold, grid })
+}
+
+/// Parses `adaptive:THRESHOLD:N`.
+fn adaptive_to(text: &str, counts: RangeInclusive<u32>) -> Option<(f64, u32)> {
+    let (threshold, count) = text.strip_prefix("adaptive:")?.split_once(':')?;
+    let threshold = threshold.parse().ok().filter(|t: &f64| (0.0..=1.0).contains(t))?;
+    Some((threshold, count.parse().ok().filter(|n| counts.contains(n))?))
+}
+
+/// Parses the samples of a light or a lens.
+pub fn samples(text: &str) -> Result<Samples, String> {
+    const COUNTS: RangeInclusive<u32> = 1..=65_536;
+    let adaptive = || adaptive_to(text, COUNTS);
+    match (text, text.parse::<u32>()) {
+        ("scene", _) => Ok(Samples::Scene),
+        (_, Ok(count)) if COUNTS.contains(&count) => Ok(Samples::Fixed(count)),
+        _ => match adaptive() {
+            Some((threshold, most)) => Ok(Samples::Adaptive { threshold, most }),
+            None => {
+                Err("expected `scene`, `adaptive:0.05:64`, or a number from 1 to 65536".to_owned())
+            }
+        },
+    }
 }
 
 /// Parses a number, or a fraction such as `1/255`.
@@ -272,6 +293,17 @@ mod tests {
             assert!(antialias(wrong).is_err(), "{wrong}");
         }
         assert!(antialias("0").is_err() && antialias("on").is_err() && antialias("65").is_err());
+    }
+
+    #[test]
+    fn samples_are_the_scenes_a_number_or_adaptive() {
+        assert_eq!(samples("scene"), Ok(Samples::Scene));
+        assert_eq!(samples("64"), Ok(Samples::Fixed(64)));
+        let fine = Samples::Adaptive { threshold: 0.02, most: 256 };
+        assert_eq!(samples("adaptive:0.02:256"), Ok(fine));
+        for wrong in ["", "0", "-4", "65537", "adaptive", "adaptive:2:6", "adaptive:0.1:0", "off"] {
+            assert!(samples(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@
 
 mod balls;
 mod beside;
+mod between;
 pub mod coinciding;
 mod convex;
 pub mod doubled;
@@ -26,6 +27,8 @@ mod whole;
 mod work;
 
 pub use crate::bvh::packet::MOST as TOGETHER;
+pub use crate::bvh::shaft::Shaft;
+pub use between::Between;
 pub use nearest::Hit;
 pub use occluder::Occluder;
 pub use surface::{SurfacePoints, shading_normal, spread, surface};

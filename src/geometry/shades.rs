@@ -46,6 +46,19 @@ impl<'a> Shades<'a> {
         self.rays.mask & !self.open
     }
 
+    /// Looks at a few entries, and no others: first at `guess`, if it is one of them.
+    #[inline(always)]
+    pub fn look_at<S: Simd>(&mut self, simd: S, places: &[usize], guess: Occluder) {
+        let is_guess = |place: &&usize| **place == guess.0;
+        let first = places.iter().find(is_guess).into_iter();
+        for &place in first.chain(places.iter().filter(|place| !is_guess(place))) {
+            if self.open == 0 {
+                return;
+            }
+            self.look(simd, place, self.open);
+        }
+    }
+
     #[inline(always)]
     fn found(&mut self, place: usize, mask: u32) {
         let found = mask & self.open;

@@ -1,4 +1,5 @@
 mod algebraic;
+mod between;
 mod every_body;
 mod packets;
 mod polyhedra;

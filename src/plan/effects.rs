@@ -12,7 +12,7 @@ use super::kinds::kinds;
 use super::numerics::numerics;
 use super::print::count;
 use super::surfaces::surfaces;
-use super::{Antialias, Called, Effect, LeftOut, Plan, PlanOptions, Stage};
+use super::{Antialias, Called, Effect, LeftOut, Plan, PlanOptions, Samples, Stage};
 use crate::source::Site;
 use crate::world::{
     Area, Interior, InteriorOrigin, Light, Object, Origins, Pigment, Plain, Texture, TextureOrigin,
@@ -35,6 +35,8 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         adc_bailout: options.adc_bailout.unwrap_or(world.settings.adc_bailout),
         root_tolerance: options.root_tolerance,
         julia_iterations: options.julia_iterations,
+        light_samples: options.light_samples,
+        blur_samples: options.blur_samples,
         stages: Vec::new(),
         effects: Vec::new(),
         left_out: Vec::new(),
@@ -68,6 +70,17 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
 
 /// The locations that require an effect and its cost, or the reason it is off and where the scene says so.
 type Decision = Result<(Vec<Site>, String), (String, Option<Site>)>;
+
+/// Returns what samples cost, where they are not as the scene says.
+fn sampled(samples: Samples, of: &str) -> Option<String> {
+    match samples {
+        Samples::Scene => None,
+        Samples::Fixed(n) => Some(format!("{} a {of}", count(n as usize, "ray"))),
+        Samples::Adaptive { most, .. } => {
+            Some(format!("up to {} a {of}", count(most as usize, "ray")))
+        }
+    }
+}
 
 fn because<T>(why: &str, site: Option<Site>) -> Result<T, (String, Option<Site>)> {
     Err((why.to_owned(), site))
@@ -179,6 +192,9 @@ impl Census<'_> {
             let divided = |count: u32| u64::from(count).min((1 << area.least_divisions) + 1);
             area.nodes.into_iter().map(divided).product::<u64>()
         };
+        if let Some(cost) = sampled(self.options.light_samples, "light and lit hit") {
+            return Ok((self.origins.area_lights.clone(), cost));
+        }
         let most = areas().map(all).max().unwrap_or(1);
         let cost = match areas().map(least).min().unwrap_or(1) {
             least if least < most => format!("{least} to {most} rays a light and lit hit"),
@@ -333,6 +349,7 @@ impl Census<'_> {
             (least, most) if least == most => format!("{most} rays a pixel"),
             (least, most) => format!("{least} to {most} rays a pixel"),
         };
+        let cost = sampled(self.options.blur_samples, "pixel").unwrap_or(cost);
         Ok((self.origins.aperture.into_iter().collect(), cost))
     }
 

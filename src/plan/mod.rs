@@ -19,6 +19,8 @@ pub use kinds::Kind;
 pub use numerics::{Measured, Numerics, Thin};
 pub use stage::Stage;
 
+use std::fmt;
+
 use crate::source::Site;
 use crate::world::Dropped;
 
@@ -70,6 +72,29 @@ impl Default for Antialias {
     }
 }
 
+/// Samples of an area light, or of a pixel that a lens blurs.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Samples {
+    /// As the scene says.
+    #[default]
+    Scene,
+    /// So many, wherever they are taken.
+    Fixed(u32),
+    /// No more than are needed for an estimated error of at most `threshold`, 1 being that between black and
+    /// white, and at most `most`.
+    Adaptive { threshold: f64, most: u32 },
+}
+
+impl fmt::Display for Samples {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Scene => f.write_str("scene"),
+            Self::Fixed(count) => write!(f, "{count}"),
+            Self::Adaptive { threshold, most } => write!(f, "adaptive {threshold} {most}"),
+        }
+    }
+}
+
 /// Precision of intersections.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arithmetic {
@@ -92,6 +117,10 @@ pub struct PlanOptions {
     pub root_tolerance: f64,
     /// See [`Arithmetic`].
     pub julia_iterations: Option<u32>,
+    /// Samples per area light and place that it may light.
+    pub light_samples: Samples,
+    /// Samples per pixel that a lens blurs.
+    pub blur_samples: Samples,
 }
 
 impl PlanOptions {
@@ -104,6 +133,8 @@ impl PlanOptions {
             adc_bailout: None,
             root_tolerance: 0.0,
             julia_iterations: None,
+            light_samples: Samples::Scene,
+            blur_samples: Samples::Scene,
         }
     }
 }
@@ -217,6 +248,10 @@ pub struct Plan {
     pub root_tolerance: f64,
     /// See [`Arithmetic`].
     pub julia_iterations: Option<u32>,
+    /// See [`PlanOptions`].
+    pub light_samples: Samples,
+    /// See [`PlanOptions`].
+    pub blur_samples: Samples,
     /// The stages that run, in their order.
     pub stages: Vec<Stage>,
     /// Effects that are simulated.

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use super::{Antialias, Called, Effect, Kind, Measured, Plan};
+use super::{Antialias, Called, Effect, Kind, Measured, Plan, Samples};
 use crate::source::{Site, Sources, Span};
 use crate::world::Coinciding;
 
@@ -87,6 +87,13 @@ impl Printer<'_> {
         }
         if let Some(most) = plan.julia_iterations {
             writeln!(out, "julia_iterations {most}")?;
+        }
+        for (name, samples) in
+            [("light_samples", plan.light_samples), ("blur_samples", plan.blur_samples)]
+        {
+            if samples != Samples::Scene {
+                writeln!(out, "{name} {samples}")?;
+            }
         }
         let stages: Vec<&str> = plan.stages.iter().map(|stage| stage.name()).collect();
         writeln!(out, "stages: {}", stages.join(", "))?;

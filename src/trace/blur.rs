@@ -3,13 +3,16 @@
 //! **In:** pixels. **Out:** the mean of each one's samples. **Invariant:** a sample depends on its pixel and its number,
 //! and how many a pixel has on these samples.
 
-use super::camera::{Focus, Lens};
+use super::camera::{Focus, Lens, Shift};
 use super::tracer::Tracer;
 use super::{Sampled, Walk};
 use crate::color::Rgb;
 
 /// Samples that a pixel gets at once after the first.
 const ROUND: u32 = 6;
+
+/// Samples that are taken together.
+const TOGETHER: usize = 1024;
 
 /// The samples of a pixel so far.
 #[derive(Debug, Clone, Copy, Default)]
@@ -60,22 +63,30 @@ impl Tracer<'_> {
     ) -> Vec<Option<Sampled>> {
         let mut pixels = vec![Sums::default(); places.len()];
         let mut open: Vec<usize> = (0..places.len()).collect();
-        let mut samples = 0..focus.least;
+        let shifts: Vec<Shift> = places.iter().map(|&place| Shift::of(place)).collect();
+        let round = focus.at_once(ROUND);
+        let mut samples = 0..focus.at_once(focus.least);
         while !open.is_empty() && !samples.is_empty() {
-            let numbers = || open.iter().flat_map(|&i| samples.clone().map(move |k| (i, k)));
-            let points = numbers().map(|(i, k)| lens.blurred(places[i], k));
-            let mut taken = numbers();
-            self.each_sample(walk, lens, points, |seen| {
-                if let Some((i, _)) = taken.next() {
-                    pixels[i].add(seen);
-                }
+            // Few enough for the caches.
+            let few = (TOGETHER / samples.len()).max(1);
+            let is_stopped = open.chunks(few).any(|some| {
+                let numbers = || some.iter().flat_map(|&i| samples.clone().map(move |k| (i, k)));
+                let shifts = &shifts;
+                let points = numbers().map(|(i, k)| lens.blurred(focus, places[i], &shifts[i], k));
+                let mut taken = numbers();
+                self.each_sample(walk, lens, points, |seen| {
+                    if let Some((i, _)) = taken.next() {
+                        pixels[i].add(seen);
+                    }
+                });
+                taken.next().is_some()
             });
-            // Stopped by the watch.
-            if taken.next().is_some() {
+            // By the watch.
+            if is_stopped {
                 break;
             }
             open.retain(|&i| !pixels[i].is_enough(focus));
-            samples = samples.end..focus.most.min(samples.end.saturating_add(ROUND));
+            samples = samples.end..focus.most.min(samples.end.saturating_add(round));
         }
         let mut done = vec![true; places.len()];
         open.iter().for_each(|&i| done[i] = false);

@@ -23,6 +23,7 @@ use std::sync::Arc;
 
 use crate::math::elementary::{atan2, sin_cos_degrees};
 use crate::math::{UnitVector, Vector};
+use crate::plan::Samples;
 use crate::shape::Ray;
 use crate::texture::Normal;
 use crate::texture::space::Nowhere;
@@ -31,7 +32,7 @@ use crate::world::{Camera, CameraKind};
 use cylinder::Cylinder;
 use fisheye::Fisheye;
 use flat::Flat;
-pub(super) use focus::Focus;
+pub(super) use focus::{Focus, Shift};
 use mesh::Meshes;
 use omnimax::Omnimax;
 use panoramic::Panoramic;
@@ -77,7 +78,7 @@ pub(super) struct Lens {
 pub(super) struct Point {
     pub u: f64,
     pub v: f64,
-    /// 0 … 1 each; the middle is 0.
+    /// −1 … 1 to the right and up.
     pub lens: [f64; 2],
 }
 
@@ -106,6 +107,11 @@ impl Lens {
         Self { kind, focus, normal: camera.normal.clone(), width, height }
     }
 
+    /// Returns the same lens, whose blur is sampled as the options say.
+    pub fn sampled(self, samples: Samples) -> Self {
+        Self { focus: self.focus.map(|focus| focus.sampled(samples)), ..self }
+    }
+
     /// Returns the point of sample (`i`, `j`) of the `grid` × `grid` samples of pixel (`x`, `y`), both counted
     /// from the top left.
     #[inline(always)]
@@ -114,18 +120,23 @@ impl Lens {
         Point { u, v, lens: [0.0; 2] }
     }
 
-    /// Returns a point of pixel (`x`, `y`), 0 … 1 from its left and from its top, and a point of the lens.
+    /// Returns a point of pixel (`x`, `y`), 0 … 1 from its left and from its top, and the point of the lens for two
+    /// numbers from 0 to 1.
     pub fn point_within(&self, pixel: (u32, u32), within: (f64, f64), lens: [f64; 2]) -> Point {
         let (u, v) = self.place(pixel, within);
+        Point { u, v, lens: self.focus.as_ref().map_or([0.0; 2], |focus| focus.point(lens)) }
+    }
+
+    /// Returns sample `number` of a blurred pixel with this shift, somewhere in it and on the lens. It depends on nothing
+    /// else.
+    #[inline(always)]
+    pub fn blurred(&self, focus: &Focus, pixel: (u32, u32), shift: &Shift, number: u32) -> Point {
+        let [[right, down], lens] = focus.sample(shift, number);
+        let (u, v) = self.place(pixel, (right, down));
         Point { u, v, lens }
     }
 
-    /// Returns sample `number` of a blurred pixel, somewhere in it and on the lens. It depends on nothing else.
-    pub fn blurred(&self, pixel: (u32, u32), number: u32) -> Point {
-        let [right, down, first, second] = focus::numbered(pixel, number);
-        self.point_within(pixel, (right, down), [first, second])
-    }
-
+    #[inline(always)]
     fn place(&self, (x, y): (u32, u32), (right, down): (f64, f64)) -> (f64, f64) {
         let place = |pixel: u32, within: f64, pixels: u32| {
             (f64::from(pixel) + within) / f64::from(pixels) - 0.5
@@ -162,7 +173,10 @@ impl Lens {
     /// Returns the rays through points of the screen; for a point of several, they are neighbours.
     pub fn rays(&self, points: &[Point]) -> Vec<Option<Ray>> {
         match &self.kind {
-            Kind::Flat(kind) => self.each(kind, points),
+            Kind::Flat(kind) => match &self.focus {
+                Some(focus) if self.normal.is_none() => kind.blurred(focus, points),
+                _ => self.each(kind, points),
+            },
             Kind::Fisheye(kind) => self.each(kind, points),
             Kind::UltraWideAngle(kind) => self.each(kind, points),
             Kind::Omnimax(kind) => self.each(kind, points),

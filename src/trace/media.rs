@@ -201,6 +201,10 @@ impl Media {
     ///
     /// **Source:** POV-Ray 3.7's behaviour, measured.
     pub fn is_in_fog(&mut self, (world, around): (&World, &Around), within: Within) -> bool {
+        // Most cameras are in nothing.
+        if matches!(within, Within::Start(_)) && around.0.is_empty() {
+            return true;
+        }
         self.know((world, around), within);
         self.list.iter().all(|&object| world.objects[object as usize].hollow)
     }

@@ -182,7 +182,7 @@ pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry 
 #[inline(never)]
 fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew) -> Traced {
     let Frame { width, height, region } = plan.frame;
-    let lens = Lens::new(&tracer.world.camera, width, height);
+    let lens = Lens::new(&tracer.world.camera, width, height).sampled(plan.blur_samples);
     let empty =
         |region| Film::new(Frame { region, ..plan.frame }, tracer.world.settings.assumed_gamma);
     let uniform = |film, which, grid| {

@@ -4,7 +4,7 @@
 //! on the number of threads; a planned pixel has the bits that [`super::trace`] puts there.
 
 use super::antialias::{self, Shown};
-use super::camera::{Lens, Point};
+use super::camera::{Lens, Point, Shift};
 use super::tiles::Crew;
 use super::tracer::Tracer;
 use super::{Counters, TraceOptions, Walk, Watch, grown};
@@ -109,7 +109,8 @@ struct Pixel<'a> {
 impl<'a> Pixel<'a> {
     fn new(tracer: &'a Tracer<'a>, plan: &'a Plan) -> Self {
         let Frame { width, height, .. } = plan.frame;
-        Self { plan, tracer, lens: Lens::new(&tracer.world.camera, width, height) }
+        let lens = Lens::new(&tracer.world.camera, width, height).sampled(plan.blur_samples);
+        Self { plan, tracer, lens }
     }
 
     fn planned(&self, walk: &mut Walk, place: (u32, u32)) -> Rgb {
@@ -162,8 +163,9 @@ impl<'a> Pixel<'a> {
         grid: u32,
         also: impl FnMut(Rgb),
     ) -> Rgb {
-        if self.lens.focus().is_some() {
-            let points = (0..grid * grid).map(|k| self.lens.blurred(place, k));
+        if let Some(focus) = self.lens.focus() {
+            let shift = Shift::of(place);
+            let points = (0..grid * grid).map(|k| self.lens.blurred(focus, place, &shift, k));
             return self.mean(walk, grid, points, also);
         }
         let points = (0..grid * grid).map(|k| self.lens.point(place, (k % grid, k / grid), grid));
@@ -217,12 +219,22 @@ impl<'a> Pixel<'a> {
             let right = within(k % side, &mut random);
             (right, within(k / side, &mut random))
         });
-        let mut over_lens = Random::of(!seed, u64::from(x) << 32 | u64::from(y));
-        let mut lens = || match self.lens.focus() {
-            Some(_) => [over_lens.number(0.0, 1.0), over_lens.number(0.0, 1.0)],
-            None => [0.0; 2],
+        let Some(_) = self.lens.focus() else {
+            let points = places.map(|place| self.lens.point_within((x, y), place, [0.0; 2]));
+            return self.mean(walk, side, points, |_| ());
         };
-        let points = places.map(|place| self.lens.point_within((x, y), place, lens()));
+        // One in each part of the lens, too, in any order.
+        let mut over_lens = Random::of(!seed, u64::from(x) << 32 | u64::from(y));
+        let mut parts: Vec<u32> = (0..side * side).collect();
+        for last in (1..parts.len()).rev() {
+            parts.swap(last, over_lens.below(last + 1));
+        }
+        let lenses = parts.into_iter().map(|part| {
+            let first = within(part % side, &mut over_lens);
+            [first, within(part / side, &mut over_lens)]
+        });
+        let points = places.zip(lenses);
+        let points = points.map(|(place, lens)| self.lens.point_within((x, y), place, lens));
         self.mean(walk, side, points, |_| ())
     }
 }

@@ -7,7 +7,7 @@ use super::media::Within;
 use super::texture;
 use super::tracer::Tracer;
 use crate::color::Rgb;
-use crate::geometry::{Hit, Occluder};
+use crate::geometry::{Between, Hit, Occluder};
 use crate::math::wide::{Rays, Row};
 use crate::math::{UnitVector, Vector};
 use crate::shape::Ray;
@@ -95,6 +95,27 @@ pub(super) fn shadowed_together(
     let mut occluder = guess;
     let work = &mut walk.counters.work;
     let shadowed = tracer.geometry.occluded_together(rays, reaches, &mut occluder, work);
+    if occluder != guess {
+        walk.remember(light, occluder);
+    }
+    shadowed
+}
+
+/// As [`shadowed_together`], where only a few things may stand between.
+#[inline(always)]
+pub(super) fn shadowed_between(
+    tracer: &Tracer,
+    walk: &mut Walk,
+    light: usize,
+    between: &Between,
+    (rays, reaches): (&Rays, &Row),
+) -> u32 {
+    walk.counters.shadow += u64::from(rays.mask.count_ones());
+    let guess = walk.occluders.get(light).copied().unwrap_or(Occluder::NONE);
+    let mut occluder = guess;
+    let work = &mut walk.counters.work;
+    let rays = (rays, reaches);
+    let shadowed = tracer.geometry.occluded_between(between, rays, &mut occluder, work);
     if occluder != guess {
         walk.remember(light, occluder);
     }

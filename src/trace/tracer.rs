@@ -1,6 +1,7 @@
 //! What the stages of a frame share: the World, what rays meet, and which stages run.
 
 use super::Watch;
+use super::area::Panel;
 use super::batch::SLICE;
 use super::media::Around;
 use super::sharpness::Sharpness;
@@ -19,6 +20,8 @@ pub(super) struct Tracer<'a> {
     /// What mirrored rays meet.
     in_reflections: &'a Geometry,
     pub sharpness: Sharpness,
+    /// Of each light that has an area, where its light comes from.
+    pub panels: Vec<Option<Panel>>,
     /// Surfaces are lit.
     pub lights: bool,
     /// All lights are points or directions, and light everything.
@@ -73,6 +76,7 @@ impl<'a> Tracer<'a> {
             in_image: geometry.in_image(),
             in_reflections: geometry.in_reflections(),
             sharpness: Sharpness::of(world),
+            panels: panels(world, plan),
             lights: plan.runs(Stage::Light),
             lights_are_plain: world.light_sets.is_empty()
                 && world.lights.iter().all(Light::is_plain),
@@ -124,6 +128,11 @@ impl<'a> Tracer<'a> {
         let cut = weight < self.adc_bailout;
         (!cut).then_some(weight)
     }
+}
+
+fn panels(world: &World, plan: &Plan) -> Vec<Option<Panel>> {
+    let lights = world.lights.iter().enumerate();
+    lights.map(|(number, light)| Panel::new(number, light, plan.light_samples)).collect()
 }
 
 /// How many surfaces are shaded together, where dispersion may split a ray at each of them.

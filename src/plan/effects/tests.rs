@@ -4,7 +4,7 @@ use super::*;
 use crate::color::{Color, Rgb};
 use crate::math::Vector;
 use crate::pattern::{Checker, Kind, Setting, Wave};
-use crate::plan::Frame;
+use crate::plan::{Frame, Samples};
 use crate::shape::{Shape, Sphere};
 use crate::source::{ExpansionId, FileId, Span};
 use crate::texture::{Blend, Pattern, Source, Space};
@@ -86,6 +86,8 @@ const OPTIONS: PlanOptions = PlanOptions {
     adc_bailout: None,
     root_tolerance: 0.0,
     julia_iterations: None,
+    light_samples: Samples::Scene,
+    blur_samples: Samples::Scene,
 };
 
 /// Changes the lit mirror and asks why the effect is left out.

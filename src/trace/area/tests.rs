@@ -1,7 +1,8 @@
 //! Area lights beside POV-Ray's, and the laws of their grids.
 
 use super::*;
-use crate::plan::{Antialias, Frame, PlanOptions, plan};
+use crate::math::UnitVector;
+use crate::plan::{Antialias, Frame, PlanOptions, Samples, plan};
 use crate::shape::{Plane, Shape, Sphere};
 use crate::trace::{TraceOptions, Traced, Unwatched, trace};
 use crate::world::{
@@ -138,11 +139,47 @@ fn nodes_are_asked_for_once_and_only_where_shadows_are() {
         traced.counters.shadow as f64 / 48.0
     };
     let grid = Area { nodes: [9, 9], ..EVERY_NODE };
-    assert_eq!(rays(grid, false), 81.0);
-    let adaptive = Area { least_divisions: 1, ..grid };
-    assert_eq!(rays(adaptive, true), 9.0);
-    assert!((9.0..60.0).contains(&rays(adaptive, false)));
-    assert_eq!(rays(Area { nodes: [4, 6], ..EVERY_NODE }, false), 24.0);
+    // Where nothing is between, nothing is asked; elsewhere, all are.
+    let places = rays(grid, false) * 48.0 / 81.0;
+    assert!(places.fract() == 0.0 && (1.0..30.0).contains(&places), "{places}");
+    assert_eq!(rays(grid, true), 0.0);
+    assert_eq!(rays(Area { nodes: [4, 6], ..EVERY_NODE }, false) * 48.0 / 24.0, places);
+    let adaptive = rays(Area { least_divisions: 1, ..grid }, false) * 48.0 / places;
+    assert!((9.0..60.0).contains(&adaptive), "{adaptive}");
+}
+
+#[test]
+fn samples_spread_over_a_light_come_to_what_a_fine_grid_shows() {
+    let seen = |area: Area, light_samples: Samples| {
+        let world = wall(Some(area));
+        let frame = Frame::whole(40, 30);
+        let options =
+            PlanOptions { antialias: Antialias::Off, light_samples, ..PlanOptions::new(frame) };
+        let plan = plan(&world, &Origins::default(), &options);
+        let picture = |threads, tile_side| {
+            let options = TraceOptions { tile_side, ..TraceOptions::on_threads(threads) };
+            trace(&world, &plan, &options, &Unwatched)
+        };
+        let traced = picture(1, None);
+        assert_eq!(picture(2, Some(7)).film.radiance, traced.film.radiance);
+        let rays = traced.counters.shadow;
+        (traced.film.radiance.into_iter().map(|seen| seen.red).collect::<Vec<_>>(), rays)
+    };
+    let off = |a: &[f64], b: &[f64]| {
+        let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
+        (squares.sum::<f64>() / a.len() as f64).sqrt()
+    };
+    for illuminates in [false, true] {
+        let area = Area { illuminates, ..EVERY_NODE };
+        let (fine, _) = seen(Area { nodes: [65, 65], ..area }, Samples::Scene);
+        let errors = [4, 16, 64, 256].map(|count| off(&seen(area, Samples::Fixed(count)).0, &fine));
+        // Four times as many leave less than half of the error.
+        assert!(errors.windows(2).all(|pair| pair[1] < 0.5 * pair[0]), "{errors:?}");
+        let (_, all) = seen(area, Samples::Fixed(256));
+        let threshold = 0.02;
+        let (known, some) = seen(area, Samples::Adaptive { threshold, most: 256 });
+        assert!(off(&known, &fine) < threshold && 2 * some < all, "{some} {all}");
+    }
 }
 
 #[test]

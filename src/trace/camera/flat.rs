@@ -1,6 +1,6 @@
 //! The perspective and the orthographic camera: the screen is a plane.
 
-use super::{Projection, unit};
+use super::{Focus, Point, Projection, unit};
 use crate::math::Vector;
 use crate::math::wide::*;
 use crate::shape::Ray;
@@ -54,6 +54,62 @@ impl Flat {
             odd |= bits(!square.is_normal(), group);
         }
         odd
+    }
+
+    /// Returns the rays of a lens through points of the screen.
+    pub(super) fn blurred(&self, focus: &Focus, points: &[Point]) -> Vec<Option<Ray>> {
+        let mut all = Vec::with_capacity(points.len());
+        for points in points.chunks(ROW) {
+            let (mut places, mut rays) = ([[0.0; ROW]; 4], Rays::NONE);
+            for (number, Point { u, v, lens: [x, y] }) in points.iter().enumerate() {
+                let [all_u, all_v, all_x, all_y] = &mut places;
+                (all_u[number], all_v[number]) = (*u, *v);
+                (all_x[number], all_y[number]) = (*x, *y);
+            }
+            rays.mask = (1 << points.len()) - 1;
+            let level = Instructions::best().level();
+            let odd = dispatch!(level, simd => self.bend(simd, focus, &places, &mut rays));
+            for number in numbers(odd) {
+                let Point { u, v, lens } = points[number];
+                let ray = focus.bent(self.line(u, v), lens);
+                rays.set(number, &Ray { direction: unit(ray.direction), ..ray });
+            }
+            all.extend((0..points.len()).map(|number| Some(rays.at(number))));
+        }
+        all
+    }
+
+    /// Finds the rays of a lens, as [`Focus::bent`] does; returns a bit for each whose direction has too long or too
+    /// short a square.
+    #[inline(always)]
+    fn bend<S: Simd>(
+        &self,
+        simd: S,
+        focus: &Focus,
+        [u, v, x, y]: &[Row; 4],
+        rays: &mut Rays,
+    ) -> u32 {
+        let mut odd = 0;
+        for group in 0..GROUPS {
+            if !has(rays.mask, group) {
+                continue;
+            }
+            let (u, v) = (four(simd, u, group), four(simd, v, group));
+            let (x, y) = (four(simd, x, group), four(simd, y, group));
+            let start = WideVector::splat(simd, self.origin) + along(simd, self.shift, u, v);
+            let way = WideVector::splat(simd, self.direction) + along(simd, self.turn, u, v);
+            let lens = along(simd, focus.axes(), x, y) * all(simd, focus.radius);
+            let way = way / all(simd, focus.depth_of_flat());
+            let direction = match focus.distance > focus.radius {
+                true => way - lens / all(simd, focus.distance),
+                false => way * all(simd, focus.distance) - lens,
+            };
+            let square = direction.length_squared();
+            (start + lens).store(&mut rays.origins, group);
+            (direction / square.sqrt()).store(&mut rays.directions, group);
+            odd |= bits(!square.is_normal(), group);
+        }
+        odd & rays.mask
     }
 
     fn line(&self, u: f64, v: f64) -> Ray {

@@ -9,12 +9,18 @@ use super::{Axes, length, unit};
 use crate::math::Vector;
 use crate::math::elementary::erf;
 use crate::math::random::Random;
+use crate::plan::Samples;
 use crate::shape::Ray;
 use crate::texture::Pigment;
 use crate::world::{self, Camera};
 
 /// Bases of the sequences of samples: two for the pixel, two for the lens.
 const BASES: [u32; 4] = [2, 3, 5, 7];
+
+/// Samples with which a pixel is known to no error at all, if they agree; and the probability with which the error of
+/// others is below what is wanted: for samples that are not the scene's.
+const LEAST: u32 = 8;
+const CONFIDENCE: f64 = 0.9;
 
 /// A lens that blurs.
 pub(in crate::trace) struct Focus {
@@ -23,14 +29,19 @@ pub(in crate::trace) struct Focus {
     /// A pixel needs no more than its first n samples if their variance is below that at index n: with a wanted
     /// variance of 0, it always has the most (as in POV-Ray).
     limits: Vec<f64>,
-    radius: f64,
-    distance: f64,
+    pub(super) radius: f64,
+    pub(super) distance: f64,
     /// What the direction of a flat camera's ray is divided by, so that it reaches the plane at distance 1.
     depth: Option<f64>,
     right: Vector,
     up: Vector,
     bokeh: Option<Bokeh>,
+    /// The first samples.
+    samples: Vec<Sample>,
 }
+
+/// Samples that are found once for all pixels.
+const KNOWN: u32 = 1024;
 
 impl Focus {
     pub fn new(camera: &Camera, focus: &world::Focus) -> Self {
@@ -49,15 +60,61 @@ impl Focus {
             right,
             up,
             bokeh: focus.bokeh.as_deref().and_then(Bokeh::new),
+            samples: (0..KNOWN).map(Sample::new).collect(),
         }
     }
 
-    /// Returns the ray through a point of the lens, 0 … 1 in two numbers, instead of one through its middle.
-    pub fn bent(&self, ray: Ray, sample: [f64; 2]) -> Ray {
-        let (x, y) = match &self.bokeh {
-            Some(bokeh) => bokeh.place(sample),
-            None => disc(sample),
-        };
+    /// Returns the same lens, sampled as the options say.
+    pub fn sampled(self, samples: Samples) -> Self {
+        match samples {
+            Samples::Scene => self,
+            Samples::Fixed(most) => Self { least: most, most, limits: Vec::new(), ..self },
+            Samples::Adaptive { threshold, most } => {
+                let least = LEAST.min(most);
+                let variance = threshold * threshold;
+                // Here, what is wanted does not depend on how many more there may be.
+                let limit = |n: u32| {
+                    limit(n, most, CONFIDENCE, variance) * f64::from(most) / f64::from(n.max(1))
+                };
+                Self { least, most, limits: (0..=most).map(limit).collect(), ..self }
+            }
+        }
+    }
+
+    /// Returns the point of the lens, −1 … 1 to the right and up, for two numbers from 0 to 1.
+    pub fn point(&self, numbers: [f64; 2]) -> [f64; 2] {
+        match &self.bokeh {
+            Some(bokeh) => bokeh.place(numbers),
+            None => {
+                let [radial, turn] = numbers;
+                let (sine, cosine) = super::sin_cos(turn);
+                let radius = radial.sqrt();
+                [radius * cosine, radius * sine]
+            }
+        }
+    }
+
+    /// Returns sample `number` of a pixel: a point of the pixel, 0 … 1 from its left and from its top, and one of the
+    /// lens. It depends on nothing else.
+    #[inline(always)]
+    pub fn sample(&self, shift: &Shift, number: u32) -> [[f64; 2]; 2] {
+        let known = self.samples.get(number as usize);
+        let Sample { numbers: [a, b, c, d], cosine, sine } =
+            known.copied().unwrap_or_else(|| Sample::new(number));
+        let [right, down, first, second] = shift.numbers;
+        let within = [wrapped(a + right), wrapped(b + down)];
+        let radial = wrapped(c + first);
+        if self.bokeh.is_some() {
+            return [within, self.point([radial, wrapped(d + second)])];
+        }
+        let radius = radial.sqrt();
+        let x = cosine * shift.cosine - sine * shift.sine;
+        let y = sine * shift.cosine + cosine * shift.sine;
+        [within, [radius * x, radius * y]]
+    }
+
+    /// Returns the ray through a point of the lens, −1 … 1 to the right and up, instead of one through its middle.
+    pub fn bent(&self, ray: Ray, [x, y]: [f64; 2]) -> Ray {
         let lens = (self.right * x + self.up * y) * self.radius;
         let along = match self.depth {
             Some(depth) => ray.direction / depth,
@@ -69,6 +126,22 @@ impl Focus {
         };
         let is_lost = direction == Vector::ZERO || !direction.is_finite();
         Ray { origin: ray.origin + lens, direction: if is_lost { along } else { direction } }
+    }
+
+    /// Returns the directions in which points of the lens are counted.
+    pub(super) fn axes(&self) -> [Vector; 2] {
+        [self.right, self.up]
+    }
+
+    /// Returns what the direction of a flat camera's ray is divided by.
+    pub(super) fn depth_of_flat(&self) -> f64 {
+        self.depth.unwrap_or(1.0)
+    }
+
+    /// Returns how many samples a pixel has at once after its first `count`: so many, or all if it has them anyway.
+    pub fn at_once(&self, count: u32) -> u32 {
+        let may_be_enough = self.limits.last().is_some_and(|most| *most > 0.0);
+        if may_be_enough { count } else { self.most }
     }
 
     /// Returns whether a pixel needs no more than its first `count` samples, of this variance.
@@ -107,20 +180,44 @@ fn quantile(probability: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Returns the point of a disc of radius 1.
-fn disc([radial, turn]: [f64; 2]) -> (f64, f64) {
-    let (sine, cosine) = super::sin_cos(turn);
-    let radius = radial.sqrt();
-    (radius * cosine, radius * sine)
+/// A sample of all pixels, before it is shifted.
+#[derive(Debug, Clone, Copy)]
+struct Sample {
+    numbers: [f64; 4],
+    /// Of the turn that the last of them is.
+    cosine: f64,
+    sine: f64,
 }
 
-/// Returns sample `number` of a pixel: a point of the pixel and one of the lens. It depends on nothing else.
-pub(super) fn numbered((x, y): (u32, u32), number: u32) -> [f64; 4] {
-    let mut random = Random::of(0, u64::from(x) << 32 | u64::from(y));
-    BASES.map(|base| {
-        let sum = inverse(number + 1, base) + random.number(0.0, 1.0);
-        sum - sum.floor()
-    })
+impl Sample {
+    fn new(number: u32) -> Self {
+        let numbers = BASES.map(|base| inverse(number + 1, base));
+        let (sine, cosine) = super::sin_cos(numbers[3]);
+        Self { numbers, cosine, sine }
+    }
+}
+
+/// By how much the samples of a pixel are shifted, and turned in the lens.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::trace) struct Shift {
+    numbers: [f64; 4],
+    cosine: f64,
+    sine: f64,
+}
+
+impl Shift {
+    pub fn of((x, y): (u32, u32)) -> Self {
+        let mut random = Random::of(0, u64::from(x) << 32 | u64::from(y));
+        let numbers = BASES.map(|_| random.number(0.0, 1.0));
+        let (sine, cosine) = super::sin_cos(numbers[3]);
+        Self { numbers, cosine, sine }
+    }
+}
+
+/// Returns the part behind the point of a number from 0 to 2.
+#[inline(always)]
+fn wrapped(number: f64) -> f64 {
+    if number < 1.0 { number } else { number - 1.0 }
 }
 
 /// Returns the digits of a number in reverse, behind the point.
@@ -159,7 +256,7 @@ impl Bokeh {
     }
 
     /// Returns the point of the lens, −1 … 1 to the right and up; the pigment's y points down.
-    fn place(&self, [first, second]: [f64; 2]) -> (f64, f64) {
+    fn place(&self, [first, second]: [f64; 2]) -> [f64; 2] {
         let all = self.sums.last().copied().unwrap_or(1.0);
         let wanted = first * all;
         let cell = self.sums.partition_point(|sum| *sum <= wanted).min(SIDE * SIDE - 1);
@@ -168,6 +265,6 @@ impl Bokeh {
         let within = if within.is_finite() { within } else { 0.5 };
         let x = ((cell % SIDE) as f64 + within) / SIDE as f64;
         let y = ((cell / SIDE) as f64 + second) / SIDE as f64;
-        (2.0 * x - 1.0, 1.0 - 2.0 * y)
+        [2.0 * x - 1.0, 1.0 - 2.0 * y]
     }
 }

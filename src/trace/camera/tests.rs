@@ -137,7 +137,9 @@ fn any_lens_gives_directions_of_length_one() {
     for distance in [0.0, 1e-300, 1.0, 1e300] {
         for radius in [1e-300, 1e-5, 1.0, 1e300] {
             let lens = blurred(CameraKind::Perspective, distance, radius);
-            let points: Vec<Point> = (0..20).map(|k| lens.blurred((1, 2), k)).collect();
+            let (focus, shift) = (lens.focus().expect("blurs"), Shift::of((1, 2)));
+            let points: Vec<Point> =
+                (0..20).map(|k| lens.blurred(focus, (1, 2), &shift, k)).collect();
             for ray in lens.rays(&points).into_iter().flatten() {
                 let long = ray.direction.length();
                 assert!((long - 1.0).abs() < 1e-15, "{distance} {radius}: {ray:?}");
@@ -149,16 +151,23 @@ fn any_lens_gives_directions_of_length_one() {
 #[test]
 fn samples_of_a_pixel_cover_it_and_the_lens_evenly() {
     let count = 1000;
-    let samples = (0..count).map(|k| focus::numbered((3, 5), k));
+    let lens = blurred(CameraKind::Perspective, 10.0, 2.0);
+    let (focus, shift) = (lens.focus().expect("blurs"), Shift::of((3, 5)));
     let mut means = [[0.0; 2]; 4];
-    for sample in samples {
-        for (mean, x) in means.iter_mut().zip(sample) {
-            assert!((0.0..1.0).contains(&x));
+    for number in 0..count {
+        let [within, lens] = focus.sample(&shift, number);
+        assert!(within.iter().all(|x| (0.0..1.0).contains(x)));
+        assert!(lens[0] * lens[0] + lens[1] * lens[1] <= 1.0);
+        for (mean, x) in means.iter_mut().zip(within.into_iter().chain(lens)) {
             *mean = [mean[0] + x, mean[1] + x * x];
         }
     }
-    for [mean, square] in means.map(|mean| mean.map(|sum| sum / f64::from(count))) {
-        assert!((mean - 0.5).abs() < 0.01 && (square - 1.0 / 3.0).abs() < 0.01, "{mean} {square}");
+    let means = means.map(|mean| mean.map(|sum| sum / f64::from(count)));
+    // The square's mean of a square's side, and of a disc's coordinate.
+    for ([mean, square], expected) in means.into_iter().zip([0.5, 0.5, 0.0, 0.0]) {
+        let square_expected = if expected > 0.0 { 1.0 / 3.0 } else { 0.25 };
+        assert!((mean - expected).abs() < 0.01, "{mean} {expected}");
+        assert!((square - square_expected).abs() < 0.01, "{square} {expected}");
     }
 }
 
