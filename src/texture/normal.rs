@@ -58,33 +58,39 @@ impl Normal {
         outer: Option<&Place>,
         around: &dyn Surroundings,
     ) -> Vector {
-        frame::unit(self.entry(normal, (outer, None), around), normal)
+        frame::unit(self.entry(normal, (outer, None), false, around), normal)
     }
 
     /// As [`Self::perturbed`], not of length 1 where bumps keep their depth. `within` is the point in the space
-    /// of the normal around it, which has turned `normal`; a texture around it has not.
+    /// of the normal around it, which has turned `normal`; a texture around it has not. `keeps` is whether that normal
+    /// keeps its depth.
     fn entry(
         &self,
         normal: Vector,
         (outer, within): (Option<&Place>, Option<&Place>),
+        keeps: bool,
         around: &dyn Surroundings,
     ) -> Vector {
+        let keeps = keeps || self.keeps_depth();
         match self {
-            Self::Bumps(bumps) => bumps.entry(normal, (outer, within), around),
-            Self::Image { space, image, amount, keeps_depth } => {
+            Self::Bumps(bumps) => bumps.entry(normal, (outer, within), keeps, around),
+            Self::Image { space, image, amount, .. } => {
                 let place = Place::new(space, outer, around);
-                let frame = Frame::new(turned(&place, within), *keeps_depth);
+                let frame = Frame::new(turned(&place, within), keeps);
                 frame.entry(normal, |normal| match image.heights(place.point) {
-                    Some(heights) => bump_map::displacement(normal, heights) * *amount,
+                    Some(heights) => {
+                        let direction = frame::unit(normal, Vector::Y);
+                        bump_map::displacement(direction, heights) * *amount
+                    }
                     None => Vector::ZERO,
                 })
             }
-            Self::Blend { blend, keeps_depth } => {
+            Self::Blend { blend, .. } => {
                 let (place, mix) = blend.at(outer, around);
-                let frame = Frame::new(turned(&place, within), *keeps_depth);
+                let frame = Frame::new(turned(&place, within), keeps);
                 frame.entry(normal, |normal| {
-                    let inside =
-                        |inner: &Normal| inner.entry(normal, (Some(&place), Some(&place)), around);
+                    let within = (Some(&place), Some(&place));
+                    let inside = |inner: &Normal| inner.entry(normal, within, keeps, around);
                     match mix {
                         None => Vector::ZERO,
                         Some(Mix::One(one)) => inside(one) - normal,
@@ -94,16 +100,27 @@ impl Normal {
                     }
                 })
             }
-            Self::Average { space, entries, keeps_depth } => {
+            Self::Average { space, entries, .. } => {
                 let place = Place::new(space, outer, around);
-                let frame = Frame::new(turned(&place, within), *keeps_depth);
+                let frame = Frame::new(turned(&place, within), keeps);
                 frame.entry(normal, |normal| {
+                    let within = (Some(&place), Some(&place));
                     let entries = entries.iter().map(|(weight, inner)| {
-                        (*weight, inner.entry(normal, (Some(&place), Some(&place)), around))
+                        (*weight, inner.entry(normal, within, keeps, around))
                     });
                     blend::average(entries, normal) - normal
                 })
             }
+        }
+    }
+
+    /// Returns whether it says `no_bump_scale`, which holds for its entries, too.
+    fn keeps_depth(&self) -> bool {
+        match self {
+            Self::Bumps(Bumps { keeps_depth, .. })
+            | Self::Image { keeps_depth, .. }
+            | Self::Blend { keeps_depth, .. }
+            | Self::Average { keeps_depth, .. } => *keeps_depth,
         }
     }
 
@@ -134,10 +151,11 @@ impl Bumps {
         &self,
         normal: Vector,
         (outer, within): (Option<&Place>, Option<&Place>),
+        keeps: bool,
         around: &dyn Surroundings,
     ) -> Vector {
         let place = Place::new(&self.space, outer, around);
-        let frame = Frame::new(turned(&place, within), self.keeps_depth);
+        let frame = Frame::new(turned(&place, within), keeps);
         frame.entry(normal, |normal| self.displacement(normal, &place))
     }
 

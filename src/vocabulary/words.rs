@@ -521,6 +521,7 @@ vocabulary! {
     }
     FileKind {
         Ascii "ascii" statement later "7-bit text";
+        Bmp "bmp" statement built "a BMP picture";
         Df3 "df3" statement built "a grid of densities, for `density_file`";
         Exr "exr" statement built "an OpenEXR picture";
         Gif "gif" statement built "a GIF picture";

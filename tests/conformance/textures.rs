@@ -17,6 +17,10 @@
 //! * A second `noise_generator` in a pigment, also after the default's: the bits of both numbers count
 //!   together, so `noise_generator 2 noise_generator 1` is 3.
 //!
+//! Nor are these drawn, which have tests of their own: `crand`, `interior_texture`, `cutaway_textures`, `texture_list`,
+//! textures of the parts of a blob, `dispersion`, `fade_distance`, `gamma` and `premultiplied` of a picture, and
+//! `tiling 1`, whose number a negative amount would make a difference.
+//!
 //! Nor is `interpolate` drawn for a `material_map`, where lucarne interpolates the numbers of textures in
 //! another way.
 

@@ -19,7 +19,8 @@ use super::named::{NamedFile, is_of_picture};
 use crate::function::Outside;
 
 /// Keywords for image types, and their file extensions.
-const TYPES: [(Word, &[&str]); 12] = [
+const TYPES: [(Word, &[&str]); 13] = [
+    (Word::Bmp, &[".bmp", ".BMP"]),
     (Word::Exr, &[".exr", ".EXR"]),
     (Word::Gif, &[".gif", ".GIF"]),
     (Word::Hdr, &[".hdr", ".HDR"]),

@@ -129,6 +129,16 @@ impl Evaluator<'_> {
             {
                 evaluator.next();
             }
+            if let Some(function @ Token { kind: TokenKind::Word(Word::Function), .. }) =
+                evaluator.peek().cloned()
+            {
+                let name = word.name();
+                let message = format!("`{name}` of a function is not supported yet");
+                let diagnostic = Diagnostic::new(Code::NotSupportedYet, message)
+                    .at(function.span, "only pictures in files are")
+                    .help("`pigment { function { … } color_map { … } }` shows its values");
+                return Err(evaluator.report(&function.here, diagnostic));
+            }
             if let Some(Token { kind: TokenKind::Expression(id), .. }) = evaluator.peek().cloned()
                 && let Some(first) = evaluator.peek().cloned()
                 && evaluator.misspelt_kind(&first, id)
