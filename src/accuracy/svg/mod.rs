@@ -340,7 +340,7 @@ impl Key {
 }
 
 /// Number of marker shapes; equal to the number of colors.
-const SHAPES: usize = 6;
+const SHAPES: usize = 8;
 
 /// Draws the marker of a knob.
 fn marker(number: usize, x: f64, y: f64, with: &str) -> String {
@@ -354,6 +354,8 @@ fn marker(number: usize, x: f64, y: f64, with: &str) -> String {
         2 => format!("<path{with} d=\"M{x:.1} {:.1}l4.8 8.4h-9.6z\"/>", y - 5.4),
         3 => format!("<path{with} d=\"M{x:.1} {:.1}l5 5l-5 5l-5-5z\"/>", y - 5.0),
         4 => format!("<path{with} d=\"M{x:.1} {:.1}l-4.8-8.4h9.6z\"/>", y + 5.4),
+        5 => format!("<path{with} d=\"M{:.1} {y:.1}l-8.4 4.8v-9.6z\"/>", x + 5.4),
+        6 => format!("<path{with} d=\"M{:.1} {y:.1}l8.4 4.8v-9.6z\"/>", x - 5.4),
         _ => format!(
             "<path{with} d=\"M{:.1} {:.1}h2.8v3.2h3.2v2.8h-3.2v3.2h-2.8v-3.2h-3.2v-2.8h3.2z\"/>",
             x - 1.4,
