@@ -44,10 +44,11 @@ text{font:13px Helvetica,Arial,'Liberation Sans',sans-serif;fill:#222}
 .rest{opacity:.55}.open{fill:#fff}
 .k0{fill:#0072b2;stroke:#0072b2}.k1{fill:#d55e00;stroke:#d55e00}.k2{fill:#009e73;stroke:#009e73}
 .k3{fill:#cc79a7;stroke:#cc79a7}.k4{fill:#b07a00;stroke:#b07a00}.k5{fill:#56b4e9;stroke:#56b4e9}
+.k6{fill:#7b5ea7;stroke:#7b5ea7}.k7{fill:#8c5a2b;stroke:#8c5a2b}
 @media (prefers-color-scheme:dark){text{fill:#eee}.dim{fill:#aaa}.page,.open{fill:#161616}.plot{stroke:#aaa}
 .grid{stroke:#333}.minor{stroke:#242424}.front,.own{stroke:#eee}.label{stroke:#161616}
 .k0{fill:#4aa8e0;stroke:#4aa8e0}.k1{fill:#ff8a3d;stroke:#ff8a3d}.k2{fill:#2fd0a0;stroke:#2fd0a0}
-.k4{fill:#f0b429;stroke:#f0b429}}";
+.k4{fill:#f0b429;stroke:#f0b429}.k6{fill:#b39ddb;stroke:#b39ddb}.k7{fill:#d2a679;stroke:#d2a679}}";
 
 /// Returns the diagram as the text of an SVG file.
 pub fn text(report: &Report, file: &str, host: &Host) -> String {
