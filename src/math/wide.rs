@@ -158,6 +158,24 @@ pub(crate) fn lanes(bits: u32, group: usize) -> u32 {
     bits >> (LANES * group) & ((1 << LANES) - 1)
 }
 
+/// Runs a statement, with the widest instructions, for the points of each group of a row that a mask has bits for. A
+/// macro, as a closure would not be compiled for the instructions.
+macro_rules! by_group {
+    ($points:expr, $mask:expr, |$simd:ident, $four:ident, $lanes:ident, $group:ident| $run:expr) => {
+        dispatch!(Instructions::best().level(), $simd => {
+            for $group in 0..GROUPS {
+                let $lanes = lanes($mask, $group);
+                if $lanes != 0 {
+                    let $four = WideVector::of($simd, $points, $group);
+                    $run;
+                }
+            }
+        })
+    };
+}
+
+pub(crate) use by_group;
+
 /// Returns the numbers of the bits of a row.
 #[inline(always)]
 pub(crate) fn numbers(bits: u32) -> Numbers {

@@ -93,13 +93,8 @@ pub fn bounds_and_slopes(
 
 /// Replaces the values that the mask has a bit for by [`noise`]; others may have any value then.
 pub fn noises(generator: NoiseGenerator, points: &Rows, mask: u32, values: &mut Row) {
-    dispatch!(Instructions::best().level(), simd => {
-        for group in 0..GROUPS {
-            if has(mask, group) {
-                let (points, lanes) = (WideVector::of(simd, points, group), lanes(mask, group));
-                store(noise_of_four(simd, generator, points, lanes), values, group);
-            }
-        }
+    by_group!(points, mask, |simd, four, lanes, group| {
+        store(noise_of_four(simd, generator, four, lanes), values, group)
     });
 }
 
@@ -111,13 +106,8 @@ pub fn vector_noise(point: Vector) -> Vector {
 
 /// Replaces the vectors that the mask has a bit for by [`vector_noise`]; others may have any value then.
 pub fn vector_noises(points: &Rows, mask: u32, vectors: &mut Rows) {
-    dispatch!(Instructions::best().level(), simd => {
-        for group in 0..GROUPS {
-            if has(mask, group) {
-                let (points, lanes) = (WideVector::of(simd, points, group), lanes(mask, group));
-                four::triples_of_four(simd, points, lanes).store(vectors, group);
-            }
-        }
+    by_group!(points, mask, |simd, four, lanes, group| {
+        four::triples_of_four(simd, four, lanes).store(vectors, group)
     });
 }
 

@@ -53,13 +53,8 @@ impl Turbulence {
 
     /// Replaces the vectors that the mask has a bit for by [`vector`](Self::vector); others may have any value then.
     pub fn vectors(&self, points: &Rows, mask: u32, vectors: &mut Rows) {
-        dispatch!(Instructions::best().level(), simd => {
-            for group in 0..GROUPS {
-                if has(mask, group) {
-                    let points = WideVector::of(simd, points, group);
-                    self.vectors_of_four(simd, points, lanes(mask, group)).store(vectors, group);
-                }
-            }
+        by_group!(points, mask, |simd, four, lanes, group| {
+            self.vectors_of_four(simd, four, lanes).store(vectors, group)
         });
     }
 
@@ -99,13 +94,8 @@ impl Turbulence {
 
     /// Replaces the numbers that the mask has a bit for by [`number`](Self::number); others may have any value then.
     pub fn numbers(&self, generator: NoiseGenerator, points: &Rows, mask: u32, numbers: &mut Row) {
-        dispatch!(Instructions::best().level(), simd => {
-            for group in 0..GROUPS {
-                if has(mask, group) {
-                    let (points, lanes) = (WideVector::of(simd, points, group), lanes(mask, group));
-                    store(self.numbers_of_four(simd, generator, points, lanes), numbers, group);
-                }
-            }
+        by_group!(points, mask, |simd, four, lanes, group| {
+            store(self.numbers_of_four(simd, generator, four, lanes), numbers, group)
         });
     }
 

@@ -58,13 +58,8 @@ impl Layers {
 
     /// Replaces the values that the mask has a bit for by [`Layers::value`]; others may have any value then.
     pub fn values(&self, points: &Rows, mask: u32, setting: &Setting, values: &mut Row) {
-        dispatch!(Instructions::best().level(), simd => {
-            for group in 0..GROUPS {
-                if has(mask, group) {
-                    let (points, lanes) = (WideVector::of(simd, points, group), lanes(mask, group));
-                    store(self.values_of_four(simd, points, lanes, setting.noise), values, group);
-                }
-            }
+        by_group!(points, mask, |simd, four, lanes, group| {
+            store(self.values_of_four(simd, four, lanes, setting.noise), values, group)
         });
     }
 

@@ -163,11 +163,11 @@ impl<'a> Tracer<'a> {
     pub(super) fn light_one_by_one(
         &self,
         walk: &mut Walk,
-        stands: &mut SurfaceBatch,
+        batch: &mut SurfaceBatch,
         (number, light): (usize, &Light),
     ) {
-        for of in numbers(stands.mask) {
-            let Some(ShadedSurface { hit, place, surface, .. }) = stands.at(of) else { continue };
+        for of in numbers(batch.mask) {
+            let Some(ShadedSurface { hit, place, surface, .. }) = batch.at(of) else { continue };
             let normal = place.flat.map_or(place.normal, |flat| flat.normal);
             let behind = place.flat.map_or_else(|| surface.spawn(-normal), |flat| flat.behind);
             let ground = Ground { place: &place, behind, lights: self.lights_of(hit.object) };
@@ -178,7 +178,7 @@ impl<'a> Tracer<'a> {
                 && ground.is_lit_by(number)
                 && let Some(lit) = shade::before(self, walk, &ground, (number, light))
             {
-                stands.answers.add_to(of, lit);
+                batch.answers.add_to(of, lit);
             }
         }
     }

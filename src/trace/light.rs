@@ -159,10 +159,10 @@ impl Answers {
 
     /// Prepares the answers of surfaces: at first each shows what it shows by itself.
     #[inline(always)]
-    fn begin(stands: &mut SurfaceBatch) {
-        for number in numbers(stands.mask) {
-            let Some(finish) = stands.finish(number) else { continue };
-            let SurfaceBatch { answers, local, bodies, .. } = stands;
+    fn begin(batch: &mut SurfaceBatch) {
+        for number in numbers(batch.mask) {
+            let Some(finish) = batch.finish(number) else { continue };
+            let SurfaceBatch { answers, local, bodies, .. } = batch;
             answers.mask |= if shade::answers(finish) { 1 << number } else { 0 };
             answers.sums.set(number, vector(local[number]));
             answers.bodies.set(number, vector(bodies[number]));
@@ -212,17 +212,17 @@ impl Tracer<'_> {
         layers.iter_mut().for_each(Answers::begin);
         for (number, light) in self.world.lights.iter().enumerate() {
             if !light.is_plain() || !self.world.light_sets.is_empty() {
-                for stands in layers.iter_mut() {
-                    self.light_one_by_one(walk, stands, (number, light));
+                for batch in layers.iter_mut() {
+                    self.light_one_by_one(walk, batch, (number, light));
                 }
             } else if grounds.answers != 0 {
                 self.light_together(walk, layers, &grounds, (number, light));
             }
         }
-        for stands in layers {
-            for number in numbers(stands.mask) {
-                let Vector { x: red, y: green, z: blue } = stands.answers.sums.at(number);
-                stands.local[number] = Rgb { red, green, blue };
+        for batch in layers {
+            for number in numbers(batch.mask) {
+                let Vector { x: red, y: green, z: blue } = batch.answers.sums.at(number);
+                batch.local[number] = Rgb { red, green, blue };
             }
         }
     }
@@ -279,22 +279,22 @@ impl Tracer<'_> {
                 lit &= if color == Vector::ZERO { !(1 << surface) } else { u32::MAX };
             }
         }
-        for stands in layers {
-            let lit = lit & stands.mask & stands.answers.mask;
+        for batch in layers {
+            let lit = lit & batch.mask & batch.answers.mask;
             if self.counts {
-                let finishes = numbers(lit).filter_map(|surface| stands.finish(surface));
+                let finishes = numbers(lit).filter_map(|surface| batch.finish(surface));
                 finishes.for_each(|finish| shade::count(walk, finish, light));
             }
-            let (more, cosines) = (lit & stands.answers.more, &aims.cosines);
-            let answers = &mut stands.answers;
+            let (more, cosines) = (lit & batch.answers.more, &aims.cosines);
+            let answers = &mut batch.answers;
             dispatch!(level, simd => answers.add(simd, lit & !more, &colors, cosines));
             for surface in numbers(more) {
-                let Some(ShadedSurface { place, .. }) = stands.at(surface) else { continue };
+                let Some(ShadedSurface { place, .. }) = batch.at(surface) else { continue };
                 let to_light = aims.rays.directions.at(surface);
                 let light = (number, light);
                 let answer = shade::answered(&place, light, to_light, cosines[surface], 0);
                 let Vector { x: red, y: green, z: blue } = colors.at(surface);
-                stands.answers.add_to(surface, Rgb { red, green, blue } * answer);
+                batch.answers.add_to(surface, Rgb { red, green, blue } * answer);
             }
         }
     }

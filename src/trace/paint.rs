@@ -14,55 +14,55 @@ use crate::world::{Pigment, Plain};
 impl<'a> Tracer<'a> {
     /// Finds the colours and normals of surfaces.
     #[inline(always)]
-    pub(super) fn paint(&self, stands: &mut SurfaceBatch<'a, '_, '_>) {
+    pub(super) fn paint(&self, batch: &mut SurfaceBatch<'a, '_, '_>) {
         let (mut patterned, mut bumpy) = (0, 0);
-        for number in numbers(stands.mask) {
-            match stands.plains[number].map(|plain| &plain.pigment) {
-                Some(Pigment::Color(color)) => stands.paints[number] = *color,
+        for number in numbers(batch.mask) {
+            match batch.plains[number].map(|plain| &plain.pigment) {
+                Some(Pigment::Color(color)) => batch.paints[number] = *color,
                 _ => patterned |= 1 << number,
             }
         }
         if patterned != 0 {
-            self.paint_patterns(stands, patterned);
+            self.paint_patterns(batch, patterned);
         }
-        for number in numbers(stands.mask) {
-            let Some(plain) = stands.plains[number] else { continue };
-            let (ray, hit) = (&stands.ways[number].ray, &stands.hits[number]);
-            let body = stands.paints[number].body(stands.clearness);
-            stands.bodies[number] = body;
-            stands.local[number] = body * plain.finish.emission;
+        for number in numbers(batch.mask) {
+            let Some(plain) = batch.plains[number] else { continue };
+            let (ray, hit) = (&batch.ways[number].ray, &batch.hits[number]);
+            let body = batch.paints[number].body(batch.clearness);
+            batch.bodies[number] = body;
+            batch.local[number] = body * plain.finish.emission;
             let shape = self.world.objects[hit.object as usize].shape;
             if (matches!(shape, Shape::Placed(_)) || plain.normal.is_some())
-                && let Some(shaped) = self.shaped(plain, (ray, hit), stands.surfaces, number)
+                && let Some(shaped) = self.shaped(plain, (ray, hit), batch.surfaces, number)
             {
-                stands.shaped |= 1 << number;
-                stands.shapes.push(shaped);
+                batch.shaped |= 1 << number;
+                batch.shapes.push(shaped);
                 bumpy |= if plain.normal.is_some() { 1 << number } else { 0 };
             }
         }
         if bumpy != 0 {
-            self.perturb(stands, bumpy);
+            self.perturb(batch, bumpy);
         }
     }
 
     /// Finds the colours of surfaces with patterns: those of one side of an object together where possible.
     #[inline(never)]
-    fn paint_patterns(&self, stands: &mut SurfaceBatch<'a, '_, '_>, patterned: u32) {
+    fn paint_patterns(&self, batch: &mut SurfaceBatch<'a, '_, '_>, patterned: u32) {
         let mut rest = patterned;
         while rest != 0 {
-            let side = ObjectSide::first(stands.hits, rest, stands.surfaces);
+            let side = ObjectSide::first(batch.hits, rest, batch.surfaces);
             rest &= !side.mask;
             let first = side.first_number();
-            let Some(plain) = stands.plains[first] else { return };
+            let Some(plain) = batch.plains[first] else { return };
             match plain.pigment.together() {
                 Some(together) if !side.is_single() => {
-                    texture::colors(self, &together, side, &mut stands.paints);
+                    texture::colors(self, &together, side, &mut batch.paints);
                 }
                 _ => {
                     for number in numbers(side.mask) {
-                        let (ray, hit) = (&stands.ways[number].ray, &stands.hits[number]);
-                        let surface = stands.surfaces.at(number);
-                        stands.paints[number] = texture::color(self, plain, ray, hit, &surface);
+                        let (ray, hit) = (&batch.ways[number].ray, &batch.hits[number]);
+                        let surface = batch.surfaces.at(number);
+                        batch.paints[number] = texture::color(self, plain, ray, hit, &surface);
                     }
                 }
             }
@@ -71,16 +71,16 @@ impl<'a> Tracer<'a> {
 
     /// Perturbs the normals of surfaces with bumps, likewise.
     #[inline(never)]
-    fn perturb(&self, stands: &mut SurfaceBatch<'a, '_, '_>, bumpy: u32) {
+    fn perturb(&self, batch: &mut SurfaceBatch<'a, '_, '_>, bumpy: u32) {
         let mut rest = bumpy;
         while rest != 0 {
-            let side = ObjectSide::first(stands.hits, rest, stands.surfaces);
+            let side = ObjectSide::first(batch.hits, rest, batch.surfaces);
             rest &= !side.mask;
-            let plain = stands.plains[side.first_number()];
+            let plain = batch.plains[side.first_number()];
             let Some(bumps) = plain.and_then(|plain| plain.normal.as_ref()) else { return };
             let mut normals = Rows::ZERO;
             for number in numbers(side.mask) {
-                normals.set(number, stands.normal(number));
+                normals.set(number, batch.normal(number));
             }
             match bumps.together() {
                 Some(together) if !side.is_single() => {
@@ -88,16 +88,16 @@ impl<'a> Tracer<'a> {
                 }
                 _ => {
                     for number in numbers(side.mask) {
-                        let (ray, hit) = (&stands.ways[number].ray, &stands.hits[number]);
-                        let at = (ray, hit, &stands.surfaces.at(number));
+                        let (ray, hit) = (&batch.ways[number].ray, &batch.hits[number]);
+                        let at = (ray, hit, &batch.surfaces.at(number));
                         let normal = texture::perturbed(self, bumps, normals.at(number), at);
                         normals.set(number, normal);
                     }
                 }
             }
             for number in numbers(side.mask) {
-                let place = stands.place_of_shape(number);
-                stands.shapes[place].normal = normals.at(number);
+                let place = batch.place_of_shape(number);
+                batch.shapes[place].normal = normals.at(number);
             }
         }
     }

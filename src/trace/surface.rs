@@ -67,12 +67,12 @@ impl<'a> Tracer<'a> {
             layered &= !side.mask;
         }
         let clearness = self.world.settings.clearness;
-        let mut stands = SurfaceBatch::new((ways, hits), plains, mask, &points, clearness);
-        self.paint(&mut stands);
+        let mut batch = SurfaceBatch::new((ways, hits), plains, mask, &points, clearness);
+        self.paint(&mut batch);
         if self.lights {
-            self.light(walk, std::slice::from_mut(&mut stands));
+            self.light(walk, std::slice::from_mut(&mut batch));
         }
-        let mirrors = if self.secondary { self.mirrors(&stands) } else { 0 };
+        let mirrors = if self.secondary { self.mirrors(&batch) } else { 0 };
         let mut mirrored = Rows::ZERO;
         if mirrors != 0 {
             let (directions, normals) = (&rays.directions, &points.facing);
@@ -81,10 +81,10 @@ impl<'a> Tracer<'a> {
             });
         }
         for number in numbers(mask) {
-            let Some(finish) = stands.finish(number) else { continue };
+            let Some(finish) = batch.finish(number) else { continue };
             let (way, to) = (&ways[number], surfaces.first + number as u32);
             let object = &self.world.objects[hits[number].object as usize];
-            let mut local = stands.local[number];
+            let mut local = batch.local[number];
             let goes_on = self.secondary && way.level < self.max_trace_level;
             // Of those that are neither, no ray goes on, and no light from behind is seen.
             if mirrors >> number & 1 == 1 {
@@ -96,9 +96,9 @@ impl<'a> Tracer<'a> {
             } else if finish.reflection.is_some()
                 || finish.extras.is_some()
                 || object.double_illuminate
-                || (self.clear && stands.paints[number].is_clear())
+                || (self.clear && batch.paints[number].is_clear())
             {
-                local += self.rest(walk, &stands, number, goes_on, to);
+                local += self.rest(walk, &batch, number, goes_on, to);
             }
             surfaces.show(number, local, finish.seed);
             count(walk);
@@ -111,12 +111,12 @@ impl<'a> Tracer<'a> {
     fn rest(
         &self,
         walk: &mut Walk,
-        stands: &SurfaceBatch,
+        batch: &SurfaceBatch,
         number: usize,
         goes_on: bool,
         to: u32,
     ) -> Rgb {
-        let Some(stand) = stands.at(number) else { return Rgb::BLACK };
+        let Some(stand) = batch.at(number) else { return Rgb::BLACK };
         let both = self.world.objects[stand.hit.object as usize].double_illuminate;
         let local = match both || stand.place.finish.extras.is_some() {
             true => self.lit_behind(walk, &stand, both),
@@ -130,14 +130,14 @@ impl<'a> Tracer<'a> {
 
     /// Returns a bit for each surface that does nothing but show what it is like and mirror rays.
     #[inline(always)]
-    fn mirrors(&self, stands: &SurfaceBatch) -> u32 {
+    fn mirrors(&self, batch: &SurfaceBatch) -> u32 {
         let mut mirrors = 0;
-        for number in numbers(stands.mask & !stands.shaped) {
-            let Some(finish) = stands.finish(number) else { continue };
+        for number in numbers(batch.mask & !batch.shaped) {
+            let Some(finish) = batch.finish(number) else { continue };
             let Some(reflection) = &finish.reflection else { continue };
-            let object = &self.world.objects[stands.hits[number].object as usize];
+            let object = &self.world.objects[batch.hits[number].object as usize];
             let parts =
-                self.bends && reflection.fresnel || self.clear && stands.paints[number].is_clear();
+                self.bends && reflection.fresnel || self.clear && batch.paints[number].is_clear();
             let is_plain = !parts
                 && finish.extras.is_none()
                 && !object.double_illuminate

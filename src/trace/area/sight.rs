@@ -25,9 +25,9 @@ pub(super) struct Sight<'a, 'b> {
     between: Option<Between>,
 }
 
-/// What of the light of some places comes.
+/// Visibility of some positions of an area light.
 pub(super) enum Seen {
-    /// A bit for each of which all does; nothing of the others.
+    /// A bit for each position that is visible; the others are occluded.
     Plain(u32),
     Filtered(Box<[Rgb; ROW]>),
 }
@@ -127,7 +127,7 @@ impl<'a, 'b> Sight<'a, 'b> {
         Some((origin, shadow::aim(&kind, origin)?))
     }
 
-    /// Finds what [`Self::aimed`] says of positions; returns a bit for each of which it does not.
+    /// Aims at positions as [`Self::aimed`] does; returns a bit for each that it has to aim at instead.
     #[inline(always)]
     fn aim<S: Simd>(
         &self,
