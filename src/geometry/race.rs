@@ -8,8 +8,7 @@ use super::search::RowSeeker;
 use super::{EASY, Entry, Geometry, Hit, Work};
 use crate::math::wide::*;
 use crate::shape::local::Met;
-use crate::shape::{First, Ray};
-use smallvec::SmallVec;
+use crate::shape::First;
 
 /// A [`Race`] for each ray.
 pub(super) struct Races<'a> {
@@ -166,18 +165,14 @@ impl<'a> RowSeeker<'a> for Races<'a> {
 
     #[inline(never)]
     fn look_together(&mut self, place: usize, body: u32, mask: u32) {
-        let rays: SmallVec<[Ray; ROW]> = numbers(mask).map(|number| self.rays.at(number)).collect();
-        let limits: SmallVec<[f64; ROW]> =
-            numbers(mask).map(|number| self.limits[number]).collect();
         let geometry = self.geometry;
         let entry = &geometry.entries[place];
-        let found = geometry.placed[body as usize].first_crossings_together(&rays, &limits);
-        for (number, (found, (ray, limit))) in
-            numbers(mask).zip(found.iter().zip(rays.iter().zip(&limits)))
-        {
-            if let Some(met) = geometry.first_of(body, entry.sides, ray, *limit, found) {
+        let limits = self.limits;
+        let placed = &geometry.placed[body as usize];
+        placed.first_crossings_together(self.rays, mask, &limits, |number, ray, found| {
+            if let Some(met) = geometry.first_of(body, entry.sides, ray, limits[number], found) {
                 self.take_one(number, entry.hit(met));
             }
-        }
+        });
     }
 }

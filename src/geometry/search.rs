@@ -6,10 +6,9 @@ use std::ops::Range;
 
 use super::work::Tally;
 use super::{Entry, Geometry, Sides, Solid, Work, balls};
-use crate::bvh::packet::{self, PacketSeeker};
+use crate::bvh::packet::PacketSeeker;
 use crate::bvh::{self, Tree};
 use crate::math::wide::*;
-use crate::shape::local::Local;
 use crate::shape::{First, Ray};
 
 /// Who looks for something among the entries.
@@ -106,7 +105,7 @@ pub(super) trait RowSeeker<'a> {
     /// Looks at an entry for the ray of this number alone.
     fn look_alone(&mut self, place: usize, number: usize);
 
-    /// Looks at a body that goes together for the rays whose bits are set.
+    /// Looks at a body for the rays whose bits are set.
     fn look_together(&mut self, place: usize, body: u32, mask: u32);
 
     /// Looks at the entry of that place for the rays whose bits are set, and perhaps for others.
@@ -141,12 +140,13 @@ pub(super) trait RowSeeker<'a> {
                     }
                 }
             }
-            Solid::Placed(i)
-                if mask.count_ones() >= packet::LEAST
-                    && entry.sides == Sides::Both
-                    && geometry.placed[*i as usize].body.goes_together() =>
-            {
+            Solid::Placed(i) if mask.count_ones() > 1 && entry.sides == Sides::Both => {
                 self.look_together(place, *i, mask);
+            }
+            Solid::Whole(i) if mask.count_ones() > 1 => {
+                let whole = &geometry.wholes[*i as usize];
+                let near = whole.may_meet(simd, self.rays(), self.limits(), mask);
+                numbers(near).for_each(|number| self.look_alone(place, number));
             }
             _ => numbers(mask).for_each(|number| self.look_alone(place, number)),
         }

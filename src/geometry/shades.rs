@@ -8,8 +8,7 @@ use super::search::RowSeeker;
 use super::{Entry, Geometry, Sides, Work};
 use crate::math::wide::*;
 use crate::shape::local::Met;
-use crate::shape::{First, Ray};
-use smallvec::SmallVec;
+use crate::shape::First;
 
 /// Looks for anything that shadows each ray.
 pub(super) struct Shades<'a> {
@@ -122,16 +121,12 @@ impl<'a> RowSeeker<'a> for Shades<'a> {
 
     #[inline(never)]
     fn look_together(&mut self, place: usize, body: u32, mask: u32) {
-        let rays: SmallVec<[Ray; ROW]> = numbers(mask).map(|number| self.rays.at(number)).collect();
-        let distances: SmallVec<[f64; ROW]> =
-            numbers(mask).map(|number| self.distances[number]).collect();
+        let distances = self.distances;
         let shadows = |number: usize, met: &Met| {
             Sides::Both.see(met) && met.t + met.error < distances[number]
         };
         let body = &self.geometry.placed[body as usize];
-        let crossed = body.crosses_together(&rays, &distances, shadows);
-        let shadowed = numbers(mask).enumerate().filter(|(nth, _)| crossed >> nth & 1 == 1);
-        let shadowed = shadowed.fold(0, |all, (_, number)| all | 1 << number);
+        let shadowed = body.crosses_together(self.rays, mask, distances, shadows);
         self.found(place, shadowed);
     }
 }

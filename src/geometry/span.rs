@@ -5,6 +5,7 @@
 //! **Source:** S. Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18 (1982).
 
 use crate::math::Vector;
+use crate::math::wide::*;
 use crate::shape::csg::Node;
 use crate::shape::local::Met;
 use crate::shape::{Bounds, Crossing, Ray};
@@ -38,6 +39,33 @@ impl Span {
             ((*low - blur - ray.origin) * reciprocal, (*high + blur - ray.origin) * reciprocal);
         let crossing = |t| Crossing { t, error: 0.0 };
         Self { enter: crossing(a.min(b).max_element()), leave: crossing(a.max(b).min_element()) }
+    }
+
+    /// Of four rays those that may meet a box ahead of their starts, at a limit or before.
+    #[inline(always)]
+    pub fn may_meet<S: Simd>(
+        simd: S,
+        Bounds { low, high }: &Bounds,
+        ray: &WideRay<S>,
+        limit: Wide<S>,
+    ) -> Mask<S> {
+        let (WideVector(origins), WideVector(directions)) = (ray.origin, ray.direction);
+        let (mut enter, mut leave) = (all(simd, f64::NEG_INFINITY), all(simd, f64::INFINITY));
+        let mut axis = 0;
+        while axis < 3 {
+            let (origin, steepest) = (origins[axis], all(simd, STEEPEST));
+            let reciprocal = (all(simd, 1.0) / directions[axis]).min(steepest).max(-steepest);
+            let size = all(simd, low[axis].abs().max(high[axis].abs()));
+            let blur = (origin.abs() + size) * all(simd, BLUR);
+            let a = (all(simd, low[axis]) - blur - origin) * reciprocal;
+            let b = (all(simd, high[axis]) + blur - origin) * reciprocal;
+            enter = enter.max(a.min(b));
+            leave = leave.min(a.max(b));
+            axis += 1;
+        }
+        let beside = all(simd, BESIDE) * (enter.abs() + leave.abs());
+        let is_behind = (leave + beside).simd_lt(all(simd, 0.0));
+        !(enter.simd_gt(leave) | is_behind | (enter - beside).simd_gt(limit))
     }
 
     /// From the first of a solid's crossings, which are told in turn, to the last; `inverse` is what is outside

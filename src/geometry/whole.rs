@@ -2,7 +2,7 @@
 //!
 //! **Invariant:** each leaf is crossed by its own kernel; what is not the whole's is left out.
 
-use std::ops::Range;
+mod near;
 
 use smallvec::SmallVec;
 
@@ -33,7 +33,7 @@ pub(super) struct Whole {
     /// What holds it.
     pub bounds: Option<Bounds>,
     /// Around its first leaves, four by four.
-    pub balls: [Balls; GROUPS],
+    pub balls: [Balls; FOURS],
     /// A bit for each of these that all of it lies in.
     pub inside: u32,
     /// What it takes to find where a line crosses it, in equations of a sphere.
@@ -45,8 +45,8 @@ pub(super) struct Whole {
 }
 
 /// Of so many fours of leaves there are [`Balls`].
-const GROUPS: usize = 2;
-const MOST_BALLS: u32 = (GROUPS * balls::LANES) as u32;
+const FOURS: usize = 2;
+const MOST_BALLS: u32 = (FOURS * balls::LANES) as u32;
 
 /// What is asked of a leaf once.
 #[derive(Debug, Clone, Copy)]
@@ -125,7 +125,7 @@ impl Whole {
                 parts.iter().map(|part| part.ball).collect();
             Balls::new(&balls)
         });
-        let balls = [(); GROUPS].map(|()| balls.next().unwrap_or_else(|| Balls::new(&[])));
+        let balls = [(); FOURS].map(|()| balls.next().unwrap_or_else(|| Balls::new(&[])));
         let inside = around.iter().filter(|part| !part.inverse && part.leaf < MOST_BALLS);
         let inside = inside.fold(0, |all, part| all | 1 << part.leaf);
         Self {
@@ -152,29 +152,6 @@ impl Whole {
         let contested = event.shared;
         let part = if contested { Met::UNKNOWN } else { event.met.part };
         Hit { contested, part, ..self.leaf(event).hit(event.met) }
-    }
-
-    /// A bit for each leaf that the line of a ray may meet; of the first ones only.
-    #[inline(always)]
-    fn near(&self, ray: &Ray) -> u32 {
-        let near = |group: usize| self.balls[group].met_by_line(ray) << (group * balls::LANES);
-        (0..GROUPS).fold(0, |all, group| all | near(group))
-    }
-
-    /// Shows `look` those leaves at least that the line of a ray may meet from one place to another.
-    pub fn search_within(&self, ray: &Ray, (low, high): (f64, f64), mut look: impl FnMut(u32)) {
-        self.always.iter().for_each(|&leaf| look(leaf));
-        if let Some((tree, order)) = &self.tree {
-            let mut show = |places: Range<usize>, limit| {
-                order[places].iter().for_each(|&leaf| look(leaf));
-                limit
-            };
-            let (ray, limit) = match tree.space.moved_to(ray, low) {
-                Some(ray) => (ray, high - low),
-                None => (tree.space.before(ray), f64::INFINITY),
-            };
-            tree.visit(&ray, 0.0, limit, &mut show);
-        }
     }
 }
 

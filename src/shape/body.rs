@@ -78,10 +78,10 @@ macro_rules! bodies {
                 &self,
                 lines: &[LocalRay],
                 between: &[(f64, f64)],
-                found: &mut [Crossings],
+                each: &mut dyn FnMut(usize, &mut Crossings),
             ) {
                 match self {
-                    $(Self::$kind(body) => body.first_crossings_together(lines, between, found),)*
+                    $(Self::$kind(body) => body.first_crossings_together(lines, between, each),)*
                 }
             }
 
@@ -93,12 +93,6 @@ macro_rules! bodies {
             ) -> u32 {
                 match self {
                     $(Self::$kind(body) => body.crosses_together(lines, between, accepts),)*
-                }
-            }
-
-            fn goes_together(&self) -> bool {
-                match self {
-                    $(Self::$kind(body) => body.goes_together(),)*
                 }
             }
 

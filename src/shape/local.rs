@@ -27,16 +27,15 @@ pub trait Local {
         self.crossings(ray, found);
     }
 
-    /// As [`Local::first_crossings`] for lines side by side, no more than a row, each with its range.
+    /// As [`Local::first_crossings`] for lines side by side, no more than a row, each with its range: calls `each`
+    /// with the number of a line and what it finds, if that is anything.
     fn first_crossings_together(
         &self,
         lines: &[LocalRay],
         between: &[(f64, f64)],
-        found: &mut [Crossings],
+        each: &mut dyn FnMut(usize, &mut Crossings),
     ) {
-        for ((line, between), found) in lines.iter().zip(between).zip(found) {
-            self.first_crossings(line, *between, found);
-        }
+        first_crossings_one_by_one(self, lines, between, each);
     }
 
     /// As [`Local::crosses`] for lines side by side: a bit for each.
@@ -47,11 +46,6 @@ pub trait Local {
         accepts: &dyn Fn(usize, &Met) -> bool,
     ) -> u32 {
         crosses_one_by_one(self, lines, between, accepts)
-    }
-
-    /// Returns whether lines side by side are found sooner than one by one.
-    fn goes_together(&self) -> bool {
-        false
     }
 
     /// Returns the part of the surface through which the line enters or leaves at `s`, where that is cheap to
@@ -112,6 +106,23 @@ pub trait Local {
     /// the geometric normal.
     fn shading_normal(&self, _part: u32, _point: Vector) -> Option<Vector> {
         None
+    }
+}
+
+/// Calls `each` with what [`Local::first_crossings`] finds along each line.
+pub(super) fn first_crossings_one_by_one(
+    body: &(impl Local + ?Sized),
+    lines: &[LocalRay],
+    between: &[(f64, f64)],
+    each: &mut dyn FnMut(usize, &mut Crossings),
+) {
+    let mut found = Crossings::new();
+    for (number, (line, between)) in lines.iter().zip(between).enumerate() {
+        body.first_crossings(line, *between, &mut found);
+        if !found.is_empty() {
+            each(number, &mut found);
+            found.clear();
+        }
     }
 }
 
@@ -284,68 +295,4 @@ pub(super) fn unite(spans: &mut [Span], found: &mut Crossings) {
         leave = Met { error: last.error.max(other.t - last.t + other.error), ..last };
     }
     found.extend([enter, leave]);
-}
-
-/// A ray in the local space of a placed body.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Seen<'a> {
-    pub line: LocalRay<'a>,
-    /// Distance of the line from the local origin.
-    pub miss: f64,
-    /// Position of the ray's start on the line.
-    start: f64,
-    /// Ratio of local lengths to those along the ray.
-    speed: f64,
-    /// Error bound of `start`.
-    start_error: f64,
-}
-
-impl<'a> Seen<'a> {
-    /// Transforms the ray to local space and moves its origin to the closest approach there.
-    ///
-    /// With |L| the matrix of absolute values, f the ray's start relative to the centre, R = ‖|L|·|f|‖ and κ
-    /// = ‖|L|·|D|‖ / |L·D|, the line is off by u·(6R + 6κ·|b|) at its closest approach and by 6u·κ more per
-    /// unit of length along it; the start is off by u·(6R + 6κ·(|b| + m)), and every t by 6u·κ·|t|, as for an
-    /// ellipsoid. Both bounds grow by `moved`, the distance in local space between the centre and its
-    /// intended position.
-    pub fn new(placed: &'a Placed, ray: &'a Ray, moved: f64) -> Self {
-        let Placed { placement, root_tolerance: tolerance, .. } = *placed;
-        let matrix = placement.local_from_world;
-        let sizes = matrix.abs();
-        let from_centre = ray.origin - placement.centre;
-        let origin = matrix * from_centre;
-        let step = matrix * ray.direction;
-        let speed = step.length();
-        let direction = step / speed;
-        let start = origin.dot(direction);
-        let nearest = origin - direction * start;
-
-        let reach = (sizes * from_centre.abs()).length();
-        let turn = U * 6.0 * (sizes * ray.direction.abs()).length() / speed;
-        let blur = U * 6.0 * reach + turn * start.abs() + moved;
-        let miss = nearest.length();
-        let start_error = blur + turn * miss;
-        let in_world = Some(InWorld { ray, placed });
-        let line = LocalRay { nearest, direction, blur, turn, tolerance, in_world };
-        Self { line, miss, start, speed, start_error }
-    }
-
-    /// Returns the position on the line of the ray's point at `t`; moved by its error bound backward if `way`
-    /// is −1 and forward if it is 1.
-    pub fn place(&self, t: f64, way: f64) -> f64 {
-        let along = t * self.speed;
-        let off = self.start_error
-            + along.abs() * (self.line.turn + 8.0 * U)
-            + 8.0 * U * self.start.abs();
-        self.start + along + way * off
-    }
-
-    /// Converts a crossing of the line to one of the ray.
-    pub fn met(&self, local: Met) -> Met {
-        let t = (local.t - self.start) / self.speed;
-        let rounded = 2.0 * U * (local.t.abs() + self.start.abs());
-        let error = (local.error + self.start_error + rounded) / self.speed
-            + t.abs() * (self.line.turn + 4.0 * U);
-        Met { t, error, ..local }
-    }
 }

@@ -29,6 +29,7 @@ pub mod placed;
 pub mod plane;
 pub mod polygon;
 pub mod prism;
+mod seen;
 mod slab;
 pub mod sor;
 pub mod sphere;

@@ -1,15 +1,16 @@
 //! Bodies placed in world space. Several can share one body.
 
+mod together;
+
 use std::sync::Arc;
 
 use super::algebraic::HalfSpace;
 use super::body::Body;
-use super::local::{Crossings, Height, Local, LocalRay, Met, Seen};
+use super::local::{Crossings, Height, Local, Met};
+use super::seen::Seen;
 use super::{Bounds, Paint, Plane, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::{ExactPlacement, Placement};
-use crate::math::wide::ROW;
 use crate::math::{AbsDot, UnitVector, Vector};
-use smallvec::SmallVec;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
@@ -83,61 +84,6 @@ impl Placed {
             let between = (seen.place(0.0, -1.0), seen.place(limit, 1.0));
             self.body.first_crossings(&seen.line, between, found);
         })
-    }
-
-    /// [`Self::first_crossings`] for rays side by side, no more than a row, each with its limit.
-    #[inline(never)]
-    pub fn first_crossings_together(
-        &self,
-        rays: &[Ray],
-        limits: &[f64],
-    ) -> SmallVec<[Crossings; ROW]> {
-        let mut found: SmallVec<[Crossings; ROW]> = SmallVec::new();
-        self.together(rays, limits, |seen, lines, between| {
-            found.resize(lines.len(), Crossings::new());
-            self.body.first_crossings_together(lines, between, &mut found);
-            for (seen, found) in seen.iter().zip(&mut found) {
-                found.iter_mut().for_each(|met| *met = seen.met(*met));
-            }
-        });
-        found
-    }
-
-    /// [`Self::crosses`] for rays side by side, each with its limit: a bit for each.
-    #[inline(never)]
-    pub fn crosses_together(
-        &self,
-        rays: &[Ray],
-        limits: &[f64],
-        accepts: impl Fn(usize, &Met) -> bool,
-    ) -> u32 {
-        let mut crossed = 0;
-        self.together(rays, limits, |seen, lines, between| {
-            crossed = self.body.crosses_together(lines, between, &|number, met| {
-                accepts(number, &self.shared(&rays[number], &seen[number].met(*met)))
-            });
-        });
-        crossed
-    }
-
-    #[inline(always)]
-    fn together<'a>(
-        &'a self,
-        rays: &'a [Ray],
-        limits: &[f64],
-        find: impl FnOnce(&[Seen<'a>], &[LocalRay<'a>], &[(f64, f64)]),
-    ) {
-        let moved = self.edges_moved();
-        let seen: SmallVec<[Seen; ROW]> =
-            rays.iter().map(|ray| Seen::new(self, ray, moved)).collect();
-        let lines: SmallVec<[LocalRay; ROW]> = seen.iter().map(|seen| seen.line).collect();
-        let between = seen.iter().zip(limits).map(|(seen, limit)| {
-            // Nothing is met by a line that is out of reach.
-            let end = if self.is_out_of_reach(seen) { 0.0 } else { *limit };
-            (seen.place(0.0, -1.0), seen.place(end, 1.0))
-        });
-        let between: SmallVec<[(f64, f64); ROW]> = between.collect();
-        find(&seen, &lines, &between);
     }
 
     /// Returns whether `accepts` any crossing ahead of the ray's start and not beyond `limit`.

@@ -11,7 +11,7 @@ use std::ops::Range;
 
 use super::local::{self, Crossings, Facet, Height, Local, LocalRay, Met};
 use super::{Bounds, U};
-use crate::bvh::Tree;
+use crate::bvh::{Tree, packet};
 use crate::math::ray::Ray;
 use crate::math::wide::ROW;
 use crate::math::{UnitVector, Vector, reciprocal_power_of_two};
@@ -109,6 +109,12 @@ impl Mesh {
 
     fn corners_of(&self, face: &Face) -> [Vector; 3] {
         face.corners.map(|i| self.corners[i as usize])
+    }
+
+    /// Returns whether lines side by side are found sooner than one by one.
+    fn goes_together(&self, lines: &[LocalRay]) -> bool {
+        let are_many = lines.len() >= packet::LEAST as usize && self.faces.len() > FEW;
+        are_many && self.inside.is_none()
     }
 
     /// Calls `found` with faces that a line pierces, in no order: with all that may lie between `from` and the
@@ -240,28 +246,32 @@ impl Local for Mesh {
         &self,
         lines: &[LocalRay],
         between: &[(f64, f64)],
-        found: &mut [Crossings],
+        each: &mut dyn FnMut(usize, &mut Crossings),
     ) {
+        if !self.goes_together(lines) {
+            return local::first_crossings_one_by_one(self, lines, between, each);
+        }
+        let mut all: SmallVec<[Crossings; ROW]> = SmallVec::from_elem(Crossings::new(), lines.len());
         let mut limits: SmallVec<[f64; ROW]> = between.iter().map(|(_, to)| *to).collect();
         let search = |number: usize, met: Met| {
             let limit = &mut limits[number];
             if met.t <= *limit {
-                found[number].push(met);
+                all[number].push(met);
                 if met.t - met.error > lines[number].ahead_of(between[number].0) {
                     *limit = met.t;
                 }
             }
             *limit
         };
-        if self.inside.is_some() || !self.pierced_together(lines, between, search) {
-            for ((line, between), found) in lines.iter().zip(between).zip(found) {
-                self.first_crossings(line, *between, found);
-            }
-            return;
+        if !self.pierced_together(lines, between, search) {
+            return local::first_crossings_one_by_one(self, lines, between, each);
         }
-        for (found, limit) in found.iter_mut().zip(limits) {
+        for (number, (found, limit)) in all.iter_mut().zip(limits).enumerate() {
             found.retain(|met| met.t <= limit);
-            sort(found);
+            if !found.is_empty() {
+                sort(found);
+                each(number, found);
+            }
         }
     }
 
@@ -276,14 +286,10 @@ impl Local for Mesh {
             crossed |= u32::from(accepts(number, &met)) << number;
             if crossed >> number & 1 == 1 { f64::NEG_INFINITY } else { between[number].1 }
         };
-        if self.inside.is_some() || !self.pierced_together(lines, between, search) {
+        if !self.goes_together(lines) || !self.pierced_together(lines, between, search) {
             return local::crosses_one_by_one(self, lines, between, accepts);
         }
         crossed
-    }
-
-    fn goes_together(&self) -> bool {
-        self.inside.is_none() && self.faces.len() > FEW
     }
 
     fn crosses(&self, ray: &LocalRay, between: (f64, f64), accepts: &dyn Fn(&Met) -> bool) -> bool {
