@@ -80,11 +80,29 @@ impl Balls {
     /// Of rays that may meet the ball of a lane.
     #[inline(always)]
     pub fn met_by_four<S: Simd>(&self, simd: S, lane: usize, ray: &WideRay<S>) -> Mask<S> {
+        self.met_by_four_from(simd, lane, ray, 0.0)
+    }
+
+    /// [`Self::met_by_four`], also behind the rays' starts.
+    #[inline(always)]
+    pub fn met_by_four_lines<S: Simd>(&self, simd: S, lane: usize, ray: &WideRay<S>) -> Mask<S> {
+        self.met_by_four_from(simd, lane, ray, f64::INFINITY)
+    }
+
+    /// Of rays that start so far behind their starts.
+    #[inline(always)]
+    fn met_by_four_from<S: Simd>(
+        &self,
+        simd: S,
+        lane: usize,
+        ray: &WideRay<S>,
+        most: f64,
+    ) -> Mask<S> {
         let [x, y, z] = &self.centres;
         let centre = WideVector::splat(simd, Vector::new(x[lane], y[lane], z[lane]));
         let start = ray.origin - centre;
         let along = start.dot(ray.direction);
-        let toward = along.simd_lt(all(simd, 0.0)).select(along, all(simd, 0.0));
+        let toward = along.simd_lt(all(simd, most)).select(along, all(simd, most));
         let excess = start.length_squared() - toward * toward * all(simd, SLACK);
         let excess = excess - all(simd, self.reaches_squared[lane]);
         // What is no number is no miss.

@@ -9,10 +9,11 @@
 
 use super::span::Around;
 use super::whole::Whole;
+use super::whole::together::Line;
 use super::{Geometry, Solid};
+use crate::shape::Chord;
 use crate::shape::csg::{Event, Events};
 use crate::shape::local::Met;
-use crate::shape::{Chord, Ray};
 
 /// The last of some places along a line.
 struct Last {
@@ -69,15 +70,15 @@ enum Inside {
 
 impl Geometry {
     /// Adds the crossings with a convex whole; `false` where they are not told so.
-    pub(super) fn gather_convex(&self, whole: &Whole, ray: &Ray, events: &mut Events) -> bool {
+    pub(super) fn gather_convex(&self, whole: &Whole, line: &Line, events: &mut Events) -> bool {
         let (mut enter, mut leave) = (Last::new(), Last::new());
         for around in &whole.around {
-            let [first, last] =
-                match self.inside(&whole.leaves[around.leaf as usize].solid, around, ray) {
-                    Inside::Nowhere => return true,
-                    Inside::Once(ends) => ends,
-                    Inside::Often => return false,
-                };
+            let solid = &whole.leaves[around.leaf as usize].solid;
+            let [first, last] = match self.inside(solid, around, line) {
+                Inside::Nowhere => return true,
+                Inside::Once(ends) => ends,
+                Inside::Often => return false,
+            };
             if let Some(met) = first {
                 enter.add(met.t, &met, around.leaf);
             }
@@ -98,13 +99,13 @@ impl Geometry {
     }
 
     #[inline(always)]
-    fn inside(&self, solid: &Solid, around: &Around, ray: &Ray) -> Inside {
+    fn inside(&self, solid: &Solid, around: &Around, line: &Line) -> Inside {
         if let Solid::Placed(_) = solid {
-            return self.inside_body(solid, ray);
+            return self.inside_body(around.leaf, solid, line);
         }
         let met =
             |t: f64, error, leaving| t.is_finite().then_some(Met { t, error, leaving, part: 0 });
-        match (self.chord(solid, ray), around.inverse) {
+        match (self.chord_of_leaf(around.leaf, solid, line), around.inverse) {
             (None, false) => Inside::Nowhere,
             (None, true) => Inside::Once([None, None]),
             (Some(Chord { enter, leave }), inverse) => {
@@ -121,9 +122,9 @@ impl Geometry {
     }
 
     #[inline(never)]
-    fn inside_body(&self, solid: &Solid, ray: &Ray) -> Inside {
+    fn inside_body(&self, leaf: u32, solid: &Solid, line: &Line) -> Inside {
         let finite = |met: &Met| met.t.is_finite().then_some(*met);
-        match self.crossings(solid, ray).as_slice() {
+        match self.crossings_of_leaf(leaf, solid, line).as_slice() {
             [] => Inside::Nowhere,
             [enter] if !enter.leaving => Inside::Once([finite(enter), None]),
             [enter, leave] if !enter.leaving && leave.leaving => {

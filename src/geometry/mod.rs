@@ -43,6 +43,7 @@ use balls::{Ball, Balls};
 use beside::Grain;
 pub use extent::Extent;
 use sides::Sides;
+use whole::together::Line;
 use whole::{Part, Whole};
 
 /// Fewer bounded objects need no tree, only [`Balls`] (measured: `cargo bench --bench intersect`).
@@ -351,7 +352,9 @@ impl Geometry {
             }
             Solid::Ellipsoid(i) => self.ellipsoids[*i as usize].chord(ray)?,
             Solid::Placed(i) => return hit(self.first_met(*i, entry.sides, ray, limit)?),
-            Solid::Whole(i) => return self.first_of_whole(*i, ray, limit, |_| true),
+            Solid::Whole(i) => {
+                return self.first_of_whole(*i, &Line::alone(ray), limit, |_| true);
+            }
         };
         entry.sides.first_seen(&chord).filter(|met| met.t <= limit).and_then(hit)
     }

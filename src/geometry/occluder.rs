@@ -2,6 +2,7 @@
 
 use super::search::{RowSeeker, Seeker};
 use super::shades::Shades;
+use super::whole::together::Line;
 use super::work::{Tally, Uncounted};
 use super::{EASY, Entry, Geometry, Hit, Sides, Solid, TIGHT, Work};
 use crate::bvh::packet;
@@ -110,7 +111,7 @@ impl Geometry {
     #[inline(always)]
     pub(super) fn shadows(&self, entry: &Entry, ray: &Ray, distance: f64) -> bool {
         if let Solid::Whole(whole) = entry.solid {
-            return self.whole_shadows(whole, ray, distance);
+            return self.whole_shadows(whole, &Line::alone(ray), distance);
         }
         if let (Solid::Placed(i), Sides::Both) = (entry.solid, entry.sides) {
             let shadows = |met: &Met| Sides::Both.see(met) && met.t + met.error < distance;
@@ -123,8 +124,8 @@ impl Geometry {
     }
 
     /// Whether one of its opaque leaves' surfaces does.
-    fn whole_shadows(&self, whole: u32, ray: &Ray, distance: f64) -> bool {
-        let crossing = self.first_of_whole(whole, ray, distance, |leaf| leaf.blocks);
+    pub(super) fn whole_shadows(&self, whole: u32, line: &Line, distance: f64) -> bool {
+        let crossing = self.first_of_whole(whole, line, distance, |leaf| leaf.blocks);
         crossing.is_some_and(|Hit { t, error, .. }| t + error < distance)
     }
 

@@ -5,10 +5,11 @@
 
 use super::nearest::Race;
 use super::search::RowSeeker;
+use super::whole::together::{Known, Line};
 use super::{EASY, Entry, Geometry, Hit, Work};
 use crate::math::wide::*;
-use crate::shape::local::Met;
 use crate::shape::First;
+use crate::shape::local::Met;
 
 /// A [`Race`] for each ray.
 pub(super) struct Races<'a> {
@@ -174,5 +175,15 @@ impl<'a> RowSeeker<'a> for Races<'a> {
                 self.take_one(number, entry.hit(met));
             }
         });
+    }
+
+    #[inline(never)]
+    fn look_at_whole(&mut self, _: usize, whole: u32, number: usize, known: &Known) {
+        let ray = self.rays.at(number);
+        let line = Line { ray: &ray, known: Some((known, number)) };
+        let limit = self.limits[number];
+        if let Some(hit) = self.geometry.first_of_whole(whole, &line, limit, |_| true) {
+            self.take_one(number, hit);
+        }
     }
 }

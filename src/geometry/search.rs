@@ -4,6 +4,7 @@
 
 use std::ops::Range;
 
+use super::whole::together::Known;
 use super::work::Tally;
 use super::{Entry, Geometry, Sides, Solid, Work, balls};
 use crate::bvh::packet::PacketSeeker;
@@ -108,6 +109,9 @@ pub(super) trait RowSeeker<'a> {
     /// Looks at a body for the rays whose bits are set.
     fn look_together(&mut self, place: usize, body: u32, mask: u32);
 
+    /// Looks at a whole for the ray of this number, of which it is known where it crosses leaves.
+    fn look_at_whole(&mut self, place: usize, whole: u32, number: usize, known: &Known);
+
     /// Looks at the entry of that place for the rays whose bits are set, and perhaps for others.
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, place: usize, mask: u32) {
@@ -146,7 +150,8 @@ pub(super) trait RowSeeker<'a> {
             Solid::Whole(i) if mask.count_ones() > 1 => {
                 let whole = &geometry.wholes[*i as usize];
                 let near = whole.may_meet(simd, self.rays(), self.limits(), mask);
-                numbers(near).for_each(|number| self.look_alone(place, number));
+                let known = geometry.known(simd, whole, self.rays(), near);
+                numbers(near).for_each(|number| self.look_at_whole(place, *i, number, &known));
             }
             _ => numbers(mask).for_each(|number| self.look_alone(place, number)),
         }

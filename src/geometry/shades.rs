@@ -5,10 +5,11 @@
 
 use super::occluder::Occluder;
 use super::search::RowSeeker;
+use super::whole::together::{Known, Line};
 use super::{Entry, Geometry, Sides, Work};
 use crate::math::wide::*;
-use crate::shape::local::Met;
 use crate::shape::First;
+use crate::shape::local::Met;
 
 /// Looks for anything that shadows each ray.
 pub(super) struct Shades<'a> {
@@ -128,5 +129,14 @@ impl<'a> RowSeeker<'a> for Shades<'a> {
         let body = &self.geometry.placed[body as usize];
         let shadowed = body.crosses_together(self.rays, mask, distances, shadows);
         self.found(place, shadowed);
+    }
+
+    #[inline(never)]
+    fn look_at_whole(&mut self, place: usize, whole: u32, number: usize, known: &Known) {
+        let ray = self.rays.at(number);
+        let line = Line { ray: &ray, known: Some((known, number)) };
+        if self.geometry.whole_shadows(whole, &line, self.distances[number]) {
+            self.found(place, 1 << number);
+        }
     }
 }

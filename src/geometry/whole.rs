@@ -3,6 +3,7 @@
 //! **Invariant:** each leaf is crossed by its own kernel; what is not the whole's is left out.
 
 mod near;
+pub(super) mod together;
 
 use smallvec::SmallVec;
 
@@ -14,6 +15,7 @@ use crate::shape::csg::{self, Event, Events};
 use crate::shape::local::{Crossings, Local, Met};
 use crate::shape::{Bounds, Chord, Crossing, Placed, Ray};
 use crate::world::{self, World};
+use together::Line;
 
 /// The cosine of the angle between two faces from which on they are the sides of something thin.
 const ALONG: f64 = 0.99;
@@ -159,7 +161,7 @@ impl Geometry {
     /// All crossings with a whole, in order.
     pub(super) fn events(&self, whole: &Whole, ray: &Ray) -> Events {
         let mut events = Events::new();
-        if !self.gather(whole, ray, EVERYWHERE, &mut events) {
+        if !self.gather(whole, &Line::alone(ray), EVERYWHERE, &mut events) {
             whole.nodes.keep(&mut events);
         }
         events
@@ -167,7 +169,8 @@ impl Geometry {
 
     /// Gathers the crossings with a whole's leaves, in order; returns whether they are the whole's already. None of
     /// the whole's that lie from one place to another are missing.
-    fn gather(&self, whole: &Whole, ray: &Ray, between: (f64, f64), events: &mut Events) -> bool {
+    fn gather(&self, whole: &Whole, line: &Line, between: (f64, f64), events: &mut Events) -> bool {
+        let ray = line.ray;
         let mut span = match &whole.bounds {
             Some(bounds) => Span::of_bounds(bounds, ray),
             None => Span::ALL,
@@ -176,14 +179,14 @@ impl Geometry {
         if span.is_empty() || near & whole.inside != whole.inside {
             return true;
         }
-        if whole.is_convex && self.gather_convex(whole, ray, events) {
+        if whole.is_convex && self.gather_convex(whole, line, events) {
             return true;
         }
         let is_near = |leaf: u32| leaf >= MOST_BALLS || near >> leaf & 1 != 0;
         for part in &whole.around {
             let leaf = &whole.leaves[part.leaf as usize];
             if is_near(part.leaf) {
-                self.with_crossings(&leaf.solid, ray, |all| {
+                self.with_crossings(part.leaf, &leaf.solid, line, |all| {
                     span = span.and(Span::of_crossings(all, part.inverse));
                     add_events(part.leaf, false, all, EVERYWHERE, events);
                 });
@@ -199,7 +202,7 @@ impl Geometry {
             if !whole.is_around[leaf as usize] && is_near(leaf) {
                 let solid = &whole.leaves[leaf as usize].solid;
                 let sheet = self.is_sheet(solid);
-                self.with_crossings(solid, ray, |all| {
+                self.with_crossings(leaf, solid, line, |all| {
                     add_events(leaf, sheet, all, reach, events);
                 });
             }
@@ -211,12 +214,13 @@ impl Geometry {
 
     /// Shows `look` where a line crosses a leaf of a whole: a solid is entered and left in turn.
     #[inline(always)]
-    fn with_crossings(&self, solid: &Solid, ray: &Ray, look: impl FnOnce(&[Met])) {
+    fn with_crossings(&self, leaf: u32, solid: &Solid, line: &Line, look: impl FnOnce(&[Met])) {
         if let Solid::Placed(_) = solid {
-            look(&self.crossings_of_body(solid, ray));
+            look(&self.crossings_of_body(leaf, solid, line));
             return;
         }
-        let all = self.chord(solid, ray).map(ends_of_chord);
+        let ray = line.ray;
+        let all = self.chord_of_leaf(leaf, solid, line).map(ends_of_chord);
         match &all {
             None => look(&[]),
             Some([enter, leave]) if !leave.t.is_finite() => look(&[*enter]),
@@ -230,9 +234,9 @@ impl Geometry {
     }
 
     #[inline(never)]
-    fn crossings_of_body(&self, solid: &Solid, ray: &Ray) -> Crossings {
-        let mut all = self.crossings(solid, ray);
-        self.drop_grazed(solid, ray, &mut all);
+    fn crossings_of_body(&self, leaf: u32, solid: &Solid, line: &Line) -> Crossings {
+        let mut all = self.crossings_of_leaf(leaf, solid, line);
+        self.drop_grazed(solid, line.ray, &mut all);
         let mut inside = false;
         if !self.is_sheet(solid) {
             // What is told twice was not crossed.
@@ -284,7 +288,10 @@ impl Geometry {
     /// Where the ray's line crosses the surface of a solid; at −∞ where it comes from inside.
     pub(super) fn crossings(&self, solid: &Solid, ray: &Ray) -> Crossings {
         match solid {
-            Solid::Placed(i) => crossings_of_placed(&self.placed[*i as usize], ray),
+            Solid::Placed(i) => {
+                let placed = &self.placed[*i as usize];
+                from_inside(placed, ray, placed.crossings_of_part(ray))
+            }
             _ => {
                 let ends = self.chord(solid, ray).map(ends_of_chord);
                 ends.into_iter().flatten().filter(|met| met.t != f64::INFINITY).collect()
@@ -326,13 +333,13 @@ impl Geometry {
     pub(super) fn first_of_whole(
         &self,
         whole: u32,
-        ray: &Ray,
+        line: &Line,
         limit: f64,
         counts: fn(&Entry) -> bool,
     ) -> Option<Hit> {
         let whole = &self.wholes[whole as usize];
         let mut events = Events::new();
-        let is_kept = self.gather(whole, ray, (0.0, limit), &mut events);
+        let is_kept = self.gather(whole, line, (0.0, limit), &mut events);
         let is_seen = |event: &Event| {
             let leaf = whole.leaf(event);
             leaf.sides.see(&event.met) && counts(leaf)
@@ -345,8 +352,8 @@ impl Geometry {
     }
 }
 
-fn crossings_of_placed(placed: &Placed, ray: &Ray) -> Crossings {
-    let mut all = placed.crossings_of_part(ray);
+/// The crossings of a line with a body, with where it enters if it comes from inside.
+fn from_inside(placed: &Placed, ray: &Ray, mut all: Crossings) -> Crossings {
     let inside = match all.first() {
         Some(first) => first.leaving && !placed.body.is_sheet(),
         None => placed.body.reach() == f64::INFINITY && placed.holds(ray),

@@ -1,7 +1,7 @@
 //! Box: three pairs of parallel faces, |N_i·(P − C)| ≤ l_i. If the normals are not orthogonal, it is a
 //! parallelepiped.
 
-mod slabs;
+pub(super) mod slabs;
 
 use super::slab::{falls_inside, lies_in};
 use super::{Bounds, Chord, Ray, Rounding, SurfacePoint, U};

@@ -29,7 +29,7 @@ pub mod placed;
 pub mod plane;
 pub mod polygon;
 pub mod prism;
-mod seen;
+pub(crate) mod seen;
 mod slab;
 pub mod sor;
 pub mod sphere;
@@ -68,6 +68,7 @@ pub use sphere_sweep::SphereSweep;
 pub use superellipsoid::Superellipsoid;
 pub use text::Text;
 pub use torus::Torus;
+pub(crate) use wide::chords::Chords;
 pub(crate) use wide::{First, WidePlanes, WidePoints, WideSpheres};
 
 use crate::math::Vector;

@@ -2,7 +2,7 @@
 //!
 //! **Invariant:** rays side by side have the bits of each alone.
 
-use super::local::{InWorld, LocalRay, Met};
+use super::local::{InWorld, Local, LocalRay, Met};
 use super::{Placed, Ray, U};
 use crate::math::placement::Placement;
 use crate::math::wide::*;
@@ -77,7 +77,7 @@ fn ray_crossing(local: Met, start: f64, speed: f64, start_error: f64, turn: f64)
 }
 
 /// [`Seen`] for rays side by side.
-pub(super) struct SeenRow {
+pub(crate) struct SeenRow {
     nearest: Rows,
     directions: Rows,
     blurs: Row,
@@ -89,57 +89,54 @@ pub(super) struct SeenRow {
     from: Row,
     /// Up to where each line is searched.
     to: Row,
+    /// A bit for each ray that is here.
+    here: u32,
     /// A bit for each ray whose line may meet the body.
     pub reaching: u32,
 }
 
 impl SeenRow {
-    /// Transforms the rays of `mask` as [`Seen::new`] does; each is searched from its start up to its limit.
-    pub fn new(
-        placed: &Placed,
-        reach: f64,
-        rays: &Rays,
-        mask: u32,
-        limits: &Row,
-        moved: f64,
-    ) -> Self {
-        const NONE: Row = [0.0; ROW];
-        let mut row = Self {
+    pub const NONE: Self = {
+        let none = [0.0; ROW];
+        Self {
             nearest: Rows::ZERO,
             directions: Rows::ZERO,
-            blurs: NONE,
-            turns: NONE,
-            starts: NONE,
-            speeds: NONE,
-            start_errors: NONE,
-            from: NONE,
-            to: NONE,
+            blurs: none,
+            turns: none,
+            starts: none,
+            speeds: none,
+            start_errors: none,
+            from: none,
+            to: none,
+            here: 0,
             reaching: 0,
-        };
+        }
+    };
+
+    /// Transforms the rays of `mask` as [`Seen::new`] does; each is searched from its start up to its limit.
+    #[inline(always)]
+    pub fn see(&mut self, placed: &Placed, rays: &Rays, mask: u32, limits: &Row, moved: f64) {
+        let reach = placed.body.reach();
+        self.here = mask;
+        let body = (placed, reach, moved);
         dispatch!(Instructions::best().level(), simd => {
-            let mut group = 0;
-            while group < GROUPS {
+            for group in 0..GROUPS {
                 if has(mask, group) {
-                    row.fill(simd, placed, reach, &rays.four(simd, group), limits, moved, group);
+                    self.fill(simd, body, group, &rays.four(simd, group), limits);
                 }
-                group += 1;
             }
         });
-        row.reaching &= mask;
-        row
+        self.reaching &= mask;
     }
 
-    #[allow(clippy::too_many_arguments)]
     #[inline(always)]
     fn fill<S: Simd>(
         &mut self,
         simd: S,
-        placed: &Placed,
-        reach: f64,
+        (placed, reach, moved): (&Placed, f64, f64),
+        group: usize,
         ray: &WideRay<S>,
         limits: &Row,
-        moved: f64,
-        group: usize,
     ) {
         let Placement { centre, local_from_world: matrix, .. } = placed.placement;
         let sizes = matrix.abs();
@@ -174,6 +171,12 @@ impl SeenRow {
         store(speed, &mut self.speeds, group);
         store(start_error, &mut self.start_errors, group);
         self.reaching |= bits(!is_beyond, group);
+    }
+
+    /// Returns whether the ray of a number is one of them.
+    #[inline(always)]
+    pub fn holds(&self, number: usize) -> bool {
+        self.here >> number & 1 == 1
     }
 
     /// Returns the line of a ray.

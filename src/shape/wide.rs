@@ -3,6 +3,8 @@
 //! **Out:** of each ray what the shape says of it alone, to the bit; where that takes the tight error bound or a rare
 //! case, it says so.
 
+pub(crate) mod chords;
+
 use super::{Plane, Sphere, U};
 use crate::math::wide::*;
 

@@ -37,6 +37,20 @@ impl Whole {
         met & mask
     }
 
+    /// Of rays side by side those whose lines may meet one of the first leaves: a bit for each.
+    #[inline(always)]
+    pub fn near_leaf<S: Simd>(&self, simd: S, leaf: usize, rays: &Rays, mask: u32) -> u32 {
+        let (balls, lane) = (&self.balls[leaf / balls::LANES], leaf % balls::LANES);
+        let mut met = 0;
+        for group in 0..GROUPS {
+            if has(mask, group) {
+                let ray = rays.four(simd, group);
+                met |= bits(balls.met_by_four_lines(simd, lane, &ray), group);
+            }
+        }
+        met & mask
+    }
+
     /// A bit for each leaf that the line of a ray may meet; of the first ones only.
     #[inline(always)]
     pub(super) fn near(&self, ray: &Ray) -> u32 {

@@ -72,12 +72,12 @@ const HALVED: u32 = 3;
 const COVERED: f64 = 16.0;
 const HALVED_MORE: u32 = 3;
 
-/// A polynomial with its error bounds.
+/// A polynomial with its error bounds, with room for so many coefficients: most have few, and little to be copied.
 #[derive(Debug, Clone)]
-pub struct Polynomial {
-    values: Coefficients,
+pub struct Polynomial<const ROOM: usize = { MOST + 1 }> {
+    values: [f64; ROOM],
     /// Σ slackₖ·|s|ᵏ bounds the error of a computed value.
-    slack: Coefficients,
+    slack: [f64; ROOM],
     degree: usize,
 }
 
@@ -107,7 +107,7 @@ impl Polynomial {
 
     /// Calls `show` with the changes of sign, in order, until it returns `false`.
     pub fn roots(&self, asked: &Asked, show: &mut impl FnMut(Root) -> bool) {
-        let Asked { size, end, tolerance, between: (from, to) } = *asked;
+        let Asked { tolerance, between: (from, to), .. } = *asked;
         if let Some(guesses) = self.by_formula() {
             for (guess, change) in guesses.into_iter().filter(|(_, change)| change.high >= from) {
                 if change.low > to || !show(self.near(guess, change, tolerance).root(1.0)) {
@@ -116,6 +116,24 @@ impl Polynomial {
             }
             return;
         }
+        match self.degree {
+            ..=4 => self.in_room::<5>().search(asked, show),
+            5..=8 => self.in_room::<9>().search(asked, show),
+            _ => self.search(asked, show),
+        }
+    }
+
+    /// Returns the polynomial with room for no more than its coefficients.
+    fn in_room<const ROOM: usize>(&self) -> Polynomial<ROOM> {
+        let room = |list: &Coefficients| std::array::from_fn(|k| list[k]);
+        Polynomial { values: room(&self.values), slack: room(&self.slack), degree: self.degree }
+    }
+}
+
+impl<const ROOM: usize> Polynomial<ROOM> {
+    /// [`Polynomial::roots`] by bounds of pieces.
+    fn search(&self, asked: &Asked, show: &mut impl FnMut(Root) -> bool) {
+        let Asked { size, end, tolerance, between: (from, to) } = *asked;
         let is_covered = |far: &f64| *far > size && *far <= COVERED * size;
         let farthest = [-from, to].into_iter().filter(is_covered).fold(0.0, f64::max);
         let is_wider = farthest > 0.0 && size < end;
@@ -225,7 +243,7 @@ impl Polynomial {
                 marks.push(ends.1);
             } else {
                 let all = ..=self.degree;
-                let form = Form::of(&self.values[all], &self.slack[all], way);
+                let form = Form::<ROOM>::of(&self.values[all], &self.slack[all], way);
                 self.mark(&form, ends, halved, &mut marks);
             }
             for at in marks {
@@ -240,7 +258,7 @@ impl Polynomial {
     }
 
     /// Adds positions in a piece, the last of them its end, such that at most one root lies between any two.
-    fn mark(&self, form: &Form, (low, high): (f64, f64), halved: u32, marks: &mut Marks) {
+    fn mark(&self, form: &Form<ROOM>, (low, high): (f64, f64), halved: u32, marks: &mut Marks) {
         match form.signs() {
             Signs::Same | Signs::Change => marks.push(high),
             Signs::Unknown if halved > 0 => {

@@ -325,12 +325,12 @@ impl Along {
 }
 
 /// Speed across a slab below which the error of the speed itself matters.
-const STEEP: f64 = 1.0 / 1_048_576.0;
+pub(crate) const STEEP: f64 = 1.0 / 1_048_576.0;
 /// Speed up to which a line is parallel to the slab even if it is known exactly, 2⁻¹²⁴: it crosses no slab
 /// within a distance that counts.
 const LEVEL: f64 = 1.0 / (1_u128 << 124) as f64;
 /// Error bound of v.
-const SPEED_ERROR: f64 = 10.0 * U;
+pub(crate) const SPEED_ERROR: f64 = 10.0 * U;
 
 struct End {
     t: f64,

@@ -45,7 +45,7 @@ struct Sweep<'a> {
 
 impl<'a> Sweep<'a> {
     fn new(tree: &'a Tree) -> Self {
-        let counts = tree.outside.iter().copied().collect();
+        let counts = SmallVec::from_slice(&tree.outside);
         Self { tree, counts, changes: SmallVec::new(), ahead: 0 }
     }
 

@@ -251,7 +251,8 @@ impl Local for Mesh {
         if !self.goes_together(lines) {
             return local::first_crossings_one_by_one(self, lines, between, each);
         }
-        let mut all: SmallVec<[Crossings; ROW]> = SmallVec::from_elem(Crossings::new(), lines.len());
+        let mut all: SmallVec<[Crossings; ROW]> =
+            SmallVec::from_elem(Crossings::new(), lines.len());
         let mut limits: SmallVec<[f64; ROW]> = between.iter().map(|(_, to)| *to).collect();
         let search = |number: usize, met: Met| {
             let limit = &mut limits[number];

@@ -2,7 +2,7 @@
 //!
 //! **Invariant:** each ray finds what it finds alone.
 
-use super::super::local::{Local, LocalRay, Met};
+use super::super::local::{Crossings, Local, LocalRay, Met};
 use super::super::seen::SeenRow;
 use super::super::{Placed, Ray};
 use crate::math::wide::{ROW, Rays, Row, numbers};
@@ -50,6 +50,26 @@ impl Placed {
         crossed
     }
 
+    /// Brings the rays of `mask` to where [`Self::crossings_of_part_in`] finds them.
+    pub(crate) fn see_part(&self, rays: &Rays, mask: u32, row: &mut SeenRow) {
+        row.see(self, rays, mask, &[0.0; ROW], self.moved());
+    }
+
+    /// [`Self::crossings_of_part`] for the ray of this number in a row.
+    pub(crate) fn crossings_of_part_in(
+        &self,
+        row: &SeenRow,
+        number: usize,
+        ray: &Ray,
+    ) -> Crossings {
+        let mut found = Crossings::new();
+        if row.reaching >> number & 1 == 1 {
+            self.body.crossings(&row.line(number, self, ray), &mut found);
+            found.iter_mut().for_each(|met| *met = row.met(number, *met));
+        }
+        found
+    }
+
     /// Calls `find` with the numbers of the rays that may meet the body, the rays, their lines and where these are
     /// searched.
     #[inline(always)]
@@ -60,7 +80,8 @@ impl Placed {
         limits: &Row,
         find: impl FnOnce(&SeenRow, &[usize], &[Ray], &[LocalRay], &[(f64, f64)]),
     ) {
-        let row = SeenRow::new(self, self.body.reach(), rays, mask, limits, self.edges_moved());
+        let mut row = SeenRow::NONE;
+        row.see(self, rays, mask, limits, self.edges_moved());
         if row.reaching == 0 {
             return;
         }

@@ -31,18 +31,43 @@ struct Square {
     error: f64,
 }
 
-impl Segment {
+/// A segment, and what bounds F in it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Bounded {
+    segment: Segment,
+    /// Upper bound on |F|.
+    greatest: f64,
+    /// Upper bound on |F′|.
+    steepness: f64,
+}
+
+impl Bounded {
+    fn new(segment: Segment) -> Self {
+        Self { segment, greatest: segment.greatest_point(), steepness: segment.steepness() }
+    }
+
     fn at(&self, z: f64) -> Square {
-        let size = self.high - self.low;
-        let t = ((z - self.low) / size).clamp(0.0, 1.0);
+        let Segment { low, high, squares: [a, b, c, d] } = self.segment;
+        let size = high - low;
+        let t = ((z - low) / size).clamp(0.0, 1.0);
         let mix = |a: f64, b: f64| (1.0 - t) * a + t * b;
-        let [a, b, c, d] = self.squares;
         let (ab, bc, cd) = (mix(a, b), mix(b, c), mix(c, d));
         let (abc, bcd) = (mix(ab, bc), mix(bc, cd));
-        let error = 12.0 * U * self.greatest_point();
+        let error = 12.0 * U * self.greatest;
         Square { value: mix(abc, bcd), slope: 3.0 * (bcd - abc) / size, error }
     }
 
+    /// Upper bound on F over one of `parts` equal parts.
+    fn greatest(&self, part: usize, parts: usize) -> f64 {
+        let Segment { low, high, .. } = self.segment;
+        let end = |i: usize| low + (high - low) * (i as f64 / parts as f64);
+        let (first, last) = (self.at(end(part)), self.at(end(part + 1)));
+        let step = (high - low) / parts as f64;
+        first.value.max(last.value) + self.segment.bend() * step * step / 8.0
+    }
+}
+
+impl Segment {
     /// Upper bound on |F″|.
     fn bend(&self) -> f64 {
         let [a, b, c, d] = self.squares;
@@ -60,20 +85,12 @@ impl Segment {
     fn greatest_point(&self) -> f64 {
         self.squares.iter().fold(0.0, |most: f64, point| most.max(point.abs()))
     }
-
-    /// Upper bound on F over one of `parts` equal parts.
-    fn greatest(&self, part: usize, parts: usize) -> f64 {
-        let end = |i: usize| self.low + (self.high - self.low) * (i as f64 / parts as f64);
-        let (low, high) = (self.at(end(part)), self.at(end(part + 1)));
-        let step = (self.high - self.low) / parts as f64;
-        low.value.max(high.value) + self.bend() * step * step / 8.0
-    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sor {
     /// In ascending order, end to end.
-    segments: Vec<Segment>,
+    segments: Vec<Bounded>,
     /// Whether its ends are invisible; it is still solid.
     pub open: bool,
     /// Upper bound on |F″|.
@@ -85,11 +102,12 @@ impl Sor {
     /// there are none.
     pub fn new(segments: Vec<Segment>, open: bool) -> Option<Self> {
         let bend = segments.iter().map(Segment::bend).fold(0.0, f64::max);
+        let segments: Vec<Bounded> = segments.into_iter().map(Bounded::new).collect();
         (!segments.is_empty()).then_some(Self { segments, open, bend })
     }
 
     fn heights(&self) -> [f64; 2] {
-        [self.segments[0].low, self.segments[self.segments.len() - 1].high]
+        [self.segments[0].segment.low, self.segments[self.segments.len() - 1].segment.high]
     }
 
     /// Returns whether an end has no width, within rounding; the surface comes to a tip there and has no end
@@ -102,7 +120,7 @@ impl Sor {
 
     /// F at a height, clamped to the ends.
     fn square(&self, z: f64) -> Square {
-        let number = self.segments.partition_point(|segment| segment.high < z);
+        let number = self.segments.partition_point(|bounded| bounded.segment.high < z);
         self.segments[number.min(self.segments.len() - 1)].at(z)
     }
 
@@ -183,10 +201,11 @@ impl Local for Sor {
         const RINGS: usize = 32;
         let across = Vector::new(along.x, along.y, 0.0).length();
         let greatest = |z: f64| {
-            let ring = |segment: &Segment, part: usize| {
-                let size = segment.high - segment.low;
-                let end = |i: usize| z * (segment.low + size * (i as f64 / RINGS as f64));
-                let square = segment.greatest(part, RINGS).max(0.0);
+            let ring = |bounded: &Bounded, part: usize| {
+                let Segment { low, high, .. } = bounded.segment;
+                let size = high - low;
+                let end = |i: usize| z * (low + size * (i as f64 / RINGS as f64));
+                let square = bounded.greatest(part, RINGS).max(0.0);
                 across * square.sqrt() + end(part).max(end(part + 1))
             };
             let all = self.segments.iter().flat_map(|s| (0..RINGS).map(move |i| ring(s, i)));
@@ -204,7 +223,7 @@ impl Local for Sor {
     }
 
     fn reach(&self) -> f64 {
-        let squares = self.segments.iter().map(|segment| {
+        let squares = self.segments.iter().map(|Bounded { segment, .. }| {
             let height = segment.low.abs().max(segment.high.abs());
             segment.squares.iter().fold(0.0, |most: f64, b| most.max(*b)) + height * height
         });
@@ -224,8 +243,8 @@ impl Local for Sor {
 
 #[cfg(test)]
 impl Sor {
-    pub(super) fn segments(&self) -> &[Segment] {
-        &self.segments
+    pub(super) fn segments(&self) -> Vec<Segment> {
+        self.segments.iter().map(|bounded| bounded.segment).collect()
     }
 
     pub(super) fn radius(&self, z: f64) -> f64 {

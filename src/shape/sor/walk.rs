@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 use super::super::U;
 use super::super::cylinder::SIDE;
 use super::super::local::{LocalRay, Met};
-use super::{FAR, Segment, Sor};
+use super::{Bounded, FAR, Segment, Sor};
 use crate::math::Vector;
 use crate::math::roots::bracket::{Root, root};
 
@@ -43,7 +43,8 @@ impl Sor {
     /// Returns the course through a segment, between the positions of its ends. **Method:** along the line,
     /// ρ² − F is a cubic; it is bounded by its Bézier points and has at most as many roots as these have sign
     /// changes.
-    fn course(&self, ray: &LocalRay, segment: &Segment, ends: [f64; 2]) -> Course {
+    fn course(&self, ray: &LocalRay, bounded: &Bounded, ends: [f64; 2]) -> Course {
+        let Bounded { segment, greatest: greatest_square, steepness } = bounded;
         if !ends.iter().all(|s| s.abs() < FAR) {
             return Course { sides: [None; 2], tells_all: false, root: f64::NAN };
         }
@@ -54,9 +55,9 @@ impl Sor {
         let greatest = first.max(last);
         let farthest = ends[0].abs().max(ends[1].abs());
         let off = ray.blur_at(farthest) + 8.0 * U * (1.0 + farthest);
-        let steepness = 2.0 * greatest.sqrt() + segment.steepness();
+        let steepness = 2.0 * greatest.sqrt() + steepness;
         // Of a sample as well as of the Bézier points.
-        let error = 32.0 * U * (greatest + segment.greatest_point())
+        let error = 32.0 * U * (greatest + greatest_square)
             + 2.0 * off * (steepness + off * (1.0 + self.bend));
         let [p, q, r, t] = segment.squares;
         let points = if ray.direction.z < 0.0 { [t, r, q, p] } else { [p, q, r, t] };
@@ -104,11 +105,12 @@ impl Sor {
         let nearest = -(n.x * d.x + n.y * d.y) / (d.x * d.x + d.y * d.y);
         let (count, is_down) = (self.segments.len(), d.z < 0.0);
         for number in 0..count {
-            let segment = &self.segments[if is_down { count - 1 - number } else { number }];
+            let bounded = &self.segments[if is_down { count - 1 - number } else { number }];
+            let segment = &bounded.segment;
             let place = |z: f64| (z - n.z) / d.z;
             let (low, high) = (place(segment.low), place(segment.high));
             let (begin, end) = if is_down { (high, low) } else { (low, high) };
-            let Course { sides, tells_all, root } = self.course(ray, segment, [begin, end]);
+            let Course { sides, tells_all, root } = self.course(ray, bounded, [begin, end]);
             // Beyond the ends it tells on which side a rim is passed.
             if number == 0 && sides[0].is_none() {
                 walk.to(-FAR, None);

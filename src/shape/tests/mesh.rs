@@ -87,7 +87,9 @@ fn lines_side_by_side_meet_what_each_meets_alone() {
             || (random.number(-3.0, 0.5), [random.number(-1.0, 3.0), 9.0][random.below(2)]);
         let between: Vec<(f64, f64)> = lines.iter().map(|_| ends()).collect();
         let mut found = vec![Crossings::new(); lines.len()];
-        mesh.first_crossings_together(&lines, &between, &mut found);
+        mesh.first_crossings_together(&lines, &between, &mut |number, these| {
+            found[number] = these.clone();
+        });
         let accepts =
             |number: usize, met: &Met| met.t > between[number].0 && met.t < between[number].1;
         let crossed = mesh.crosses_together(&lines, &between, &accepts);

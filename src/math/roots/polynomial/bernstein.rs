@@ -26,11 +26,11 @@ static SHARES: [Coefficients; MOST + 1] = {
 
 /// The coefficients over a piece, in order along the line.
 #[derive(Clone, Copy)]
-pub struct Form {
+pub struct Form<const ROOM: usize = { MOST + 1 }> {
     degree: usize,
-    values: Coefficients,
+    values: [f64; ROOM],
     /// Error bound of each coefficient.
-    bounds: Coefficients,
+    bounds: [f64; ROOM],
 }
 
 /// What is known of the signs in a piece.
@@ -43,12 +43,12 @@ pub enum Signs {
     Unknown,
 }
 
-impl Form {
+impl<const ROOM: usize> Form<ROOM> {
     /// Returns the form over 0 … 1 for a `way` of 1 and over −1 … 0 for −1, where a coefficient is a plain
     /// sum. `slack` are the error bounds of `values`.
     pub fn of(values: &[f64], slack: &[f64], way: f64) -> Self {
         let degree = values.len() - 1;
-        let (mut forms, mut bounds) = (Coefficients::default(), Coefficients::default());
+        let (mut forms, mut bounds) = ([0.0; ROOM], [0.0; ROOM]);
         let mut power = 1.0;
         for k in 0..=degree {
             forms[k] = values[k] * (power * SHARES[degree][k]);
@@ -146,7 +146,7 @@ mod tests {
             let values: Vec<f64> = (0..=degree).map(|_| random.number(-1.0, 1.0)).collect();
             let slack = vec![0.0; degree + 1];
             for (way, ends) in [(1.0, (0.0, 1.0)), (-1.0, (-1.0, 0.0))] {
-                let form = Form::of(&values, &slack, way);
+                let form: Form = Form::of(&values, &slack, way);
                 known += usize::from(form.signs() != Signs::Unknown);
                 assert_true_of(&form, &values, ends, 3);
             }
@@ -156,9 +156,9 @@ mod tests {
 
     #[test]
     fn nothing_is_said_of_what_may_be_off_by_all_it_is() {
-        let form = Form::of(&[1.0, 0.5], &[1.5, 0.0], 1.0);
+        let form: Form = Form::of(&[1.0, 0.5], &[1.5, 0.0], 1.0);
         assert_eq!(form.signs(), Signs::Unknown);
-        assert_eq!(Form::of(&[1.0, 0.5], &[0.5, 0.0], 1.0).signs(), Signs::Same);
-        assert_eq!(Form::of(&[1.0, -1.5], &[0.1, 0.1], 1.0).signs(), Signs::Change);
+        assert_eq!(Form::<2>::of(&[1.0, 0.5], &[0.5, 0.0], 1.0).signs(), Signs::Same);
+        assert_eq!(Form::<2>::of(&[1.0, -1.5], &[0.1, 0.1], 1.0).signs(), Signs::Change);
     }
 }

@@ -1,0 +1,188 @@
+//! Where rays side by side enter and leave a sphere or a box.
+//!
+//! **Out:** of each ray the chord that the shape finds of it alone, to the bit; where that takes a rare case, it says
+//! so.
+
+use super::super::box_::slabs::{SPEED_ERROR, STEEP};
+use super::super::{Box_, Chord, Crossing, Sphere, U};
+use super::is_planet;
+use crate::math::AbsDot;
+use crate::math::wide::*;
+
+/// The chords of rays side by side.
+pub(crate) struct Chords {
+    /// The places where each ray enters and leaves, and their errors.
+    ends: [Row; 2],
+    errors: [Row; 2],
+    /// A bit for each ray that has a chord.
+    met: u32,
+    /// A bit for each ray that is not known to have one.
+    unknown: u32,
+}
+
+impl Chords {
+    /// Of no ray anything is known.
+    pub const NONE: Self =
+        Self { ends: [[0.0; ROW]; 2], errors: [[0.0; ROW]; 2], met: 0, unknown: u32::MAX };
+
+    /// Returns the chord of the ray of a number; `None` where it takes more to tell.
+    #[inline(always)]
+    pub fn at(&self, number: usize) -> Option<Option<Chord>> {
+        if self.unknown >> number & 1 == 1 {
+            return None;
+        }
+        let crossing =
+            |end: usize| Crossing { t: self.ends[end][number], error: self.errors[end][number] };
+        let is_met = self.met >> number & 1 == 1;
+        Some(is_met.then(|| Chord { enter: crossing(0), leave: crossing(1) }))
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(&mut self, group: usize, four: &Four<S>) {
+        for end in 0..2 {
+            store(four.ends[end], &mut self.ends[end], group);
+            store(four.errors[end], &mut self.errors[end], group);
+        }
+        let all = bits(Mask::splat(four.ends[0].simd, true), group);
+        self.met |= bits(four.met, group);
+        self.unknown = self.unknown & !all | bits(four.unsure, group);
+    }
+}
+
+/// The chords of four rays.
+struct Four<S: Simd> {
+    ends: [Wide<S>; 2],
+    errors: [Wide<S>; 2],
+    met: Mask<S>,
+    unsure: Mask<S>,
+}
+
+impl Sphere {
+    /// Finds [`Sphere::chord`] of the rays of `mask`.
+    #[inline(always)]
+    pub(crate) fn chords<S: Simd>(&self, simd: S, rays: &Rays, mask: u32, chords: &mut Chords) {
+        for group in 0..GROUPS {
+            if has(mask, group) {
+                chords.store(group, &self.chords_of_four(simd, &rays.four(simd, group)));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> Four<S> {
+        let (radius, zero, u) = (all(simd, self.radius), all(simd, 0.0), all(simd, U));
+        let radius_squared = all(simd, self.radius * self.radius);
+        let start = ray.origin - WideVector::splat(simd, self.centre);
+        let along = start.dot(ray.direction);
+        let offset = start - ray.direction * along;
+        let (start_squared, miss_squared) = (start.length_squared(), offset.length_squared());
+        let size = start_squared + radius_squared;
+        let [least, most] = Self::SAFE_SQUARES;
+        let is_safe = size.simd_gt(all(simd, least)) & size.simd_lt(all(simd, most));
+
+        let miss = miss_squared.sqrt();
+        let half = ((radius - miss) * (radius + miss)).sqrt();
+        let power = start_squared - radius_squared;
+        let squares = all(simd, 6.0) * start_squared + all(simd, 2.0) * radius_squared;
+        let middle = along.abs();
+        let far = middle + half;
+        let near = power / far;
+        let near = near.simd_lt(far).select(near, far);
+        let is_close = (all(simd, 1024.0) * power.abs()).simd_lt(radius_squared);
+        let is_close = is_close & is_planet(simd, radius, ray.origin);
+
+        // `Roots::blurred_chord`, without blur.
+        let size = middle + miss;
+        let slid = all(simd, 16.0 * U) * size;
+        let half_squared = half * half;
+        let square_error =
+            u * (all(simd, 14.0) * miss * size + all(simd, 4.0) * half * half) + slid * slid;
+        let is_small = square_error.simd_lt(half_squared);
+        let half_error = is_small.select(square_error / half, square_error.sqrt());
+        let far_error = half_error + slid + all(simd, 8.0 * U) * half;
+        let power_error = u * (squares + all(simd, 9.0) * power.abs());
+        let by_power = (power_error + near.abs() * far_error) / (far - far_error)
+            + all(simd, 2.0 * U) * near.abs();
+        let by_sum = far_error + (near - (middle - half)).abs();
+        let near_error = far.simd_gt(far_error + far_error).select(by_power, by_sum);
+
+        let away = along.simd_gt(zero);
+        Four {
+            ends: [away.select(-far, near), away.select(-near, far)],
+            errors: [away.select(far_error, near_error), away.select(near_error, far_error)],
+            met: half.simd_gt(zero) & !miss_squared.simd_gt(radius_squared),
+            unsure: !is_safe | is_close,
+        }
+    }
+}
+
+impl Box_ {
+    /// Finds [`Box_::chord_of_part`] of the rays of `mask`.
+    #[inline(always)]
+    pub(crate) fn chords<S: Simd>(&self, simd: S, rays: &Rays, mask: u32, chords: &mut Chords) {
+        for group in 0..GROUPS {
+            if has(mask, group) {
+                chords.store(group, &self.chords_of_four(simd, &rays.four(simd, group)));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> Four<S> {
+        let start = ray.origin - WideVector::splat(simd, self.centre);
+        let reach = start.abs().element_sum();
+        let infinity = all(simd, f64::INFINITY);
+        let mut unsure = Mask::splat(simd, false);
+        let [mut enter, mut enter_least, mut enter_most] = [-infinity; 3];
+        let [mut leave, mut leave_least, mut leave_most] = [infinity; 3];
+        for axis in 0..3 {
+            let (normal, half_width) = (self.normals[axis].get(), self.half_widths[axis]);
+            let far = 2.0 * normal.abs_dot(self.centre);
+            let place_error = all(simd, U)
+                * (all(simd, 6.0) * reach + all(simd, 3.0 * half_width) + all(simd, far));
+            let normal = WideVector::splat(simd, normal);
+            let (place, speed) = (normal.dot(start), normal.dot(ray.direction));
+            let half_width = all(simd, half_width);
+            let reciprocal = all(simd, 1.0) / speed;
+            let side = speed.simd_gt(all(simd, 0.0)).select(half_width, -half_width);
+            let steepness = reciprocal.abs();
+
+            let near = (-side - place) * reciprocal;
+            let near_error = (place_error + all(simd, SPEED_ERROR) * near.abs()) * steepness;
+            enter_least = larger(enter_least, near - near_error);
+            enter_most = larger(enter_most, near + near_error);
+            enter = larger(enter, near);
+            let far = (side - place) * reciprocal;
+            let far_error = (place_error + all(simd, SPEED_ERROR) * far.abs()) * steepness;
+            leave_least = smaller(leave_least, far - far_error);
+            leave_most = smaller(leave_most, far + far_error);
+            leave = smaller(leave, far);
+
+            let is_steep = speed.abs().simd_gt(all(simd, STEEP));
+            unsure = unsure | !(is_steep & near.is_finite() & far.is_finite());
+        }
+        let met = !enter_least.simd_gt(leave_most);
+        let leave = larger(leave, enter);
+        Four {
+            ends: [enter, leave],
+            errors: [
+                larger(enter - enter_least, enter_most - enter),
+                larger(leave - leave_least, leave_most - leave),
+            ],
+            met,
+            unsure,
+        }
+    }
+}
+
+/// Returns the larger of numbers.
+#[inline(always)]
+fn larger<S: Simd>(a: Wide<S>, b: Wide<S>) -> Wide<S> {
+    b.simd_gt(a).select(b, a)
+}
+
+/// Returns the smaller of numbers.
+#[inline(always)]
+fn smaller<S: Simd>(a: Wide<S>, b: Wide<S>) -> Wide<S> {
+    b.simd_lt(a).select(b, a)
+}
