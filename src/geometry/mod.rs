@@ -62,6 +62,8 @@ pub struct Geometry {
     tree: Option<Tree>,
     /// Without a tree: around the bounded, four by four.
     balls: Vec<Balls>,
+    /// Without a tree: boxes around those bounded that take long to solve for, in their order.
+    hulls: Vec<Option<Bounds>>,
     /// With the square of the radius that holds each.
     boxes: Vec<(Box_, f64)>,
     ellipsoids: Vec<Ellipsoid>,
@@ -153,6 +155,7 @@ impl Geometry {
             unbounded: unbounded.len(),
             tree,
             balls: Vec::new(),
+            hulls: Vec::new(),
             boxes: Vec::with_capacity(world.boxes.len()),
             ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
             placed: Vec::with_capacity(world.placed.len()),
@@ -171,6 +174,16 @@ impl Geometry {
             let bounded = geometry.entries[geometry.unbounded..].iter();
             let balls: Vec<Ball> = bounded.map(|entry| geometry.ball(world, entry)).collect();
             geometry.balls = balls.chunks(balls::LANES).map(Balls::new).collect();
+            let hull = |entry: &Entry| match entry.solid {
+                Solid::Placed(_) => bounds(world, entry.object),
+                // The others are solved for as soon, or look at their box themselves.
+                Solid::Sphere(_)
+                | Solid::Plane(_)
+                | Solid::Box(_)
+                | Solid::Ellipsoid(_)
+                | Solid::Whole(_) => None,
+            };
+            geometry.hulls = geometry.entries[geometry.unbounded..].iter().map(hull).collect();
         }
         geometry
     }

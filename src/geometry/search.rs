@@ -4,13 +4,14 @@
 
 use std::ops::Range;
 
+use super::span::Span;
 use super::whole::together::Known;
 use super::work::Tally;
 use super::{Entry, Geometry, Sides, Solid, Work, balls};
 use crate::bvh::packet::PacketSeeker;
 use crate::bvh::{self, Tree};
 use crate::math::wide::*;
-use crate::shape::{First, Ray};
+use crate::shape::{Bounds, First, Ray};
 
 /// Who looks for something among the entries.
 ///
@@ -68,10 +69,16 @@ impl Geometry {
             let first = self.unbounded + group * balls::LANES;
             let mut met = balls.met(ray);
             while met != 0 {
-                if look(seeker, first + met.trailing_zeros() as usize) == f64::NEG_INFINITY {
+                let place = first + met.trailing_zeros() as usize;
+                met &= met - 1;
+                let is_beside = |hull: &Bounds| Span::of_bounds(hull, ray).is_beside(limit);
+                if self.hulls[place - self.unbounded].as_ref().is_some_and(is_beside) {
+                    continue;
+                }
+                limit = look(seeker, place);
+                if limit == f64::NEG_INFINITY {
                     return;
                 }
-                met &= met - 1;
             }
         }
     }
@@ -182,7 +189,14 @@ impl Geometry {
                 for rays_of in 0..GROUPS {
                     if has(seeker.open(), rays_of) {
                         let ray = rays.four(simd, rays_of);
-                        met |= bits(self.balls[group].met_by_four(simd, lane, &ray), rays_of);
+                        let mut near = self.balls[group].met_by_four(simd, lane, &ray);
+                        if let Some(hull) = &self.hulls[bounded]
+                            && near.any_true()
+                        {
+                            let limit = four(simd, seeker.limits(), rays_of);
+                            near = near & Span::may_meet(simd, hull, &ray, limit);
+                        }
+                        met |= bits(near, rays_of);
                     }
                 }
                 let mask = seeker.open() & met;

@@ -103,6 +103,13 @@ impl Span {
         self.enter.t - self.enter.error > self.leave.t + self.leave.error
     }
 
+    /// Whether it certainly is behind a ray's start or beyond a limit, or is nowhere.
+    #[inline]
+    pub fn is_beside(&self, limit: f64) -> bool {
+        let (low, high) = self.reach();
+        self.is_empty() || high < 0.0 || low > limit
+    }
+
     /// From where to where lies what may be of any weight in it.
     #[inline]
     pub fn reach(&self) -> (f64, f64) {
