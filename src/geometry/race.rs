@@ -170,11 +170,19 @@ impl<'a> RowSeeker<'a> for Races<'a> {
         let entry = &geometry.entries[place];
         let limits = self.limits;
         let placed = &geometry.placed[body as usize];
-        placed.first_crossings_together(self.rays, mask, &limits, |number, ray, found| {
-            if let Some(met) = geometry.first_of(body, entry.sides, ray, limits[number], found) {
-                self.take_one(number, entry.hit(met));
-            }
-        });
+        let instructions = geometry.instructions;
+        placed.first_crossings_together(
+            instructions,
+            self.rays,
+            mask,
+            &limits,
+            |number, ray, found| {
+                if let Some(met) = geometry.first_of(body, entry.sides, ray, limits[number], found)
+                {
+                    self.take_one(number, entry.hit(met));
+                }
+            },
+        );
     }
 
     #[inline(never)]

@@ -194,7 +194,7 @@ impl Geometry {
                             && near.any_true()
                         {
                             let limit = four(simd, seeker.limits(), rays_of);
-                            near = near & Span::may_meet(simd, hull, &ray, limit);
+                            near &= Span::may_meet(simd, hull, &ray, limit);
                         }
                         met |= bits(near, rays_of);
                     }

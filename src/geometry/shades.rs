@@ -127,7 +127,8 @@ impl<'a> RowSeeker<'a> for Shades<'a> {
             Sides::Both.see(met) && met.t + met.error < distances[number]
         };
         let body = &self.geometry.placed[body as usize];
-        let shadowed = body.crosses_together(self.rays, mask, distances, shadows);
+        let shadowed =
+            body.crosses_together(self.geometry.instructions, self.rays, mask, distances, shadows);
         self.found(place, shadowed);
     }
 

@@ -51,8 +51,7 @@ impl Span {
     ) -> Mask<S> {
         let (WideVector(origins), WideVector(directions)) = (ray.origin, ray.direction);
         let (mut enter, mut leave) = (all(simd, f64::NEG_INFINITY), all(simd, f64::INFINITY));
-        let mut axis = 0;
-        while axis < 3 {
+        for axis in 0..3 {
             let (origin, steepest) = (origins[axis], all(simd, STEEPEST));
             let reciprocal = (all(simd, 1.0) / directions[axis]).min(steepest).max(-steepest);
             let size = all(simd, low[axis].abs().max(high[axis].abs()));
@@ -61,7 +60,6 @@ impl Span {
             let b = (all(simd, high[axis]) + blur - origin) * reciprocal;
             enter = enter.max(a.min(b));
             leave = leave.min(a.max(b));
-            axis += 1;
         }
         let beside = all(simd, BESIDE) * (enter.abs() + leave.abs());
         let is_behind = (leave + beside).simd_lt(all(simd, 0.0));

@@ -5,8 +5,10 @@
 use super::{Hit, edge};
 use crate::math::Vector;
 use crate::math::wide::*;
-use crate::shape::local::Met;
-use crate::shape::{Chord, Ray, Shape, SurfacePoint, WidePlanes, WidePoints, WideSpheres};
+use crate::shape::local::{Facet, Local, Met};
+use crate::shape::{
+    Chord, Ray, Shape, SurfacePoint, WideFacets, WidePlanes, WidePoints, WideSpheres,
+};
 use crate::world::World;
 
 /// The surface at a hit of `ray`; its normal points out of the solid, whichever way the ray goes.
@@ -41,16 +43,20 @@ pub struct SurfacePoints {
     pub origins: Rows,
 }
 
-/// The shapes that are met: spheres and planes.
+/// The shapes that are met: spheres, planes, and flat parts of bodies.
 struct Shapes {
-    /// Centres of spheres, normals of planes.
+    /// Centres of spheres, normals of planes and of flat parts.
     vectors: Rows,
-    /// Radii of spheres, distances of planes.
+    /// Radii of spheres, distances of planes, turns of flat parts.
     sizes: Row,
     scales: Row,
+    /// Points of flat parts, and their bodies, by the number in `World::placed`.
+    corners: Rows,
+    bodies: [u32; ROW],
     /// A bit for each.
     spheres: u32,
     planes: u32,
+    facets: u32,
 }
 
 impl SurfacePoints {
@@ -76,8 +82,11 @@ impl SurfacePoints {
             vectors: Rows::ZERO,
             sizes: [0.0; ROW],
             scales: [0.0; ROW],
+            corners: Rows::ZERO,
+            bodies: [0; ROW],
             spheres: 0,
             planes: 0,
+            facets: 0,
         };
         let (mut others, mut distances, mut leaving) = (0, [0.0; ROW], 0);
         for number in numbers(mask) {
@@ -97,12 +106,24 @@ impl SurfacePoints {
                     shapes.sizes[number] = plane.distance;
                     shapes.planes |= bit;
                 }
+                Shape::Placed(i) if hit.part != Met::UNKNOWN => {
+                    match world.placed[i as usize].body.facet(hit.part) {
+                        Some(Facet { corner, normal, turn }) => {
+                            shapes.vectors.set(number, normal);
+                            shapes.corners.set(number, corner);
+                            (shapes.sizes[number], shapes.bodies[number]) = (turn, i);
+                            self.faces[number] = hit.part;
+                            shapes.facets |= bit;
+                        }
+                        None => others |= bit,
+                    }
+                }
                 Shape::Box(_) | Shape::Ellipsoid(_) | Shape::Placed(_) => others |= bit,
             }
         }
         others |= dispatch!(
             instructions.level(),
-            simd => self.solve(simd, rays, &shapes, &distances)
+            simd => self.solve(simd, world, rays, &shapes, &distances)
         ) & mask;
         for number in numbers(others) {
             let point = surface(world, &rays.at(number), &hits[number]);
@@ -130,9 +151,16 @@ impl SurfacePoints {
         self.faces[number]
     }
 
-    /// Finds the points of spheres and planes; returns a bit for each of which it cannot.
+    /// Finds the points of spheres, planes and flat parts; returns a bit for each of which it cannot.
     #[inline(always)]
-    fn solve<S: Simd>(&mut self, simd: S, rays: &Rays, shapes: &Shapes, distances: &Row) -> u32 {
+    fn solve<S: Simd>(
+        &mut self,
+        simd: S,
+        world: &World,
+        rays: &Rays,
+        shapes: &Shapes,
+        distances: &Row,
+    ) -> u32 {
         let mut unsure = 0;
         for group in 0..GROUPS {
             let (ray, t) = (rays.four(simd, group), four(simd, distances, group));
@@ -149,6 +177,28 @@ impl SurfacePoints {
                 let planes = WidePlanes { normal: vector, distance: size };
                 self.store(simd, group, shapes.planes, planes.surface(simd, &ray, t));
             }
+        }
+        let mut facets = shapes.facets;
+        while facets != 0 {
+            // Those of one body together.
+            let body = shapes.bodies[facets.trailing_zeros() as usize % ROW];
+            let is_same = |number: &usize| shapes.bodies[*number] == body;
+            let same = numbers(facets).filter(is_same).fold(0, |all, number| all | 1 << number);
+            let placed = &world.placed[body as usize];
+            for group in 0..GROUPS {
+                if has(same, group) {
+                    let found = WideFacets {
+                        corner: WideVector::of(simd, &shapes.corners, group),
+                        normal: WideVector::of(simd, &shapes.vectors, group),
+                        turn: four(simd, &shapes.sizes, group),
+                    };
+                    let (ray, t) = (rays.four(simd, group), four(simd, distances, group));
+                    let found = found.surface(simd, placed, &ray, t);
+                    unsure |= bits(found.unsure, group) & same;
+                    self.store(simd, group, same, found);
+                }
+            }
+            facets &= !same;
         }
         unsure
     }

@@ -103,7 +103,7 @@ fn without_tree(geometry: &Geometry) -> Geometry {
     let balls = vec![Ball::EVERYWHERE; bounded];
     let balls = balls.chunks(balls::LANES).map(Balls::new).collect();
     let wholes = geometry.wholes.iter().map(Whole::without_tree).collect();
-    Geometry { tree: None, balls, wholes, ..geometry.clone() }
+    Geometry { tree: None, balls, hulls: vec![None; bounded], wholes, ..geometry.clone() }
 }
 
 /// Rays from anywhere, from surfaces, along axes, at centres.

@@ -69,6 +69,7 @@ pub use superellipsoid::Superellipsoid;
 pub use text::Text;
 pub use torus::Torus;
 pub(crate) use wide::chords::Chords;
+pub(crate) use wide::facets::WideFacets;
 pub(crate) use wide::{First, WidePlanes, WidePoints, WideSpheres};
 
 use crate::math::Vector;

@@ -236,17 +236,20 @@ impl Placed {
     /// With a and b a corner's coordinates across the ray, and m the coordinate along the ray's dominant
     /// axis, each rounded once on the way there, b − shear·m is off by u·(2|b| + 4|m|), and a likewise.
     fn seen_off(&self, normal: Vector, from: Vector) -> f64 {
-        let reach = if let Body::Mesh(mesh) = &*self.body {
-            mesh.reach()
-        } else if let Body::HeightField(_) = *self.body {
-            // Its corners; below them it has no end.
-            1.0
-        } else {
-            return 0.0;
-        };
-        let Placement { centre, world_from_local, .. } = self.placement;
-        let far = world_from_local.abs() * Vector::splat(reach) + (from - centre).abs();
+        let Some(corners) = self.farthest_corner() else { return 0.0 };
+        let far = corners + (from - self.placement.centre).abs();
         6.0 * U * normal.abs().element_sum() * far.max_element()
+    }
+
+    /// Returns how far along each axis the corners of triangles may be from the centre; `None` where there are none.
+    pub(super) fn farthest_corner(&self) -> Option<Vector> {
+        let reach = match &*self.body {
+            Body::Mesh(mesh) => mesh.reach(),
+            // Below its corners it has no end.
+            Body::HeightField(_) => 1.0,
+            _ => return None,
+        };
+        Some(self.placement.world_from_local.abs() * Vector::splat(reach))
     }
 
     /// Returns the unit shading normal at a surface point, on either side; `None` where it is the geometric

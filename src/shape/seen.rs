@@ -3,10 +3,10 @@
 //! **Invariant:** rays side by side have the bits of each alone.
 
 use super::local::{InWorld, Local, LocalRay, Met};
+use super::wide::facets::times;
 use super::{Placed, Ray, U};
 use crate::math::placement::Placement;
 use crate::math::wide::*;
-use crate::math::{Matrix, Vector};
 
 /// A ray in the local space of a placed body.
 #[derive(Debug, Clone, Copy)]
@@ -115,17 +115,23 @@ impl SeenRow {
 
     /// Transforms the rays of `mask` as [`Seen::new`] does; each is searched from its start up to its limit.
     #[inline(always)]
-    pub fn see(&mut self, placed: &Placed, rays: &Rays, mask: u32, limits: &Row, moved: f64) {
+    pub fn see<S: Simd>(
+        &mut self,
+        simd: S,
+        placed: &Placed,
+        rays: &Rays,
+        mask: u32,
+        limits: &Row,
+        moved: f64,
+    ) {
         let reach = placed.body.reach();
         self.here = mask;
         let body = (placed, reach, moved);
-        dispatch!(Instructions::best().level(), simd => {
-            for group in 0..GROUPS {
-                if has(mask, group) {
-                    self.fill(simd, body, group, &rays.four(simd, group), limits);
-                }
+        for group in 0..GROUPS {
+            if has(mask, group) {
+                self.fill(simd, body, group, &rays.four(simd, group), limits);
             }
-        });
+        }
         self.reaching &= mask;
     }
 
@@ -204,12 +210,4 @@ impl SeenRow {
         let (start, start_error) = (self.starts[number], self.start_errors[number]);
         ray_crossing(local, start, self.speeds[number], start_error, self.turns[number])
     }
-}
-
-/// Returns the product of a matrix and a vector.
-#[inline(always)]
-fn times<S: Simd>(simd: S, matrix: &Matrix, vector: WideVector<S>) -> WideVector<S> {
-    let WideVector([x, y, z]) = vector;
-    let column = |axis: Vector| WideVector::splat(simd, axis);
-    column(matrix.x_axis) * x + column(matrix.y_axis) * y + column(matrix.z_axis) * z
 }

@@ -4,6 +4,7 @@
 //! case, it says so.
 
 pub(crate) mod chords;
+pub(crate) mod facets;
 
 use super::{Plane, Sphere, U};
 use crate::math::wide::*;
@@ -187,4 +188,10 @@ impl Plane {
         let near = size.simd_lt(t * all(simd, 16_384.0));
         First::new(simd, met, steep & near, (t, t * all(simd, 1.0 / 67_108_864.0)), leaving)
     }
+}
+
+/// Returns the larger of numbers.
+#[inline(always)]
+fn larger<S: Simd>(a: Wide<S>, b: Wide<S>) -> Wide<S> {
+    b.simd_gt(a).select(b, a)
 }

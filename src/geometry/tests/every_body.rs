@@ -43,6 +43,15 @@ fn solid(random: &mut Random, reach: f64, depth: usize) -> String {
     format!("{operation} {{ {crowd} {clip} {place}")
 }
 
+/// Solids of every kind, some of them as one.
+pub(super) fn crowd(random: &mut Random, reach: f64, count: usize) -> World {
+    let text: String = (0..count).map(|_| solid(random, reach, 2)).collect();
+    let mut road = Road::new(&NoFiles, Options::new(Dialect::Pov));
+    let (world, _) = road.compile("bodies.pov", text.clone().into_bytes());
+    assert!(!road.diagnostics.has_errors(), "{text}\n{:#?}", road.diagnostics);
+    world
+}
+
 #[test]
 fn trees_find_of_every_kind_of_body_what_trying_each_finds() {
     let mut random = Random(65);
@@ -50,10 +59,7 @@ fn trees_find_of_every_kind_of_body_what_trying_each_finds() {
     for scene in 0..200 {
         let reach = random.size(-4.0, 4.0);
         let count = [9, 20, 40][scene % 3];
-        let text: String = (0..count).map(|_| solid(&mut random, reach, 2)).collect();
-        let mut road = Road::new(&NoFiles, Options::new(Dialect::Pov));
-        let (world, _) = road.compile("bodies.pov", text.clone().into_bytes());
-        assert!(!road.diagnostics.has_errors(), "{text}\n{:#?}", road.diagnostics);
+        let world = crowd(&mut random, reach, count);
         kinds.extend(world.placed.iter().map(|placed| placed.body.word()));
         assert_tree_agrees(&world, &mut random, reach, tries_in(2000));
         let geometry = Geometry::build(&world);

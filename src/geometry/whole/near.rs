@@ -15,8 +15,7 @@ impl Whole {
     #[inline(always)]
     pub fn may_meet<S: Simd>(&self, simd: S, rays: &Rays, limits: &Row, mask: u32) -> u32 {
         let mut met = 0;
-        let mut group = 0;
-        while group < GROUPS {
+        for group in 0..GROUPS {
             if has(mask, group) {
                 let ray = rays.four(simd, group);
                 let mut may_meet = match &self.bounds {
@@ -27,12 +26,11 @@ impl Whole {
                 while inside != 0 {
                     let leaf = inside.trailing_zeros() as usize;
                     let (balls, lane) = (leaf / balls::LANES, leaf % balls::LANES);
-                    may_meet = may_meet & self.balls[balls].met_by_four(simd, lane, &ray);
+                    may_meet &= self.balls[balls].met_by_four(simd, lane, &ray);
                     inside &= inside - 1;
                 }
                 met |= bits(may_meet, group);
             }
-            group += 1;
         }
         met & mask
     }

@@ -91,7 +91,7 @@ impl Geometry {
                     self.boxes[i as usize].0.chords(simd, rays, near, known.next_chords(leaf));
                 }
                 Solid::Placed(i) => {
-                    self.placed[i as usize].see_part(rays, near, known.next_seen(leaf));
+                    self.placed[i as usize].see_part(simd, rays, near, known.next_seen(leaf));
                 }
                 Solid::Plane(_) | Solid::Ellipsoid(_) | Solid::Whole(_) => {}
             }

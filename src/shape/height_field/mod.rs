@@ -13,7 +13,7 @@ mod walk;
 use std::cell::Cell;
 
 use super::U;
-use super::local::{Crossings, Height, Local, LocalRay, Met, Span, unite};
+use super::local::{Crossings, Facet, Height, Local, LocalRay, Met, Span, unite};
 use super::mesh::Flat;
 use super::mesh::pierce::{self, View};
 use crate::math::Vector;
@@ -341,13 +341,14 @@ impl Local for HeightField {
 
     /// Measured from the plane of the triangle, relative to its corner.
     fn height(&self, part: u32, point: Vector) -> Height {
+        let nothing = Height { value: 0.0, gradient: Vector::Y, error: 0.0 };
+        self.facet(part).map_or(nothing, |facet| facet.height(point))
+    }
+
+    fn facet(&self, part: u32) -> Option<Facet> {
         let corners = self.triangle(part);
-        let Some(Flat { normal, turn }) = Flat::through(corners) else {
-            return Height { value: 0.0, gradient: Vector::Y, error: 0.0 };
-        };
-        let off = point - corners[0];
-        let error = (turn + 4.0 * U) * off.length() + U * point.length();
-        Height { value: normal.dot(off), gradient: normal, error }
+        let Flat { normal, turn } = Flat::through(corners)?;
+        Some(Facet { corner: corners[0], normal, turn })
     }
 
     /// Extent of the visible part, with a margin for the rounding of a point on it.

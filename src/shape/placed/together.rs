@@ -5,7 +5,7 @@
 use super::super::local::{Crossings, Local, LocalRay, Met};
 use super::super::seen::SeenRow;
 use super::super::{Placed, Ray};
-use crate::math::wide::{ROW, Rays, Row, numbers};
+use crate::math::wide::{Instructions, ROW, Rays, Row, Simd, dispatch, numbers};
 use smallvec::SmallVec;
 
 impl Placed {
@@ -14,12 +14,13 @@ impl Placed {
     #[inline(always)]
     pub fn first_crossings_together(
         &self,
+        instructions: Instructions,
         rays: &Rays,
         mask: u32,
         limits: &Row,
         mut each: impl FnMut(usize, &Ray, &[Met]),
     ) {
-        self.together(rays, mask, limits, |row, numbers, rays, lines, between| {
+        self.together(instructions, rays, mask, limits, |row, numbers, rays, lines, between| {
             self.body.first_crossings_together(lines, between, &mut |nth, found| {
                 let number = numbers[nth];
                 found.iter_mut().for_each(|met| *met = row.met(number, *met));
@@ -32,13 +33,14 @@ impl Placed {
     #[inline(always)]
     pub fn crosses_together(
         &self,
+        instructions: Instructions,
         rays: &Rays,
         mask: u32,
         limits: &Row,
         accepts: impl Fn(usize, &Met) -> bool,
     ) -> u32 {
         let mut crossed = 0;
-        self.together(rays, mask, limits, |row, numbers, rays, lines, between| {
+        self.together(instructions, rays, mask, limits, |row, numbers, rays, lines, between| {
             let found = self.body.crosses_together(lines, between, &|nth, met| {
                 let number = numbers[nth];
                 accepts(number, &self.shared(&rays[nth], &row.met(number, *met)))
@@ -51,8 +53,9 @@ impl Placed {
     }
 
     /// Brings the rays of `mask` to where [`Self::crossings_of_part_in`] finds them.
-    pub(crate) fn see_part(&self, rays: &Rays, mask: u32, row: &mut SeenRow) {
-        row.see(self, rays, mask, &[0.0; ROW], self.moved());
+    #[inline(always)]
+    pub(crate) fn see_part<S: Simd>(&self, simd: S, rays: &Rays, mask: u32, row: &mut SeenRow) {
+        row.see(simd, self, rays, mask, &[0.0; ROW], self.moved());
     }
 
     /// [`Self::crossings_of_part`] for the ray of this number in a row.
@@ -75,13 +78,15 @@ impl Placed {
     #[inline(always)]
     fn together(
         &self,
+        instructions: Instructions,
         rays: &Rays,
         mask: u32,
         limits: &Row,
         find: impl FnOnce(&SeenRow, &[usize], &[Ray], &[LocalRay], &[(f64, f64)]),
     ) {
         let mut row = SeenRow::NONE;
-        row.see(self, rays, mask, limits, self.edges_moved());
+        let moved = self.edges_moved();
+        dispatch!(instructions.level(), simd => row.see(simd, self, rays, mask, limits, moved));
         if row.reaching == 0 {
             return;
         }

@@ -5,7 +5,7 @@
 
 use super::super::box_::slabs::{SPEED_ERROR, STEEP};
 use super::super::{Box_, Chord, Crossing, Sphere, U};
-use super::is_planet;
+use super::{is_planet, larger};
 use crate::math::AbsDot;
 use crate::math::wide::*;
 
@@ -159,7 +159,7 @@ impl Box_ {
             leave = smaller(leave, far);
 
             let is_steep = speed.abs().simd_gt(all(simd, STEEP));
-            unsure = unsure | !(is_steep & near.is_finite() & far.is_finite());
+            unsure |= !(is_steep & near.is_finite() & far.is_finite());
         }
         let met = !enter_least.simd_gt(leave_most);
         let leave = larger(leave, enter);
@@ -173,12 +173,6 @@ impl Box_ {
             unsure,
         }
     }
-}
-
-/// Returns the larger of numbers.
-#[inline(always)]
-fn larger<S: Simd>(a: Wide<S>, b: Wide<S>) -> Wide<S> {
-    b.simd_gt(a).select(b, a)
 }
 
 /// Returns the smaller of numbers.
