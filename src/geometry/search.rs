@@ -11,7 +11,7 @@ use super::{Entry, Geometry, Sides, Solid, Work, balls};
 use crate::bvh::packet::PacketSeeker;
 use crate::bvh::{self, Tree};
 use crate::math::wide::*;
-use crate::shape::{Bounds, First, Ray};
+use crate::shape::{Bounds, First, FirstOfFour, Ray};
 
 /// Who looks for something among the entries.
 ///
@@ -128,39 +128,49 @@ pub(super) trait RowSeeker<'a> {
             return;
         }
         self.tally().root_solves(mask.count_ones(), || geometry.price(entry));
+        let shows = [entry.sides.shows(false), entry.sides.shows(true)];
         match &entry.solid {
-            Solid::Sphere(sphere) if mask.count_ones() > 1 => {
-                let inside = entry.sides == Sides::Inside;
-                for group in 0..GROUPS {
-                    if has(mask, group) {
-                        let ray = self.rays().four(simd, group);
-                        let limit = four(simd, self.limits(), group);
-                        let first = sphere.first_of_four(simd, &ray, inside, limit);
-                        self.take(simd, place, group, first);
-                    }
-                }
+            Solid::Plane(plane) => self.look_in_row(simd, place, mask, plane, shows),
+            _ if mask.count_ones() == 1 => {
+                numbers(mask).for_each(|number| self.look_alone(place, number));
             }
-            Solid::Plane(plane) => {
-                let shows = [entry.sides.shows(false), entry.sides.shows(true)];
-                for group in 0..GROUPS {
-                    if has(mask, group) {
-                        let ray = self.rays().four(simd, group);
-                        let limit = four(simd, self.limits(), group);
-                        let first = plane.first_of_four(simd, &ray, shows, limit);
-                        self.take(simd, place, group, first);
-                    }
-                }
+            Solid::Sphere(sphere) => self.look_in_row(simd, place, mask, sphere, shows),
+            Solid::Box(i) => {
+                self.look_in_row(simd, place, mask, &geometry.boxes[*i as usize], shows);
             }
-            Solid::Placed(i) if mask.count_ones() > 1 && entry.sides == Sides::Both => {
+            Solid::Ellipsoid(i) => {
+                self.look_in_row(simd, place, mask, &geometry.ellipsoids[*i as usize], shows);
+            }
+            Solid::Placed(i) if entry.sides == Sides::Both => {
                 self.look_together(place, *i, mask);
             }
-            Solid::Whole(i) if mask.count_ones() > 1 => {
+            Solid::Whole(i) => {
                 let whole = &geometry.wholes[*i as usize];
                 let near = whole.may_meet(simd, self.rays(), self.limits(), mask);
                 let known = geometry.known(simd, whole, self.rays(), near);
                 numbers(near).for_each(|number| self.look_at_whole(place, *i, number, &known));
             }
-            _ => numbers(mask).for_each(|number| self.look_alone(place, number)),
+            Solid::Placed(_) => numbers(mask).for_each(|number| self.look_alone(place, number)),
+        }
+    }
+
+    /// Looks at a solid that is solved for four rays at once.
+    #[inline(always)]
+    fn look_in_row<S: Simd>(
+        &mut self,
+        simd: S,
+        place: usize,
+        mask: u32,
+        solid: &impl FirstOfFour,
+        shows: [bool; 2],
+    ) {
+        for group in 0..GROUPS {
+            if has(mask, group) {
+                let ray = self.rays().four(simd, group);
+                let limit = four(simd, self.limits(), group);
+                let first = solid.first_of_four(simd, &ray, shows, limit);
+                self.take(simd, place, group, first);
+            }
         }
     }
 }

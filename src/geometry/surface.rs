@@ -43,19 +43,21 @@ pub struct SurfacePoints {
     pub origins: Rows,
 }
 
-/// The shapes that are met: spheres, planes, and flat parts of bodies.
+/// The shapes that are met: spheres, planes, ellipsoids, and flat parts of bodies.
 struct Shapes {
     /// Centres of spheres, normals of planes and of flat parts.
     vectors: Rows,
     /// Radii of spheres, distances of planes, turns of flat parts.
     sizes: Row,
     scales: Row,
-    /// Points of flat parts, and their bodies, by the number in `World::placed`.
+    /// Points of flat parts.
     corners: Rows,
+    /// Numbers of ellipsoids, and of the bodies of flat parts, in the World's lists.
     bodies: [u32; ROW],
     /// A bit for each.
     spheres: u32,
     planes: u32,
+    ellipsoids: u32,
     facets: u32,
 }
 
@@ -86,6 +88,7 @@ impl SurfacePoints {
             bodies: [0; ROW],
             spheres: 0,
             planes: 0,
+            ellipsoids: 0,
             facets: 0,
         };
         let (mut others, mut distances, mut leaving) = (0, [0.0; ROW], 0);
@@ -118,7 +121,11 @@ impl SurfacePoints {
                         None => others |= bit,
                     }
                 }
-                Shape::Box(_) | Shape::Ellipsoid(_) | Shape::Placed(_) => others |= bit,
+                Shape::Ellipsoid(i) => {
+                    shapes.bodies[number] = i;
+                    shapes.ellipsoids |= bit;
+                }
+                Shape::Box(_) | Shape::Placed(_) => others |= bit,
             }
         }
         others |= dispatch!(
@@ -178,22 +185,41 @@ impl SurfacePoints {
                 self.store(simd, group, shapes.planes, planes.surface(simd, &ray, t));
             }
         }
-        let mut facets = shapes.facets;
-        while facets != 0 {
-            // Those of one body together.
-            let body = shapes.bodies[facets.trailing_zeros() as usize % ROW];
+        // Those of one ellipsoid, or of one body, together.
+        let first = |some: u32| shapes.bodies[some.trailing_zeros() as usize % ROW];
+        let same_as = |body: u32, some: u32| {
             let is_same = |number: &usize| shapes.bodies[*number] == body;
-            let same = numbers(facets).filter(is_same).fold(0, |all, number| all | 1 << number);
-            let placed = &world.placed[body as usize];
+            numbers(some).filter(is_same).fold(0, |all, number| all | 1 << number)
+        };
+        let mut ellipsoids = shapes.ellipsoids;
+        while ellipsoids != 0 {
+            let number = first(ellipsoids);
+            let same = same_as(number, ellipsoids);
+            let ellipsoid = &world.ellipsoids[number as usize];
             for group in 0..GROUPS {
                 if has(same, group) {
-                    let found = WideFacets {
+                    let (ray, t) = (rays.four(simd, group), four(simd, distances, group));
+                    let found = ellipsoid.surface_of_four(simd, &ray, t);
+                    unsure |= bits(found.unsure, group) & same;
+                    self.store(simd, group, same, found);
+                }
+            }
+            ellipsoids &= !same;
+        }
+        let mut facets = shapes.facets;
+        while facets != 0 {
+            let number = first(facets);
+            let same = same_as(number, facets);
+            let placed = &world.placed[number as usize];
+            for group in 0..GROUPS {
+                if has(same, group) {
+                    let facets = WideFacets {
                         corner: WideVector::of(simd, &shapes.corners, group),
                         normal: WideVector::of(simd, &shapes.vectors, group),
                         turn: four(simd, &shapes.sizes, group),
                     };
                     let (ray, t) = (rays.four(simd, group), four(simd, distances, group));
-                    let found = found.surface(simd, placed, &ray, t);
+                    let found = facets.surface(simd, placed, &ray, t);
                     unsure |= bits(found.unsure, group) & same;
                     self.store(simd, group, same, found);
                 }

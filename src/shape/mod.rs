@@ -69,8 +69,8 @@ pub use superellipsoid::Superellipsoid;
 pub use text::Text;
 pub use torus::Torus;
 pub(crate) use wide::chords::Chords;
-pub(crate) use wide::facets::WideFacets;
-pub(crate) use wide::{First, WidePlanes, WidePoints, WideSpheres};
+pub(crate) use wide::points::WideFacets;
+pub(crate) use wide::{First, FirstOfFour, WidePlanes, WidePoints, WideSpheres};
 
 use crate::math::Vector;
 pub use crate::math::bounds::{Bounds, Rounding};

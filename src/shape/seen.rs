@@ -3,7 +3,7 @@
 //! **Invariant:** rays side by side have the bits of each alone.
 
 use super::local::{InWorld, Local, LocalRay, Met};
-use super::wide::facets::times;
+use super::wide::points::times;
 use super::{Placed, Ray, U};
 use crate::math::placement::Placement;
 use crate::math::wide::*;

@@ -4,7 +4,7 @@
 //! case, it says so.
 
 pub(crate) mod chords;
-pub(crate) mod facets;
+pub(crate) mod points;
 
 use super::{Plane, Sphere, U};
 use crate::math::wide::*;
@@ -17,6 +17,19 @@ pub(crate) struct First<S: Simd> {
     pub leaving: Mask<S>,
     /// It takes more to tell.
     pub unsure: Mask<S>,
+}
+
+/// A solid that is solved for four rays at once.
+pub(crate) trait FirstOfFour {
+    /// Returns the first crossing of each ray that is seen, at its limit or before, with the error that it has for one
+    /// ray; `shows` tells whether the solid is seen where rays enter it, and where they leave it.
+    fn first_of_four<S: Simd>(
+        &self,
+        simd: S,
+        ray: &WideRay<S>,
+        shows: [bool; 2],
+        limit: Wide<S>,
+    ) -> First<S>;
 }
 
 impl<S: Simd> First<S> {
@@ -102,17 +115,18 @@ fn is_planet<S: Simd>(simd: S, radius: Wide<S>, place: WideVector<S>) -> Mask<S>
     radius.simd_gt(factor * x) & radius.simd_gt(factor * y) & radius.simd_gt(factor * z)
 }
 
-impl Sphere {
+impl FirstOfFour for Sphere {
     /// Returns the crossing that [`Sphere::roots_ahead`] and [`super::sphere::Roots::roughly`] find: where rays leave
-    /// if they see it from `inside`, and where they enter if not.
+    /// if they see it from inside only, and where they enter if not.
     #[inline(always)]
-    pub(crate) fn first_of_four<S: Simd>(
+    fn first_of_four<S: Simd>(
         &self,
         simd: S,
         ray: &WideRay<S>,
-        inside: bool,
+        shows: [bool; 2],
         limit: Wide<S>,
     ) -> First<S> {
+        let inside = !shows[0];
         let (radius, zero) = (all(simd, self.radius), all(simd, 0.0));
         let radius_squared = all(simd, self.radius * self.radius);
         let start = ray.origin - WideVector::splat(simd, self.centre);
@@ -163,11 +177,12 @@ impl Plane {
         let inside = all(simd, self.distance) - normal.dot(ray.origin);
         (inside * normal.dot(ray.direction)).simd_gt(all(simd, 0.0))
     }
+}
 
-    /// Returns the crossing that [`Plane::pass`] and [`Plane::roughly`] find; `shows` tells whether the plane is seen
-    /// where rays enter it, and where they leave it.
+impl FirstOfFour for Plane {
+    /// Returns the crossing that [`Plane::pass`] and [`Plane::roughly`] find.
     #[inline(always)]
-    pub(crate) fn first_of_four<S: Simd>(
+    fn first_of_four<S: Simd>(
         &self,
         simd: S,
         ray: &WideRay<S>,

@@ -93,7 +93,11 @@ impl Geometry {
                 Solid::Placed(i) => {
                     self.placed[i as usize].see_part(simd, rays, near, known.next_seen(leaf));
                 }
-                Solid::Plane(_) | Solid::Ellipsoid(_) | Solid::Whole(_) => {}
+                Solid::Ellipsoid(i) => {
+                    let ellipsoid = &self.ellipsoids[i as usize];
+                    ellipsoid.chords(simd, rays, near, known.next_chords(leaf));
+                }
+                Solid::Plane(_) | Solid::Whole(_) => {}
             }
         }
         known

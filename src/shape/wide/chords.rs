@@ -1,11 +1,12 @@
-//! Where rays side by side enter and leave a sphere or a box.
+//! Where rays side by side enter and leave a sphere, an ellipsoid or a box.
 //!
 //! **Out:** of each ray the chord that the shape finds of it alone, to the bit; where that takes a rare case, it says
 //! so.
 
 use super::super::box_::slabs::{SPEED_ERROR, STEEP};
-use super::super::{Box_, Chord, Crossing, Sphere, U};
-use super::{is_planet, larger};
+use super::super::{Box_, Chord, Crossing, Ellipsoid, Sphere, U};
+use super::points::{length, times};
+use super::{First, FirstOfFour, is_planet, larger};
 use crate::math::AbsDot;
 use crate::math::wide::*;
 
@@ -57,6 +58,25 @@ struct Four<S: Simd> {
     unsure: Mask<S>,
 }
 
+impl<S: Simd> Four<S> {
+    /// Returns the first crossing that is ahead and seen, of the rays that are `near`.
+    #[inline(always)]
+    fn first(&self, simd: S, near: Mask<S>, shows: [bool; 2], limit: Wide<S>) -> First<S> {
+        let Self { ends: [enter, leave], errors, met, unsure } = *self;
+        let (enter_shows, leave_shows) = (Mask::splat(simd, shows[0]), Mask::splat(simd, shows[1]));
+        let enters = enter_shows & enter.simd_gt(errors[0]);
+        let leaves = leave_shows & leave.simd_gt(errors[1]);
+        let t = enters.select(enter, leave);
+        let met = near & met & (enters | leaves) & t.simd_le(limit) & !unsure;
+        First {
+            t: met.select(t, all(simd, f64::INFINITY)),
+            error: enters.select(errors[0], errors[1]),
+            leaving: !enters,
+            unsure: near & unsure,
+        }
+    }
+}
+
 impl Sphere {
     /// Finds [`Sphere::chord`] of the rays of `mask`.
     #[inline(always)]
@@ -70,7 +90,7 @@ impl Sphere {
 
     #[inline(always)]
     fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> Four<S> {
-        let (radius, zero, u) = (all(simd, self.radius), all(simd, 0.0), all(simd, U));
+        let radius = all(simd, self.radius);
         let radius_squared = all(simd, self.radius * self.radius);
         let start = ray.origin - WideVector::splat(simd, self.centre);
         let along = start.dot(ray.direction);
@@ -80,39 +100,132 @@ impl Sphere {
         let [least, most] = Self::SAFE_SQUARES;
         let is_safe = size.simd_gt(all(simd, least)) & size.simd_lt(all(simd, most));
 
-        let miss = miss_squared.sqrt();
-        let half = ((radius - miss) * (radius + miss)).sqrt();
         let power = start_squared - radius_squared;
-        let squares = all(simd, 6.0) * start_squared + all(simd, 2.0) * radius_squared;
+        let is_close = (all(simd, 1024.0) * power.abs()).simd_lt(radius_squared);
+        let is_close = is_close & is_planet(simd, radius, ray.origin);
+        let roots = WideRoots { along, miss: miss_squared.sqrt(), start_squared, radius };
+        let Four { ends, errors, met, unsure } = roots.chord(simd, None);
+        let met = met & !miss_squared.simd_gt(radius_squared);
+        Four { ends, errors, met, unsure: unsure | !is_safe | is_close }
+    }
+}
+
+impl Ellipsoid {
+    /// Finds [`Ellipsoid::chord`] of the rays of `mask`.
+    #[inline(always)]
+    pub(crate) fn chords<S: Simd>(&self, simd: S, rays: &Rays, mask: u32, chords: &mut Chords) {
+        for group in 0..GROUPS {
+            if has(mask, group) {
+                chords.store(group, &self.chords_of_four(simd, &rays.four(simd, group)));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> Four<S> {
+        let matrix = self.placement.local_from_world;
+        let sizes = matrix.abs();
+        let from_centre = ray.origin - WideVector::splat(simd, self.placement.centre);
+        let start = times(simd, &matrix, from_centre);
+        let step = times(simd, &matrix, ray.direction);
+        let speed = length(step);
+        let direction = step / speed;
+        let along = start.dot(direction);
+        let miss = length(start - direction * along);
+
+        let (six, u) = (all(simd, 6.0), all(simd, U));
+        let reach = length(times(simd, &sizes, from_centre.abs()));
+        let turn = length(times(simd, &sizes, ray.direction.abs())) / speed;
+        let start_squared = start.length_squared();
+        let blur = WideBlur {
+            miss: u * (six * reach + six * turn * along.abs()),
+            along: u * (six * reach + six * turn * (along.abs() + miss)),
+            power: all(simd, U * 12.0) * reach * start_squared.sqrt(),
+            scale: all(simd, U * 6.0) * turn,
+            unit: all(simd, 1.0) / speed,
+        };
+        let radius = all(simd, 1.0);
+        WideRoots { along, miss, start_squared, radius }.chord(simd, Some(blur))
+    }
+}
+
+impl FirstOfFour for Ellipsoid {
+    #[inline(always)]
+    fn first_of_four<S: Simd>(
+        &self,
+        simd: S,
+        ray: &WideRay<S>,
+        shows: [bool; 2],
+        limit: Wide<S>,
+    ) -> First<S> {
+        self.chords_of_four(simd, ray).first(simd, Mask::splat(simd, true), shows, limit)
+    }
+}
+
+/// The terms of [`super::super::sphere::Roots`], for four rays.
+struct WideRoots<S: Simd> {
+    along: Wide<S>,
+    miss: Wide<S>,
+    start_squared: Wide<S>,
+    radius: Wide<S>,
+}
+
+/// [`super::super::sphere::Blur`], and the unit of lengths, for four rays.
+struct WideBlur<S: Simd> {
+    miss: Wide<S>,
+    along: Wide<S>,
+    power: Wide<S>,
+    scale: Wide<S>,
+    unit: Wide<S>,
+}
+
+impl<S: Simd> WideRoots<S> {
+    /// Returns the chord of roots that need not be refined: `Roots::blurred_chord`.
+    #[inline(always)]
+    fn chord(&self, simd: S, blur: Option<WideBlur<S>>) -> Four<S> {
+        let Self { along, miss, start_squared, radius } = *self;
+        let (zero, u, two) = (all(simd, 0.0), all(simd, U), all(simd, 2.0));
+        let half = ((radius - miss) * (radius + miss)).sqrt();
+        let radius_squared = radius * radius;
+        let power = start_squared - radius_squared;
+        let squares = all(simd, 6.0) * start_squared + two * radius_squared;
         let middle = along.abs();
         let far = middle + half;
         let near = power / far;
         let near = near.simd_lt(far).select(near, far);
-        let is_close = (all(simd, 1024.0) * power.abs()).simd_lt(radius_squared);
-        let is_close = is_close & is_planet(simd, radius, ray.origin);
 
-        // `Roots::blurred_chord`, without blur.
         let size = middle + miss;
-        let slid = all(simd, 16.0 * U) * size;
-        let half_squared = half * half;
-        let square_error =
+        let mut slid = all(simd, 16.0 * U) * size;
+        if let Some(blur) = &blur {
+            slid += blur.along;
+        }
+        let mut square_error =
             u * (all(simd, 14.0) * miss * size + all(simd, 4.0) * half * half) + slid * slid;
-        let is_small = square_error.simd_lt(half_squared);
+        if let Some(blur) = &blur {
+            square_error += blur.miss * (two * miss + blur.miss);
+        }
+        let is_small = square_error.simd_lt(half * half);
         let half_error = is_small.select(square_error / half, square_error.sqrt());
         let far_error = half_error + slid + all(simd, 8.0 * U) * half;
-        let power_error = u * (squares + all(simd, 9.0) * power.abs());
+        let mut power_error = u * (squares + all(simd, 9.0) * power.abs());
+        if let Some(blur) = &blur {
+            power_error += blur.power;
+        }
         let by_power = (power_error + near.abs() * far_error) / (far - far_error)
             + all(simd, 2.0 * U) * near.abs();
         let by_sum = far_error + (near - (middle - half)).abs();
         let near_error = far.simd_gt(far_error + far_error).select(by_power, by_sum);
 
         let away = along.simd_gt(zero);
-        Four {
-            ends: [away.select(-far, near), away.select(-near, far)],
-            errors: [away.select(far_error, near_error), away.select(near_error, far_error)],
-            met: half.simd_gt(zero) & !miss_squared.simd_gt(radius_squared),
-            unsure: !is_safe | is_close,
+        let mut ends = [away.select(-far, near), away.select(-near, far)];
+        let mut errors = [away.select(far_error, near_error), away.select(near_error, far_error)];
+        if let Some(blur) = &blur {
+            for (end, error) in ends.iter_mut().zip(&mut errors) {
+                *error = (*error + end.abs() * blur.scale) * blur.unit;
+                *end *= blur.unit;
+            }
         }
+        Four { ends, errors, met: half.simd_gt(zero), unsure: Mask::splat(simd, false) }
     }
 }
 
@@ -172,6 +285,34 @@ impl Box_ {
             met,
             unsure,
         }
+    }
+}
+
+/// A box, and the square of the radius that holds it.
+impl FirstOfFour for (Box_, f64) {
+    /// Returns the first crossing that is seen of [`Box_::chord`], unless [`Box_::is_out_of_reach`].
+    #[inline(always)]
+    fn first_of_four<S: Simd>(
+        &self,
+        simd: S,
+        ray: &WideRay<S>,
+        shows: [bool; 2],
+        limit: Wide<S>,
+    ) -> First<S> {
+        let (solid, reach_squared) = self;
+        let reach_squared = all(simd, *reach_squared);
+        let start = ray.origin - WideVector::splat(simd, solid.centre);
+        let along = start.dot(ray.direction);
+        let offset = start - ray.direction * along;
+        let is_away = along.simd_gt(all(simd, 0.0));
+        let behind = is_away & start.length_squared().simd_gt(reach_squared);
+        let blur = along * all(simd, 1.0 / (1u64 << 40) as f64);
+        let beside = offset.length_squared().simd_gt(reach_squared + blur * blur);
+        let near = !(behind | beside);
+        if !near.any_true() {
+            return First::none(simd);
+        }
+        solid.chords_of_four(simd, ray).first(simd, near, shows, limit)
     }
 }
 

@@ -1,9 +1,9 @@
-//! What flat parts of a body are like where four rays cross them.
+//! What flat parts of a body, and ellipsoids, are like where four rays cross them.
 //!
-//! **Out:** of each ray what [`Placed::surface_of_part`] finds of it alone, to the bit; where that takes more, it says
-//! so.
+//! **Out:** of each ray what [`Placed::surface_of_part`] or [`Ellipsoid::surface`] finds of it alone, to the bit; where
+//! that takes more, it says so.
 
-use super::super::{Placed, U};
+use super::super::{Ellipsoid, Placed, U};
 use super::{WidePoints, larger};
 use crate::math::Matrix;
 use crate::math::placement::Placement;
@@ -71,8 +71,45 @@ impl<S: Simd> WideFacets<S> {
     }
 }
 
+impl Ellipsoid {
+    /// Returns the points where each of four rays crosses it.
+    #[inline(always)]
+    pub(crate) fn surface_of_four<S: Simd>(
+        &self,
+        simd: S,
+        ray: &WideRay<S>,
+        t: Wide<S>,
+    ) -> WidePoints<S> {
+        let local_from_world = self.placement.local_from_world;
+        let [sizes, out] = [local_from_world.abs(), local_from_world.transpose()];
+        let centre = WideVector::splat(simd, self.placement.centre);
+        let one = all(simd, 1.0);
+        let rough = ray.origin + ray.direction * t;
+        let [mut point, mut gradient] = [rough; 2];
+        let (mut rest, mut unsure) = (one, Mask::splat(simd, false));
+        for step in 0..2 {
+            if step == 1 {
+                point = rough - gradient * (rest / gradient.length_squared());
+            }
+            let local = times(simd, &local_from_world, point - centre);
+            let distance = length(local);
+            let reciprocal = one / distance;
+            unsure |= !(reciprocal.is_finite() & reciprocal.simd_gt(all(simd, 0.0)));
+            (rest, gradient) = (distance - one, times(simd, &out, local * reciprocal));
+        }
+        let steepness = length(gradient);
+        let normal = gradient / steepness;
+        let reach = length(times(simd, &sizes, (point - centre).abs()));
+        let rounding = all(simd, U) * (all(simd, 24.0) * reach + all(simd, 12.0));
+        let error = (rest.abs() + rounding) / steepness
+            + all(simd, 2.0 * U) * normal.abs().dot(point.abs());
+        WidePoints { point, normal, error, unsure }
+    }
+}
+
+/// Returns the lengths of vectors.
 #[inline(always)]
-fn length<S: Simd>(vector: WideVector<S>) -> Wide<S> {
+pub(super) fn length<S: Simd>(vector: WideVector<S>) -> Wide<S> {
     vector.length_squared().sqrt()
 }
 
