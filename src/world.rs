@@ -128,15 +128,29 @@ pub struct TextureOrigin {
     pub pigment: Option<Site>,
     /// The keyword `finish`, likewise.
     pub finish: Option<Site>,
-    pub pattern: Vec<Site>,
-    pub highlights: Vec<Site>,
+    /// The places that call for its effects, in the order in which they were found. Most textures have few.
+    pub sites: Vec<(TexturePart, Site)>,
+}
+
+/// An effect of a texture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TexturePart {
+    Pattern,
+    Highlights,
+    Reflection,
     /// For light from behind, as in `diffuse 0.6, 0.3`.
-    pub behind: Vec<Site>,
-    pub reflection: Vec<Site>,
+    Behind,
     /// For colours that let light through.
-    pub clear: Vec<Site>,
+    Clear,
     /// For colours with a `filter` on objects that cast shadows.
-    pub filter: Vec<Site>,
+    Filter,
+}
+
+impl TextureOrigin {
+    /// Returns the places that call for an effect.
+    pub fn of(&self, part: TexturePart) -> impl Iterator<Item = Site> {
+        self.sites.iter().filter(move |(of, _)| *of == part).map(|(_, site)| *site)
+    }
 }
 
 /// What a pattern, a picture or layers are part of.

@@ -114,9 +114,10 @@ impl Evaluator<'_> {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
             let arguments = match ast.expression(id).kind {
-                ExpressionKind::Number(_) | ExpressionKind::String | ExpressionKind::Word(_) => {
-                    continue;
-                }
+                ExpressionKind::Number(_)
+                | ExpressionKind::Triple(_)
+                | ExpressionKind::String
+                | ExpressionKind::Word(_) => continue,
                 ExpressionKind::Name(name) => {
                     asked.push(here.symbol(name));
                     continue;
@@ -184,6 +185,7 @@ pub(super) fn is_constant(ast: &Ast, id: ExpressionId) -> bool {
             ExpressionKind::String
             | ExpressionKind::Name(_)
             | ExpressionKind::Vector(_)
+            | ExpressionKind::Triple(_)
             | ExpressionKind::Call(..)
             | ExpressionKind::Index(..)
             | ExpressionKind::Component(..)
@@ -236,6 +238,7 @@ fn names(ast: &Ast, id: ExpressionId) -> Vec<&str> {
             | ExpressionKind::Word(_)
             | ExpressionKind::String
             | ExpressionKind::Vector(_)
+            | ExpressionKind::Triple(_)
             | ExpressionKind::Call(..)
             | ExpressionKind::Index(..)
             | ExpressionKind::Component(..)

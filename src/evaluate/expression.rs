@@ -27,6 +27,10 @@ impl Evaluator<'_> {
         let expression = here.unit.expression(id);
         match expression.kind {
             ExpressionKind::Number(number) if number.is_finite() => Ok(Value::Number(number)),
+            ExpressionKind::Triple(triple) => {
+                let [x, y, z] = here.unit.ast.triple(triple);
+                Ok(Value::Vector(Vector::new(x, y, z).into()))
+            }
             ExpressionKind::Number(number) => {
                 let message = "this number is too large: the largest is about 1.8e308";
                 let diagnostic =
@@ -112,6 +116,7 @@ impl Evaluator<'_> {
                 self.inside(here, items, |evaluator| evaluator.only_value(here, expression.span))
             }
             ExpressionKind::Number(_)
+            | ExpressionKind::Triple(_)
             | ExpressionKind::String
             | ExpressionKind::Name(_)
             | ExpressionKind::Word(_)

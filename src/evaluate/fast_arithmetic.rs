@@ -81,6 +81,10 @@ impl Evaluator<'_> {
                 Value::Vector(components) => components.as_vector3(),
                 _ => None,
             },
+            ExpressionKind::Triple(triple) => {
+                let [x, y, z] = here.unit.ast.triple(triple);
+                Some(Vector::new(x, y, z))
+            }
             ExpressionKind::Vector(components) => match *here.unit.ast.arguments(components) {
                 [x, y] => {
                     let [x, y] = [self.plain_component(here, x)?, self.plain_component(here, y)?];

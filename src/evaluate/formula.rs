@@ -138,6 +138,7 @@ impl Evaluator<'_> {
             ExpressionKind::Number(_)
             | ExpressionKind::String
             | ExpressionKind::Vector(_)
+            | ExpressionKind::Triple(_)
             | ExpressionKind::Index(..)
             | ExpressionKind::GroupItems(_) => self.constant(here, formula, id),
         }

@@ -81,7 +81,7 @@ impl Evaluator<'_> {
         let value = match expression.kind {
             ExpressionKind::Name(name) => self.scopes.look(here.symbol(name))?.clone(),
             // A call may have other effects when it is evaluated again.
-            ExpressionKind::Index(..) | ExpressionKind::Vector(_)
+            ExpressionKind::Index(..) | ExpressionKind::Vector(_) | ExpressionKind::Triple(_)
                 if is_without_calls(&here.unit.ast, whole) =>
             {
                 self.expression(here, whole).ok()?
@@ -148,7 +148,10 @@ fn is_without_calls(ast: &Ast, id: ExpressionId) -> bool {
     let mut open = vec![id];
     while let Some(id) = open.pop() {
         match ast.expression(id).kind {
-            ExpressionKind::Number(_) | ExpressionKind::Name(_) | ExpressionKind::Word(_) => {}
+            ExpressionKind::Number(_)
+            | ExpressionKind::Triple(_)
+            | ExpressionKind::Name(_)
+            | ExpressionKind::Word(_) => {}
             ExpressionKind::Unary(_, a)
             | ExpressionKind::Group(a)
             | ExpressionKind::Component(a, _) => open.push(a),

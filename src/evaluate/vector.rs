@@ -40,7 +40,14 @@ impl Gathered {
 impl Unit {
     /// Returns the span of a vector's component; `None` if the components are not written one by one.
     pub(super) fn component_span(&self, vector: ExpressionId, place: usize) -> Option<Span> {
-        let ExpressionKind::Vector(components) = self.expression(vector).kind else { return None };
+        let vector = self.expression(vector);
+        let components = match vector.kind {
+            ExpressionKind::Vector(components) => components,
+            ExpressionKind::Triple(triple) => {
+                return triple.spans(vector.span).get(place).copied();
+            }
+            _ => return None,
+        };
         let components = self.ast.arguments(components);
         let one_each = components.iter().all(|one| matches!(one, Argument::Expression(_)));
         match components.get(place) {

@@ -9,50 +9,60 @@ use super::surface::Surface;
 use crate::scene::{self, Colors, FinishId, PigmentId, PigmentKind};
 use crate::source::Site;
 use crate::vocabulary::Word;
+use crate::world::TexturePart;
 
-/// A part of a texture whose sites are listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Part {
-    Pattern,
-    Highlights,
-    Reflection,
-    Behind,
-    Clear,
-    Filter,
-}
+/// From so many sites on, a set tells which of them a texture's list has.
+const FEW: usize = 8;
 
 impl Lowering<'_, '_> {
     /// Records another surface that lowers to the texture `index`.
     pub(super) fn note_texture(&mut self, index: u32, surface: &Surface) {
-        let patterns = surface.patterns(self.scene).into_iter();
-        let noted = &mut self.textures.noted;
-        let new = patterns.filter(|site| noted.insert((index, Part::Pattern, site.span)));
-        self.origins.textures[index as usize].pattern.extend(new);
+        for site in surface.patterns(self.scene) {
+            self.note_site(index, TexturePart::Pattern, site);
+        }
         for (pigment, finish) in surface.all(self.scene) {
             self.note_plain(index, pigment, finish);
         }
     }
 
-    fn note_plain(&mut self, index: u32, pigment: PigmentId, finish: FinishId) {
-        let pigments = pigments_in(self.scene, pigment);
-        let origin = &mut self.origins.textures[index as usize];
-        let noted = &mut self.textures.noted;
-        let mut note = |part: Part, list: &mut Vec<Site>, sites: &mut dyn Iterator<Item = Site>| {
-            list.extend(sites.filter(|site| noted.insert((index, part, site.span))));
-        };
-        for id in pigments {
-            let pigment = &self.scene.pigments[id.index()];
-            note(Part::Pattern, &mut origin.pattern, &mut pattern_site(pigment).into_iter());
-            note(Part::Clear, &mut origin.clear, &mut pigment.clear.into_iter());
+    /// Lists a place, unless it is listed.
+    fn note_site(&mut self, index: u32, part: TexturePart, site: Site) {
+        let list = &mut self.origins.textures[index as usize].sites;
+        let is_it = |(of, known): &(TexturePart, Site)| *of == part && known.span == site.span;
+        if list.iter().take(FEW).any(is_it) {
+            return;
         }
-        let Some(written) = self.scene.finish_origins.get(finish.index()) else { return };
-        let finish = &self.scene.finishes[finish.index()];
-        let calls = |word: &Word| written.of(*word).filter(|_| finish.has_weight(*word));
-        let shining = [Word::Phong, Word::Specular, Word::Ks];
-        note(Part::Highlights, &mut origin.highlights, &mut shining.iter().filter_map(calls));
-        let reflecting = [Word::Reflection, Word::Ks];
-        note(Part::Reflection, &mut origin.reflection, &mut reflecting.iter().filter_map(calls));
-        note(Part::Behind, &mut origin.behind, &mut calls(&Word::Diffuse).into_iter());
+        if list.len() < FEW || self.textures.noted.insert((index, part, site.span)) {
+            list.reserve_exact(usize::from(list.is_empty()));
+            list.push((part, site));
+        }
+    }
+
+    fn note_plain(&mut self, index: u32, pigment: PigmentId, finish: FinishId) {
+        for id in pigments_in(self.scene, pigment) {
+            let pigment = &self.scene.pigments[id.index()];
+            if let Some(site) = pattern_site(pigment) {
+                self.note_site(index, TexturePart::Pattern, site);
+            }
+            if let Some(site) = pigment.clear {
+                self.note_site(index, TexturePart::Clear, site);
+            }
+        }
+        let scene = self.scene;
+        let Some(written) = scene.finish_origins.get(finish.index()) else { return };
+        let finish = &scene.finishes[finish.index()];
+        let parts = [
+            (TexturePart::Highlights, &[Word::Phong, Word::Specular, Word::Ks][..]),
+            (TexturePart::Reflection, &[Word::Reflection, Word::Ks]),
+            (TexturePart::Behind, &[Word::Diffuse]),
+        ];
+        for (part, words) in parts {
+            for &word in words {
+                if let Some(site) = written.of(word).filter(|_| finish.has_weight(word)) {
+                    self.note_site(index, part, site);
+                }
+            }
+        }
         for &(word, site) in &written.words {
             if !finish.has_weight(word) && !matches!(word, Word::Diffuse | Word::Ior) {
                 self.drop_part(site, word.name(), "its weight is zero");
@@ -62,12 +72,10 @@ impl Lowering<'_, '_> {
 
     /// Records that an object of the texture `index` casts a shadow into which `pigment` may let light.
     pub(super) fn note_filter(&mut self, index: u32, pigment: PigmentId) {
-        let noted = &mut self.textures.noted;
         for id in pigments_in(self.scene, pigment) {
-            let clear = self.scene.pigments[id.index()].clear;
-            let new =
-                clear.into_iter().filter(|site| noted.insert((index, Part::Filter, site.span)));
-            self.origins.textures[index as usize].filter.extend(new);
+            if let Some(site) = self.scene.pigments[id.index()].clear {
+                self.note_site(index, TexturePart::Filter, site);
+            }
         }
     }
 

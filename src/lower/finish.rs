@@ -58,7 +58,7 @@ pub fn lower_finish(finish: &scene::Finish, settings: &Settings) -> Result<Finis
 fn lower_classic(finish: &ClassicFinish, settings: &Settings) -> Finish {
     let mut lobes = lobe(LobeKind::Phong, finish.phong, finish.phong_size, finish.metallic);
     lobes.extend(lobe(LobeKind::Blinn, finish.specular, 1.0 / finish.roughness, finish.metallic));
-    let reflection = finish.reflection.as_ref();
+    let reflection = finish.reflection.as_deref();
     let reflection = reflection.filter(|r| r.minimum.gives_light() || r.maximum.gives_light());
     let diffuse = if finish.diffuse < 0.0 { 0.0 } else { finish.diffuse };
     let scatters = diffuse > 0.0 || finish.behind > 0.0;
@@ -91,7 +91,8 @@ fn extras(
     answers: bool,
     settings: &Settings,
 ) -> Option<Box<Extras>> {
-    let irid = finish.irid.filter(|irid| irid.amount > 0.0 && answers);
+    let irid = finish.irid.as_deref().copied();
+    let irid = irid.filter(|irid| irid.amount > 0.0 && answers);
     let irid = irid.map(|scene::Irid { amount, thickness, turbulence, generator }| {
         let turbulence = if thickness == 0.0 { 0.0 } else { turbulence };
         let generator = if turbulence == 0.0 { NoiseGenerator::default() } else { generator };

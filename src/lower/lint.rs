@@ -286,8 +286,8 @@ impl Lowering<'_, '_> {
         let mut lints: Vec<(Site, Diagnostic)> = Vec::new();
         for (i, texture) in world.textures.iter().enumerate() {
             let Some(site) = origin(i).and_then(|origin| origin.pigment) else { continue };
-            let sums = texture.colors().into_iter().map(|color| color.filter + color.transmit);
-            let most = sums.fold(0.0, f64::max);
+            let mut most = 0.0_f64;
+            texture.for_each_color(&mut |color| most = most.max(color.filter + color.transmit));
             if most > 1.0 + ROUNDING && !self.is_percentage(site) {
                 let message = format!("`filter` and `transmit` of this pigment come to {most:.3}");
                 let diagnostic = Diagnostic::new(Code::TooClear, message)
@@ -337,7 +337,9 @@ impl Lowering<'_, '_> {
     pub(super) fn glows(&self) -> bool {
         self.world.textures.iter().flat_map(|texture| texture.plains()).any(|plain| {
             let bright = |color: Rgb| (color * plain.finish.emission).largest() > DEFAULT_AMBIENT;
-            plain.pigment.colors().into_iter().any(|color| bright(color.rgb))
+            let mut found = false;
+            plain.pigment.for_each_color(&mut |color| found |= bright(color.rgb));
+            found
         })
     }
 }

@@ -272,11 +272,13 @@ impl Lowering<'_, '_> {
             |texture: &Texture| texture.has_layers() && texture.colors().into_iter().any(filters);
         let untinted = self.scene.settings.untinted_layers;
         let untinted = untinted && world.textures.iter().any(is_tinted);
-        let filters = world.textures.iter().flat_map(|texture| texture.colors());
+        let is_filtering = |texture: &Texture| {
+            let mut any = false;
+            texture.for_each_color(&mut |color| any |= filters(color));
+            any
+        };
         let sky = world.sky.iter().flat_map(|sky| sky.pigments.iter().skip(1));
-        if filters.into_iter().any(|color| color.filter != 0.0)
-            || sky.into_iter().any(Pigment::is_clear)
-        {
+        if world.textures.iter().any(is_filtering) || sky.into_iter().any(Pigment::is_clear) {
             self.world.settings.clearness = self.scene.settings.clearness;
         }
         self.world.settings.untinted_layers = untinted;

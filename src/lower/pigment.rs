@@ -122,7 +122,7 @@ impl Nodes<'_, '_> {
                 let entries = map.iter().map(|&(value, color)| entry(value, finite(color)?));
                 let entries = entries.collect::<Result<_, Fault>>()?;
                 let pattern = self.pattern(pattern, map.len(), depth)?;
-                Ok(Pigment::Ramp(Blend { space, pattern, entries }))
+                Ok(Pigment::Ramp(Box::new(Blend { space, pattern, entries })))
             }
             Colors::Image => match &pattern.source {
                 scene::Source::Image(image) => Ok(Pigment::Image { space, image: image.clone() }),
@@ -135,7 +135,7 @@ impl Nodes<'_, '_> {
                 let mut entries = entries.collect::<Result<Vec<_>, Fault>>()?;
                 if pattern.source != scene::Source::Average {
                     let pattern = self.pattern(pattern, entries.len(), depth)?;
-                    return Ok(Pigment::Blend(Blend { space, pattern, entries }));
+                    return Ok(Pigment::Blend(Box::new(Blend { space, pattern, entries })));
                 }
                 mean(&mut entries)?;
                 Ok(Pigment::Average { space, entries })

@@ -109,15 +109,13 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
     let half = Double::from(0.5);
     let centre = map.point((a + b) * half);
     let half_widths = ((b - a) * half).map(Double::abs).components();
-    let Cofactors { rows, determinant } = map.cofactors().ok_or_else(|| no_size(FLAT))?;
-    let mut sides = Vec::with_capacity(3);
-    for (axis, row) in rows.into_iter().enumerate() {
-        let unit = map.without_rounding(row.normalized().ok_or_else(|| no_size(FLAT))?);
-        let unit = if determinant.round() < 0.0 { -unit } else { unit };
-        let half_width = half_widths[axis] * determinant.abs() / row.length();
-        sides.push(Side { axis, normal: unit, half_width, turned: false });
-    }
-    let sides = in_canonical_order(sides, map.bound());
+    let sides = match map.is_translation() {
+        true => std::array::from_fn(|axis| {
+            let (normal, half_width) = (DoubleVector::axis(axis), half_widths[axis]);
+            Side { axis, normal, half_width, turned: false }
+        }),
+        false => turned_sides(half_widths, map)?,
+    };
     let faces = sides.each_ref().map(|side| {
         let (low, high) = (a.components()[side.axis], b.components()[side.axis]);
         let (low, high) = if low.round() <= high.round() { (low, high) } else { (high, low) };
@@ -143,6 +141,19 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
     }
     let [x, y, z] = faces;
     Ok((solid, [x[0], x[1], y[0], y[1], z[0], z[1]]))
+}
+
+/// Returns the sides of a box of these half widths that a map turns.
+fn turned_sides(half_widths: [Double; 3], map: &Affine) -> Result<[Side; 3], Fault> {
+    let Cofactors { rows, determinant } = map.cofactors().ok_or_else(|| no_size(FLAT))?;
+    let mut sides = Vec::with_capacity(3);
+    for (axis, row) in rows.into_iter().enumerate() {
+        let unit = map.without_rounding(row.normalized().ok_or_else(|| no_size(FLAT))?);
+        let unit = if determinant.round() < 0.0 { -unit } else { unit };
+        let half_width = half_widths[axis] * determinant.abs() / row.length();
+        sides.push(Side { axis, normal: unit, half_width, turned: false });
+    }
+    Ok(in_canonical_order(sides, map.bound()))
 }
 
 /// One of a box's three pairs of opposite faces.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
-use super::cause::{Part, pattern_site, pigments_in};
+use super::cause::{pattern_site, pigments_in};
 use super::finish::{BARE, lower_finish};
 use super::pigment::{Nodes, entry, inverse_map, mean, too_deep};
 use super::shape::LocalFace;
@@ -23,7 +23,7 @@ use crate::texture::space::Start;
 use crate::texture::{Blend, DEEPEST};
 use crate::world::{
     Extras, FaceCoordinates, Finish, Pigment, Plain, Sky, SkyOrigin, SurfacePart, Texture,
-    TextureOrigin, World,
+    TextureOrigin, TexturePart, World,
 };
 
 /// The entries of the World's lists of textures and places so far.
@@ -36,8 +36,8 @@ pub struct Textures {
     /// Textures that share the hash of the numbers in which most differ, to be compared for equality.
     alike: FxHashMap<u64, SmallVec<[u32; 1]>>,
     maps: FxHashMap<Vec<u64>, u32>,
-    /// The sites already listed in each texture's origin.
-    pub(super) noted: FxHashSet<(u32, Part, Span)>,
+    /// The sites already listed in the origins that have many.
+    pub(super) noted: FxHashSet<(u32, TexturePart, Span)>,
 }
 
 /// A texture, with the pigment, the normal and the finish that replace its own.
@@ -122,7 +122,7 @@ impl<'s> Lowering<'s, '_> {
                     Some(id) => {
                         let site = Some(scene.normals[id.index()].site);
                         let normal = self.nodes().normal(id, start(), &outer, depth);
-                        normal.map_err(|fault| (fault, site))?
+                        normal.map_err(|fault| (fault, site))?.map(Box::new)
                     }
                     None => None,
                 };
@@ -152,7 +152,7 @@ impl<'s> Lowering<'s, '_> {
                 }
                 let pattern = self.nodes().pattern(pattern, entries.len(), depth);
                 let pattern = pattern.map_err(|fault| (fault, site))?;
-                Ok(Texture::Blend(Blend { space, pattern, entries }))
+                Ok(Texture::Blend(Box::new(Blend { space, pattern, entries })))
             }
             TextureKind::Layers(layers) => {
                 let last = layers.len() - 1;

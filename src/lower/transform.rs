@@ -162,6 +162,11 @@ impl Affine {
         self.rounding == 0.0 && self.is_identity()
     }
 
+    /// Returns whether its linear part is the identity.
+    pub fn is_translation(&self) -> bool {
+        self.is_translation
+    }
+
     pub fn is_identity(&self) -> bool {
         self.is_translation && self.offset == DoubleVector::ZERO
     }

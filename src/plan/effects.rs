@@ -15,7 +15,7 @@ use super::surfaces::surfaces;
 use super::{Antialias, Called, Effect, LeftOut, Plan, PlanOptions, Samples, Stage};
 use crate::source::Site;
 use crate::world::{
-    Area, Interior, InteriorOrigin, Light, Object, Origins, Pigment, Plain, Texture, TextureOrigin,
+    Area, Interior, InteriorOrigin, Light, Object, Origins, Pigment, Plain, Texture, TexturePart,
     World,
 };
 
@@ -150,7 +150,7 @@ impl Census<'_> {
         if !self.any(lit) {
             return because("shadowless lights make no highlight", None);
         }
-        let by = self.textures(|texture| texture.any(lit), |origin| &origin.highlights);
+        let by = self.textures(|texture| texture.any(lit), TexturePart::Highlights);
         Ok((by, "one power a lobe, light and hit".to_owned()))
     }
 
@@ -212,7 +212,7 @@ impl Census<'_> {
             return because("no light", None);
         }
         let mut by = self.origins.double_illuminate.clone();
-        by.extend(self.textures(|texture| texture.any(scatters_behind), |origin| &origin.behind));
+        by.extend(self.textures(|texture| texture.any(scatters_behind), TexturePart::Behind));
         Ok((by, "light for hits that face away from it".to_owned()))
     }
 
@@ -238,7 +238,7 @@ impl Census<'_> {
         let forks = self.world.textures.iter().any(Texture::is_clear);
         let what = if forks { "surfaces deep" } else { "rays a camera ray" };
         let cost = format!("up to {} {what}", self.max_trace_level - 1);
-        Ok((self.textures(|texture| texture.any(reflects), |origin| &origin.reflection), cost))
+        Ok((self.textures(|texture| texture.any(reflects), TexturePart::Reflection), cost))
     }
 
     fn transparency(&self) -> Decision {
@@ -247,7 +247,7 @@ impl Census<'_> {
             return because("no surface is clear", None);
         }
         let cost = "a ray behind each clear surface, and a path of its own where that mirrors, too";
-        Ok((self.textures(Texture::is_clear, |origin| &origin.clear), cost.to_owned()))
+        Ok((self.textures(Texture::is_clear, TexturePart::Clear), cost.to_owned()))
     }
 
     fn refraction(&self) -> Decision {
@@ -298,7 +298,8 @@ impl Census<'_> {
             }
         }
         let calling = self.origins.textures.iter().zip(&filters).filter(|(_, filters)| **filters);
-        let by: Vec<Site> = calling.flat_map(|(origin, _)| &origin.filter).copied().collect();
+        let by: Vec<Site> =
+            calling.flat_map(|(origin, _)| origin.of(TexturePart::Filter)).collect();
         if !filters.contains(&true) {
             return because("no clear object casts a shadow", None);
         }
@@ -321,7 +322,7 @@ impl Census<'_> {
         if !in_sky && !self.world.textures.iter().any(Texture::is_patterned) {
             return because("every colour is constant", None);
         }
-        let mut by = self.textures(Texture::is_patterned, |origin| &origin.pattern);
+        let mut by = self.textures(Texture::is_patterned, TexturePart::Pattern);
         let sky = self.origins.sky.iter().filter(|_| in_sky);
         by.extend(sky.flat_map(|sky| &sky.pattern));
         Ok((by, "one pattern and one map entry a hit".to_owned()))
@@ -383,14 +384,10 @@ impl Census<'_> {
     }
 
     /// Returns the locations that gave the selected textures one of their parts.
-    fn textures(
-        &self,
-        calls: impl Fn(&Texture) -> bool,
-        part: impl Fn(&TextureOrigin) -> &Vec<Site>,
-    ) -> Vec<Site> {
+    fn textures(&self, calls: impl Fn(&Texture) -> bool, part: TexturePart) -> Vec<Site> {
         let textures = self.world.textures.iter().zip(&self.origins.textures);
         let calling = textures.filter(|(texture, _)| calls(texture));
-        calling.flat_map(|(_, origin)| part(origin)).copied().collect()
+        calling.flat_map(|(_, origin)| origin.of(part)).collect()
     }
 }
 

@@ -73,7 +73,7 @@ pub struct ClassicFinish {
     pub roughness: f64,
     /// 0: highlights have the light's colour, 1: the surface's.
     pub metallic: f64,
-    pub reflection: Option<Reflection>,
+    pub reflection: Option<Box<Reflection>>,
     /// Reflected light is not transmitted as well.
     pub conserve_energy: bool,
     /// The old form of the interior's index of refraction, which it overrides (measured on POV-Ray 3.7).
@@ -81,7 +81,7 @@ pub struct ClassicFinish {
     /// The old form of the interior's, which it overrides, on another scale (measured on POV-Ray 3.7).
     pub caustics: Option<f64>,
     pub crand: f64,
-    pub irid: Option<Irid>,
+    pub irid: Option<Box<Irid>>,
     /// The old factor of the light seen through the surface.
     pub refraction: f64,
 }

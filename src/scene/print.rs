@@ -289,7 +289,7 @@ impl Printer<'_> {
                 if f.crand != 0.0 {
                     write!(out, " crand {}", f.crand)?;
                 }
-                if let Some(Irid { amount, thickness, turbulence, .. }) = f.irid {
+                if let Some(Irid { amount, thickness, turbulence, .. }) = f.irid.as_deref() {
                     write!(out, " irid {amount} thickness {thickness} turbulence {turbulence}")?;
                 }
                 if f.refraction != 1.0 {

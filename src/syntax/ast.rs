@@ -120,6 +120,8 @@ pub enum ExpressionKind {
     Conditional(ExpressionId, ExpressionId, ExpressionId),
     /// `<a, b, c>`.
     Vector(Arguments),
+    /// `<1, -2.5, 0>`, one node instead of up to seven: most of a large text is these.
+    Triple(Triple),
     /// `f(a, b)`: a built-in function, a macro or a user's function.
     Call(Callee, Arguments),
     /// `a[i]`.
@@ -134,6 +136,17 @@ pub enum ExpressionKind {
     Joint,
     /// A part that could not be parsed and was reported.
     Missing,
+}
+
+/// A vector of three finite literals, each with or without a `-`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Triple {
+    /// The index of the first in [`Ast::numbers`].
+    pub numbers: u32,
+    /// The bytes between the `<` and the start of each.
+    pub starts: [u8; 3],
+    /// The bytes between the `<` and the end of each.
+    pub ends: [u8; 3],
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -338,6 +351,14 @@ impl Ast {
     pub fn expression(&self, id: ExpressionId) -> &Expression {
         &self.expressions[id.0 as usize]
     }
+    /// Returns the numbers of a triple.
+    pub fn triple(&self, triple: Triple) -> [f64; 3] {
+        let first = triple.numbers as usize;
+        match self.numbers.get(first..first + 3) {
+            Some(&[x, y, z]) => [x, y, z],
+            _ => [0.0; 3],
+        }
+    }
     pub fn directive(&self, id: DirectiveId) -> &Directive {
         &self.directives[id.0 as usize]
     }
@@ -346,6 +367,17 @@ impl Ast {
     }
     pub fn name(&self, id: NameId) -> &str {
         &self.names[id.0 as usize]
+    }
+}
+
+impl Triple {
+    /// Returns the spans of its numbers, signs included; `whole` is its own.
+    pub fn spans(self, whole: Span) -> [Span; 3] {
+        std::array::from_fn(|i| Span {
+            start: whole.start + u32::from(self.starts[i]),
+            end: whole.start + u32::from(self.ends[i]),
+            ..whole
+        })
     }
 }
 

@@ -45,6 +45,7 @@ pub(super) fn turn(kind: TokenKind) -> Option<Turn> {
         | TokenKind::String
         | TokenKind::Numbers
         | TokenKind::Vectors
+        | TokenKind::Triple
         | TokenKind::Raw
         | TokenKind::Unread
         | TokenKind::LooseOpen

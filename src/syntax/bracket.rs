@@ -286,6 +286,7 @@ impl<'a> Nest<'a> {
                 | TokenKind::Number
                 | TokenKind::Numbers
                 | TokenKind::Vectors
+                | TokenKind::Triple
                 | TokenKind::String => {}
                 _ => return false,
             }
@@ -342,7 +343,7 @@ impl<'a> Nest<'a> {
         while self.arguments.len() > base + 1
             && let Some(&Argument::Expression(id)) = self.arguments.last()
             && let vector = *self.ast.expression(id)
-            && matches!(vector.kind, ExpressionKind::Vector(_))
+            && matches!(vector.kind, ExpressionKind::Vector(_) | ExpressionKind::Triple(_))
         {
             self.arguments.pop();
             behind.push(vector);

@@ -141,6 +141,14 @@ impl<'a> Dump<'a> {
                 let tasks = self.list("<", components, ">");
                 self.push(tasks);
             }
+            ExpressionKind::Triple(triple) => {
+                let numbers =
+                    self.ast.triple(triple).map(|number| match number.is_sign_negative() {
+                        true => format!("(- {})", -number),
+                        false => number.to_string(),
+                    });
+                self.out += &format!("<{}>", numbers.join(", "));
+            }
             ExpressionKind::Call(callee, arguments) => {
                 let callee = match callee {
                     Callee::Word(word, _) => text(word.name()),

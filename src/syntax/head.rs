@@ -78,7 +78,8 @@ impl<'a> Nest<'a> {
                 | TokenKind::String
                 | TokenKind::Name
                 | TokenKind::Numbers
-                | TokenKind::Vectors => holding && !(head == Head::Fopen && first),
+                | TokenKind::Vectors
+                | TokenKind::Triple => holding && !(head == Head::Fopen && first),
                 TokenKind::Word(word) => match word.role() {
                     Role::Statement => true,
                     Role::Value | Role::Function { .. } => {

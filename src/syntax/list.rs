@@ -65,7 +65,10 @@ impl<'a> Nest<'a> {
     fn is_value(&self, id: ExpressionId) -> bool {
         matches!(
             self.ast.expression(id).kind,
-            ExpressionKind::String | ExpressionKind::Number(_) | ExpressionKind::Vector(_)
+            ExpressionKind::String
+                | ExpressionKind::Number(_)
+                | ExpressionKind::Vector(_)
+                | ExpressionKind::Triple(_)
         )
     }
 

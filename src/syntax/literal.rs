@@ -1,6 +1,7 @@
 //! Reads a vector of literals, such as `<1, -2.5, 0>`, in one step: most of a large text is these.
 
 use super::ast::{Argument, ExpressionKind, UnaryOperator};
+use super::compact::is_triple;
 use super::nest::Nest;
 use super::token::{Mark, Token, TokenKind};
 use crate::source::Span;
@@ -32,6 +33,11 @@ impl Nest<'_> {
         let Some(length) = literal_vector(tokens).filter(|_| is_reached && !self.ends_early) else {
             return false;
         };
+        let whole = Span { end: self.span(tokens[length - 1]).end, ..open };
+        if is_triple(&tokens[..length], self.text) && self.add_triple(whole) {
+            self.at += length - 1;
+            return true;
+        }
         let (expressions, arguments) = (self.ast.expressions.len(), self.arguments.len());
         let mut sign = None;
         for &token in &tokens[1..length - 1] {

@@ -93,7 +93,9 @@ impl<'a> Nest<'a> {
     /// Returns whether a value follows.
     fn is_before_value(&self) -> bool {
         match self.tokens.get(self.at + 1).map(|token| token.kind) {
-            Some(TokenKind::Number | TokenKind::Name | TokenKind::String) => true,
+            Some(TokenKind::Number | TokenKind::Name | TokenKind::String | TokenKind::Triple) => {
+                true
+            }
             Some(TokenKind::Word(word)) => word.role() != Role::Statement,
             Some(TokenKind::Mark(mark)) => matches!(
                 mark,

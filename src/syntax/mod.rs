@@ -11,6 +11,7 @@ mod blank;
 mod bracket;
 mod colon;
 mod comment;
+mod compact;
 mod control;
 mod directive;
 mod dump;
@@ -131,22 +132,28 @@ fn read(
 ) -> (Ast, Diagnostics) {
     let mut found = Diagnostics::new(true);
     let mut quiet = comment::quiet(&source.text, file, &mut found);
-    if options.skips {
-        skipped::blank(&mut quiet, file, options);
-    }
+    let known = match options.skips {
+        true => skipped::blank(&mut quiet, file, options),
+        false => None,
+    };
+    let told = found.len();
     unread::leave_out(&mut quiet, unread);
     quiet.text = control::blank(quiet.text, file, &mut found);
     quiet.text = entity::translate(quiet.text, file, &mut found);
     quiet.text = leftover::blank(quiet.text, file, &mut found);
     quiet.text = listing::blank(quiet.text, file, &mut found);
     quiet.text = prose::blank(quiet.text, file, &mut found);
-    let mut tokens = token::tokens(&quiet.text);
-    unread::stand_in(&mut tokens, unread);
-    old_words::replace(&mut tokens, file, options.dialect, &mut found);
-    spelling::correct_heads(&mut tokens, &quiet.text, file, options.dialect, &mut found);
-    let tokens = habits::translate(tokens, &quiet.text, file, options.dialect, &mut found);
-    let (tokens, cut) = balance::balance(tokens, &source.text, file, options, &mut found);
-    let ast = nest::nest(&quiet, source.text.len(), file, &tokens, cut, options, &mut found);
+    // What was replaced since was reported.
+    let known = known.filter(|_| found.len() == told);
+    let joined = match unread {
+        [] => {
+            let tokens = known.unwrap_or_else(|| token::tokens(&quiet.text));
+            compact::parse(tokens, &quiet, &source.text, file, options)
+        }
+        _ => None,
+    };
+    let ast = joined
+        .unwrap_or_else(|| token_by_token(&quiet, &source.text, file, options, unread, &mut found));
     // Each pass found its own errors; they are reported in source order.
     let mut found: Vec<_> = found.iter().cloned().collect();
     found.sort_by_key(|diagnostic| diagnostic.primary().map(|label| label.span.start));
@@ -162,6 +169,24 @@ fn read(
         diagnostics.push(diagnostic);
     }
     (ast, diagnostics)
+}
+
+/// Returns the tree of the tokens that the grammar finds.
+fn token_by_token(
+    quiet: &comment::Quiet,
+    source: &str,
+    file: FileId,
+    options: &ParseOptions,
+    unread: &[Range<usize>],
+    found: &mut Diagnostics,
+) -> Ast {
+    let mut tokens = token::tokens(&quiet.text);
+    unread::stand_in(&mut tokens, unread);
+    old_words::replace(&mut tokens, file, options.dialect, found);
+    spelling::correct_heads(&mut tokens, &quiet.text, file, options.dialect, found);
+    let tokens = habits::translate(tokens, &quiet.text, file, options.dialect, found);
+    let (tokens, cut) = balance::balance(tokens, source, file, options, found);
+    nest::nest(quiet, source.len(), file, &tokens, cut, options, found)
 }
 
 /// Returns a diagnostic; `what` is nested: "brackets", "directives", "signs".

@@ -105,6 +105,8 @@ pub(super) struct Nest<'a> {
     pub ends_early: bool,
     /// The text was abandoned at a limit: open brackets are not the author's error.
     pub cut: bool,
+    /// A joined vector stands where it matters of what it is made.
+    pub is_in_doubt: bool,
 }
 
 /// Builds the tree of `tokens`, which are in a text of `end` bytes. With `cut`, the text continues after
@@ -118,6 +120,31 @@ pub(super) fn nest<'a>(
     options: &ParseOptions,
     diagnostics: &'a mut Diagnostics,
 ) -> Ast {
+    nested(quiet, end, file, tokens, cut, options, diagnostics).ast
+}
+
+/// As [`nest`], of tokens some of which are joined; `None` if one stands where it matters of what it is made.
+pub(super) fn nest_joined<'a>(
+    quiet: &'a Quiet<'a>,
+    end: usize,
+    file: FileId,
+    tokens: &'a [Token],
+    options: &ParseOptions,
+    diagnostics: &'a mut Diagnostics,
+) -> Option<Ast> {
+    let nest = nested(quiet, end, file, tokens, false, options, diagnostics);
+    (!nest.is_in_doubt).then_some(nest.ast)
+}
+
+fn nested<'a>(
+    quiet: &'a Quiet<'a>,
+    end: usize,
+    file: FileId,
+    tokens: &'a [Token],
+    cut: bool,
+    options: &ParseOptions,
+    diagnostics: &'a mut Diagnostics,
+) -> Nest<'a> {
     let mut nest = Nest {
         text: &quiet.text,
         end,
@@ -130,7 +157,7 @@ pub(super) fn nest<'a>(
         ast: Ast {
             file,
             // Usually more than needed: memory that is never written is never committed.
-            items: Vec::with_capacity(tokens.len() / 2),
+            items: Vec::with_capacity(tokens.len()),
             expressions: Vec::with_capacity(tokens.len() / 2),
             directives: Vec::new(),
             names: Vec::new(),
@@ -148,6 +175,7 @@ pub(super) fn nest<'a>(
         lacks_sums: old_words::lacks_sums(tokens, &quiet.text, options.dialect),
         ends_early: cut,
         cut: false,
+        is_in_doubt: false,
     };
     nest.open(FrameKind::File, Span::new(file, 0, 0), false);
     while let Some(&token) = tokens.get(nest.at) {
@@ -157,7 +185,7 @@ pub(super) fn nest<'a>(
         nest.at += 1;
     }
     nest.end_of_file();
-    nest.ast
+    nest
 }
 
 impl<'a> Nest<'a> {
@@ -262,6 +290,7 @@ impl<'a> Nest<'a> {
             TokenKind::Name => self.named(span, contextual),
             TokenKind::Word(word) => self.word(word, span),
             TokenKind::Numbers | TokenKind::Vectors => self.run(token),
+            TokenKind::Triple => self.joined(span),
             TokenKind::Mark(mark) => self.mark(mark, token),
             TokenKind::Directive(head) => {
                 if !self.is_within_vector() {
@@ -275,6 +304,19 @@ impl<'a> Nest<'a> {
             TokenKind::Raw => self.raw(span),
             TokenKind::Unread => self.add_directive(DirectiveKind::Unread, span, span),
             TokenKind::Stray => self.stray(token),
+        }
+    }
+
+    /// Adds a vector that is one token, where it can be nothing else.
+    fn joined(&mut self, span: Span) {
+        let deep = self.frames.len() > self.nesting_limit;
+        let is_list = self.lists_items() || matches!(self.top().kind, FrameKind::Call(_));
+        let top = self.top();
+        let is_plain = is_list && !top.full && top.state != State::Wanting && !deep;
+        let is_compared = top.of_color && top.state != State::Idle;
+        self.before_operand();
+        if !is_plain || is_compared || self.ends_early || !self.add_triple(span) {
+            self.is_in_doubt = true;
         }
     }
 

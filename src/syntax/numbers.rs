@@ -64,6 +64,42 @@ pub(super) struct Row {
     pub end: usize,
 }
 
+/// The powers of ten that a double can hold exactly.
+const POWERS: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
+
+/// Returns the value of the literal at these bytes, correctly rounded; NaN if there is none.
+///
+/// Few digits make a whole number that is exact, as is the power of ten that divides it: then only the
+/// quotient is rounded.
+pub(super) fn number(text: &str, start: usize, end: usize) -> f64 {
+    let Some(literal) = text.get(start..end) else { return f64::NAN };
+    let (mut whole, mut digits, mut decimals) = (0_u64, 0_usize, None);
+    let (sign, plain) = match literal.as_bytes() {
+        [b'-', plain @ ..] => (-1.0, plain),
+        [b'+', plain @ ..] => (1.0, plain),
+        plain => (1.0, plain),
+    };
+    for byte in plain {
+        match (byte, decimals) {
+            (b'0'..=b'9', _) => {
+                whole = whole.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
+                digits += 1;
+                decimals = decimals.map(|count| count + 1);
+            }
+            (b'.', None) => decimals = Some(0),
+            _ => return literal.parse().unwrap_or(f64::NAN),
+        }
+    }
+    let exact = digits > 0 && digits < 20 && whole <= 1 << f64::MANTISSA_DIGITS;
+    match POWERS.get(decimals.unwrap_or(0)).filter(|_| exact) {
+        Some(power) => sign * (whole as f64 / power),
+        None => literal.parse().unwrap_or(f64::NAN),
+    }
+}
+
 /// Appends the numbers of a run to `numbers`; a new row starts where the width changes.
 pub(super) fn decode(run: &str, numbers: &mut Vec<f64>) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
@@ -75,7 +111,7 @@ pub(super) fn decode(run: &str, numbers: &mut Vec<f64>) -> Vec<Row> {
                     start = from;
                 }
                 width += 1;
-                numbers.push(run[from..end].parse().unwrap_or(f64::NAN));
+                numbers.push(number(run, from, end));
             }
             Piece::Open => (start, inside) = (at, true),
             Piece::Close => inside = false,
@@ -104,6 +140,29 @@ mod tests {
         let rows = decode("1, -2.5,\n+.5 ,3.,1e-3, 4E+2,", &mut numbers);
         assert_eq!(numbers, [7.0, 1.0, -2.5, 0.5, 3.0, 1e-3, 4e2]);
         assert_eq!(rows, [Row { count: 6, width: 1, start: 0, end: 28 }]);
+    }
+
+    #[test]
+    fn literals_are_rounded_as_by_the_standard_library() {
+        let mut state = 1_u64;
+        let mut random = |below: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) % below
+        };
+        for _ in 0..20_000 {
+            let mut literal = ["", "-", "+"][random(3) as usize].to_owned();
+            for _ in 0..random(22) {
+                literal.push(char::from(b'0' + random(10) as u8));
+            }
+            literal += [".", "", ".0", ".000000000000000000000001"][random(4) as usize];
+            for _ in 0..random(24) {
+                literal.push(char::from(b'0' + random(10) as u8));
+            }
+            literal += ["", "", "", "e-5", "E12", "e"][random(6) as usize];
+            let expected: f64 = literal.parse().unwrap_or(f64::NAN);
+            let found = number(&literal, 0, literal.len());
+            assert_eq!(found.to_bits(), expected.to_bits(), "{literal}");
+        }
     }
 
     #[test]

@@ -9,6 +9,22 @@ use super::token::{Mark, Token, TokenKind, word};
 /// are complete values. A sign before the first might be an operator; after a comma it is a sign.
 const RUN: usize = 8;
 
+/// Returns whether a character may be in numeric text.
+pub(super) fn is_figure(byte: u8) -> bool {
+    matches!(byte, b'+'..=b'9' | b'<' | b'>')
+}
+
+pub(super) fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t'..=b'\r' | b'\0')
+}
+
+/// Returns the end of the numeric text that begins at `at`, without what follows an exponent's `e`.
+pub(super) fn end(text: &[u8], at: usize) -> usize {
+    let rest = text.get(at..).unwrap_or(&[]);
+    let length = rest.iter().position(|&byte| !is_figure(byte) && !is_blank(byte));
+    length.map_or(text.len(), |length| at + length)
+}
+
 /// Adds the tokens from `start` to `end`, and returns the end of the last one: past `end` if the token
 /// continues there (`>` and its `=`).
 pub(super) fn part(text: &str, start: usize, end: usize, tokens: &mut Vec<Token>) -> usize {

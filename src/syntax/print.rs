@@ -130,6 +130,11 @@ impl Print<'_> {
                 let list = self.list("<", components, ">");
                 self.push(list);
             }
+            ExpressionKind::Triple(triple) => {
+                let [x, y, z] = triple.spans(node.span).map(Task::Source);
+                let comma = || Task::Text(", ");
+                self.push([Task::Text("<"), x, comma(), y, comma(), z, Task::Text(">")]);
+            }
             ExpressionKind::Call(callee, arguments) => {
                 let callee = match callee {
                     Callee::Word(word, _) => Task::Text(word.name()),

@@ -17,9 +17,10 @@ use crate::diagnostic::Diagnostics;
 use crate::source::{FileId, Source, Span};
 use crate::vocabulary::{Word, is_standard_include, standard_include_of};
 
-pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
+/// Returns the tokens of the text, if it was searched and nothing in it was replaced.
+pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) -> Option<Vec<Token>> {
     if !may_skip(&quiet.text) {
-        return;
+        return None;
     }
     let tokens = tokens(&quiet.text);
     let branches = Reader { tokens: &tokens, text: &quiet.text, options }.branches();
@@ -45,7 +46,7 @@ pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
     let branches: Vec<Range<usize>> =
         branches.into_iter().filter(skips).map(|(branch, _)| branch).collect();
     if branches.is_empty() {
-        return;
+        return Some(tokens);
     }
     for branch in &branches {
         quiet.comments.retain(|comment| !branch.contains(&(comment.start as usize)));
@@ -53,6 +54,7 @@ pub(super) fn blank(quiet: &mut Quiet, file: FileId, options: &ParseOptions) {
         quiet.comments.insert(after, Span::new(file, branch.start, branch.end));
     }
     quiet.text = blanked(std::mem::take(&mut quiet.text), branches);
+    None
 }
 
 /// The known value of a name at a position.

@@ -273,7 +273,13 @@ fn shape(text: &str, dialect: Dialect) -> (String, String, Vec<u64>, bool) {
     let mut diagnostics = Diagnostics::new(false);
     let options = ParseOptions { dialect, ..ParseOptions::default() };
     let ast = parse(&source, FileId(0), &options, &mut diagnostics);
-    let numbers = ast.numbers.iter().map(|number| number.to_bits()).collect();
+    // Those of runs, of which the tree shows the first only.
+    let runs = ast.items.iter().filter_map(|item| match item.kind {
+        ast::ItemKind::Numbers { start, count, width } => Some((start, count * width)),
+        _ => None,
+    });
+    let numbers = runs.flat_map(|(start, count)| &ast.numbers[start as usize..][..count as usize]);
+    let numbers = numbers.map(|number| number.to_bits()).collect();
     (dump(&ast, &source), print(&ast, &source), numbers, diagnostics.has_errors())
 }
 
@@ -319,7 +325,50 @@ fn what_is_read_without_an_error_is_so_in_print_whichever_byte_is_left_out() {
     }
 }
 
+/// What programs write, and what else a vector of literals may stand in.
+const WRITTEN: &str =
+    "sphere { <1, -2.5, 0>, .5 pigment { rgb <0.1,0.2,0.3> } translate <1, 2, 3> }
+M(<1,2,3>, 4, rgb <0, 0.5, 1>) box{<0,0,0>,<1,1,1> texture { T } scale <1,1,2>*3 rotate 2*<1, 2, 3>}
+pigment { wood color_map { [0.5 rgb <1,0,0>] [1 rgb <1,0,0>+<0,1,0>] } } #declare A = <1,2,3>;
+#if (A.x < 1) cone{<0,0,0>,1,<0,1,0>.x,2 matrix <1,0,0>} #end triangle {<1,2,3> <4,5,6>, <7,8,9>}
+camera { location <1,2,3> look_at <4, 5, 6> } function { <1,2,3>.x } poly { 2, <1, 2, 3> }";
+
+/// Checks that joined tokens give the tree of all tokens, or none.
+fn check_joined(text: &str, dialect: Dialect) {
+    let (mut before, mut told) = (Diagnostics::new(true), Diagnostics::new(true));
+    let (file, options) = (FileId(0), ParseOptions { dialect, ..ParseOptions::default() });
+    let quiet = comment::quiet(text, file, &mut before);
+    let tokens = token::tokens(&quiet.text);
+    if let Some(joined) = compact::parse(tokens, &quiet, text, file, &options) {
+        let ast = token_by_token(&quiet, text, file, &options, &[], &mut told);
+        assert!(told.is_empty(), "{text}");
+        assert_eq!(joined, ast, "{text}");
+    }
+}
+
 proptest::proptest! {
+    #[test]
+    fn joined_vectors_give_the_tree_of_all_tokens_or_none(
+        edits in proptest::collection::vec((0..WRITTEN.len(), 0..3_u8, 0..32_u8), 0..4),
+        lines in 1..6_usize,
+    ) {
+        const BYTES: &[u8] = b"{}()[]<>#\"/*,;=.-+?:&|!aex1 \n\\@";
+        let written: Vec<&str> = WRITTEN.lines().take(lines).collect();
+        let mut bytes = written.join("\n").into_bytes();
+        for (at, edit, with) in edits {
+            let at = at % bytes.len();
+            let byte = BYTES[with as usize % BYTES.len()];
+            match edit {
+                0 => bytes[at] = byte,
+                1 => bytes.insert(at, byte),
+                _ => drop(bytes.remove(at)),
+            }
+        }
+        let (text, _) = crate::source::decode(bytes);
+        check_joined(&text, Dialect::Pov);
+        check_joined(&text, Dialect::Scene);
+    }
+
     #[test]
     fn no_change_of_bytes_makes_it_panic(
         edits in proptest::collection::vec((0..SAMPLE.len(), 0..3_u8, 0..32_u8), 1..12)

@@ -3,6 +3,8 @@
 //! **In:** a text without comments. **Out:** its tokens, in order, without blanks. **Invariant:** every byte
 //! that is not blank is in exactly one token.
 
+use std::collections::HashMap;
+
 use pest::Parser;
 use pest_derive::Parser;
 
@@ -30,6 +32,8 @@ pub(super) enum TokenKind {
     Numbers,
     /// Vectors of literals, each followed by a comma.
     Vectors,
+    /// A vector of three literals (see `compact`).
+    Triple,
     Mark(Mark),
     Directive(Head),
     /// A brace that pairs only after expansion.
@@ -145,60 +149,119 @@ impl Head {
     }
 }
 
+/// The longest stretch of words and marks whose tokens are remembered, and the most of them.
+const STRETCH: usize = 256;
+const STRETCHES: usize = 4096;
+
 /// Returns all tokens of a text.
+///
+/// A text that a program writes repeats what stands between its numbers: the grammar splits each such stretch
+/// of words and marks once.
 pub(super) fn tokens(text: &str) -> Vec<Token> {
     let mut tokens = Vec::with_capacity(text.len() / 3);
-    // The start of the next piece, and the end of the last token.
-    let (mut at, mut behind) = (0, 0);
-    while let Some(rest) = text.get(at..)
-        && let Some(piece) = Grammar::parse(Rule::piece, rest).ok().and_then(|mut p| p.next())
-    {
-        let length = piece.as_str().len();
-        if length == 0 {
-            // The grammar accepts every character: this is the end.
-            break;
+    let mut known: HashMap<&str, Vec<Token>> = HashMap::new();
+    let bytes = text.as_bytes();
+    let mut at = 0;
+    while let Some(&byte) = bytes.get(at) {
+        if numeric::is_blank(byte) {
+            at += 1;
+            continue;
         }
-        for pair in piece.into_inner() {
-            let start = at + pair.as_span().start();
-            let token = pair.as_str();
-            if start < behind {
-                continue;
+        if numeric::is_figure(byte) {
+            at = numeric::part(text, at, numeric::end(bytes, at), &mut tokens);
+            continue;
+        }
+        // A word may belong to the `#` before it.
+        let is_behind_hash = tokens.last().is_some_and(|last| last.kind == TokenKind::Stray);
+        let end = if is_behind_hash { at } else { end_of_stretch(bytes, at) };
+        let Some(stretch) = text.get(at..end).filter(|stretch| !stretch.is_empty()) else {
+            let behind = split(text, at, Rule::token, &mut tokens);
+            // The grammar accepts every character.
+            at = if behind > at { behind } else { text.len() };
+            continue;
+        };
+        let moved = |token: &Token| Token {
+            kind: token.kind,
+            start: token.start + at as u32,
+            end: token.end + at as u32,
+        };
+        match known.get(stretch) {
+            Some(parts) => tokens.extend(parts.iter().map(moved)),
+            None => {
+                let mut parts = Vec::new();
+                split(stretch, 0, Rule::stretch, &mut parts);
+                tokens.extend(parts.iter().map(moved));
+                if known.len() < STRETCHES {
+                    known.insert(stretch, parts);
+                }
             }
-            behind = match token.as_bytes() {
-                [b'+'..=b'9' | b'<' | b'>', ..] => {
-                    numeric::part(text, start, start + token.len(), &mut tokens)
-                }
-                bytes => {
-                    let kind = match bytes {
-                        [b'a'..=b'z' | b'A'..=b'Z' | b'_', ..] => word(token),
-                        [b'#', _, ..] => {
-                            let word = token[1..].trim_start_matches([' ', '\t']);
-                            TokenKind::Directive(Head::from_word(word))
-                        }
-                        [b'"', _, ..] => TokenKind::String,
-                        _ => mark(token),
-                    };
-                    let end = start + token.len();
-                    match (kind, tokens.last_mut()) {
-                        // The word may be on a line after its `#`.
-                        (TokenKind::Word(_) | TokenKind::Name, Some(hash))
-                            if hash.kind == TokenKind::Stray
-                                && text.get(hash.start as usize..hash.end as usize)
-                                    == Some("#")
-                                && Head::WORDS.contains(&token) =>
-                        {
-                            hash.kind = TokenKind::Directive(Head::from_word(token));
-                            hash.end = end as u32;
-                        }
-                        _ => tokens.push(Token { kind, start: start as u32, end: end as u32 }),
-                    }
-                    end
-                }
-            };
         }
-        at += length;
+        at = end;
     }
     tokens
+}
+
+/// Returns the end of the words, marks and blanks from `at` on. It is the end of a token.
+fn end_of_stretch(bytes: &[u8], at: usize) -> usize {
+    let mut end = at;
+    while let Some(byte) = bytes.get(end)
+        && end < at + STRETCH
+    {
+        end += 1;
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'_' => {
+                while let Some(b'a'..=b'z' | b'A'..=b'Z' | b'_' | b'0'..=b'9') = bytes.get(end) {
+                    end += 1;
+                }
+            }
+            b'{'..=b'}' | b'('..=b'*' | b'=' | b':' | b';' | b'[' | b']' | b'?' | b'&' => {}
+            byte if numeric::is_blank(*byte) => {}
+            _ => return end - 1,
+        }
+    }
+    end
+}
+
+/// Adds the tokens that the grammar finds by a rule in the text from `from` on, and returns the end of the last.
+fn split(text: &str, from: usize, rule: Rule, tokens: &mut Vec<Token>) -> usize {
+    let Some(pairs) = text.get(from..).and_then(|rest| Grammar::parse(rule, rest).ok()) else {
+        return from;
+    };
+    let mut behind = from;
+    for pair in pairs.flatten().filter(|pair| pair.as_rule() == Rule::token) {
+        let start = from + pair.as_span().start();
+        let token = pair.as_str();
+        if start < behind {
+            continue;
+        }
+        behind = start + token.len();
+        let kind = match token.as_bytes() {
+            [byte, ..] if numeric::is_figure(*byte) => {
+                behind = numeric::part(text, start, behind, tokens);
+                continue;
+            }
+            [b'a'..=b'z' | b'A'..=b'Z' | b'_', ..] => word(token),
+            [b'#', _, ..] => {
+                let word = token[1..].trim_start_matches([' ', '\t']);
+                TokenKind::Directive(Head::from_word(word))
+            }
+            [b'"', _, ..] => TokenKind::String,
+            _ => mark(token),
+        };
+        match (kind, tokens.last_mut()) {
+            // The word may be on a line after its `#`.
+            (TokenKind::Word(_) | TokenKind::Name, Some(hash))
+                if hash.kind == TokenKind::Stray
+                    && text.get(hash.start as usize..hash.end as usize) == Some("#")
+                    && Head::WORDS.contains(&token) =>
+            {
+                hash.kind = TokenKind::Directive(Head::from_word(token));
+                hash.end = behind as u32;
+            }
+            _ => tokens.push(Token { kind, start: start as u32, end: behind as u32 }),
+        }
+    }
+    behind
 }
 
 /// Returns the keyword of a directive, without its `#` and the blanks between the two.
@@ -279,6 +342,16 @@ mod tests {
             kinds("#\nend#\n\nelse"),
             [(head(Head::End), "#\nend"), (head(Head::Else), "#\n\nelse")]
         );
+    }
+
+    #[test]
+    fn stretches_have_the_tokens_that_the_grammar_finds_in_the_whole_text() {
+        let text = "sphere{<1,2e5,3>=x a1 }\n#\n if(b!=c)# debug\"a\\\"1\"3e4e5 _x9|[2]?&&:*) \
+                    \u{e9}t .5.5 >== 1e1e 2 e1x_ 3 !a ` # 3";
+        let whole = text.repeat(3) + &"{ word }".repeat(100) + text;
+        let mut expected = Vec::new();
+        assert_eq!(split(&whole, 0, Rule::stretch, &mut expected), whole.len());
+        assert_eq!(tokens(&whole), expected);
     }
 
     #[test]

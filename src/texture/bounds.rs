@@ -275,7 +275,7 @@ mod tests {
             2 => {
                 let entries = [0.0, 0.5, 1.0].map(|position| (position, color(random))).to_vec();
                 let pattern = pattern(random, source);
-                Pigment::Ramp(Blend { space, pattern, entries })
+                Pigment::Ramp(Box::new(Blend { space, pattern, entries }))
             }
             3 => {
                 let mut entries = entries(random);
@@ -285,16 +285,16 @@ mod tests {
             4 => {
                 let source = Source::Pigment(pigment(random, depth - 1));
                 let pattern = pattern(random, source);
-                Pigment::Blend(Blend { space, pattern, entries: entries(random) })
+                Pigment::Blend(Box::new(Blend { space, pattern, entries: entries(random) }))
             }
             5 => {
                 let source = Source::Image(image(random));
                 let pattern = pattern(random, source);
-                Pigment::Blend(Blend { space, pattern, entries: entries(random) })
+                Pigment::Blend(Box::new(Blend { space, pattern, entries: entries(random) }))
             }
             _ => {
                 let pattern = pattern(random, source);
-                Pigment::Blend(Blend { space, pattern, entries: entries(random) })
+                Pigment::Blend(Box::new(Blend { space, pattern, entries: entries(random) }))
             }
         })
     }
@@ -332,7 +332,8 @@ mod tests {
                 let setting = Setting { amount: Vector::ONE, ..Setting::default() };
                 let pattern = Pattern { source: Source::Kind(kind.canonical()), setting, wave };
                 let entries = vec![(0.0, Color::BLACK), (6.0, Color::WHITE)];
-                let pigment = Pigment::Ramp(Blend { space: space(&mut random), pattern, entries });
+                let blend = Blend { space: space(&mut random), pattern, entries };
+                let pigment = Pigment::Ramp(Box::new(blend));
                 let point = random.point(3.0).to_array();
                 let sides = point.map(|at| Interval { low: at - 1e-8, high: at + 1e-8 });
                 let Interval { low, high } = pigment.bounds(&sides, Component::Value);

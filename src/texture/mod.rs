@@ -46,7 +46,7 @@ pub const DEEPEST: usize = 64;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Texture {
     Plain(Plain),
-    Blend(Blend<Arc<Texture>>),
+    Blend(Box<Blend<Arc<Texture>>>),
     /// The mean of textures by their weights, which sum to 1.
     Average {
         space: Space,
@@ -80,7 +80,7 @@ pub fn at_face<'a>(textures: &'a [Arc<Texture>], around: &dyn Surroundings) -> S
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plain {
     pub pigment: Pigment,
-    pub normal: Option<Normal>,
+    pub normal: Option<Box<Normal>>,
     pub finish: Finish,
 }
 
@@ -101,11 +101,17 @@ impl Texture {
 
     /// Returns whether any of its plain textures is as `suits` tests.
     pub fn any(&self, suits: impl Fn(&Plain) -> bool) -> bool {
-        self.plains().any(suits)
+        match self {
+            Self::Plain(plain) => suits(plain),
+            _ => self.plains().any(suits),
+        }
     }
 
     /// Returns whether it depends on the point.
     pub fn is_patterned(&self) -> bool {
+        if let Self::Plain(plain) = self {
+            return plain.pigment.is_patterned();
+        }
         self.nodes().into_iter().any(|node| match node {
             Self::Plain(plain) => plain.pigment.is_patterned(),
             Self::Blend(_) => true,
@@ -115,7 +121,8 @@ impl Texture {
 
     /// Returns whether any part of it has layers.
     pub fn has_layers(&self) -> bool {
-        self.nodes().into_iter().any(|node| matches!(node, Self::Layers(_)))
+        let is_plain = matches!(self, Self::Plain(_));
+        !is_plain && self.nodes().into_iter().any(|node| matches!(node, Self::Layers(_)))
     }
 
     /// Returns whether it follows the native rules; see [`Finish::seed`].
@@ -145,14 +152,27 @@ impl Texture {
         clear
     }
 
+    /// Calls `visit` for each of its colours, without positions in maps.
+    pub fn for_each_color(&self, visit: &mut dyn FnMut(Color)) {
+        match self {
+            Self::Plain(plain) => plain.pigment.for_each_color(visit),
+            _ => self.plains().for_each(|plain| plain.pigment.for_each_color(visit)),
+        }
+    }
+
     /// Returns its colours, without positions in maps.
     pub fn colors(&self) -> Vec<Color> {
-        self.plains().flat_map(|plain| plain.pigment.colors()).collect()
+        let mut colors = Vec::new();
+        self.for_each_color(&mut |color| colors.push(color));
+        colors
     }
 
     /// Calls `visit` for the space of each of its nodes in written order, the ones in blends included; of a
     /// shared one once.
     pub fn for_each_space<'a>(&'a self, visit: &mut dyn FnMut(&'a Space, Option<&'a Pattern>)) {
+        if let Self::Plain(Plain { pigment: Pigment::Color(_), normal: None, .. }) = self {
+            return;
+        }
         for node in self.nodes() {
             match node {
                 Self::Plain(plain) => {

@@ -12,14 +12,14 @@ use crate::math::Vector;
 /// The colour beside a picture that is shown once, as in POV-Ray 3.7 (measured).
 const NOTHING: Color = Color { transmit: 1.0, ..Color::WHITE };
 
-/// The colours of a surface.
+/// The colours of a surface. Most are of one colour, so what patterns need is boxed.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Pigment {
     Color(Color),
     /// Colours over a pattern.
-    Ramp(Blend<Color>),
+    Ramp(Box<Blend<Color>>),
     /// Pigments over a pattern.
-    Blend(Blend<Arc<Pigment>>),
+    Blend(Box<Blend<Arc<Pigment>>>),
     /// The mean of pigments by their weights, which sum to 1.
     Average {
         space: Space,
@@ -89,6 +89,9 @@ impl Pigment {
 
     /// Calls `visit` for each of its colours, without positions in maps; for those of a shared pigment once.
     pub fn for_each_color(&self, visit: &mut dyn FnMut(Color)) {
+        if let Self::Color(color) = self {
+            return visit(*color);
+        }
         for node in self.nodes() {
             match node {
                 Self::Color(color) => visit(*color),
@@ -109,6 +112,9 @@ impl Pigment {
 
     /// Returns whether light passes through it anywhere.
     pub fn is_clear(&self) -> bool {
+        if let Self::Color(color) = self {
+            return color.is_clear();
+        }
         let mut clear = false;
         self.for_each_color(&mut |color| clear |= color.is_clear());
         clear

@@ -38,7 +38,8 @@ impl Node for Texture {
     fn children(&self) -> Vec<&Self> {
         match self {
             Self::Plain(_) => Vec::new(),
-            Self::Blend(Blend { entries, .. }) | Self::Average { entries, .. } => of(entries),
+            Self::Blend(blend) => of(&blend.entries),
+            Self::Average { entries, .. } => of(entries),
             Self::Layers(all) | Self::Faces(all) => all.iter().map(|texture| &**texture).collect(),
         }
     }
@@ -47,7 +48,8 @@ impl Node for Texture {
 impl Node for Pigment {
     fn children(&self) -> Vec<&Self> {
         match self {
-            Self::Blend(Blend { entries, .. }) | Self::Average { entries, .. } => of(entries),
+            Self::Blend(blend) => of(&blend.entries),
+            Self::Average { entries, .. } => of(entries),
             Self::Color(_) | Self::Ramp(_) | Self::Image { .. } | Self::Faces(_) => Vec::new(),
         }
     }

@@ -142,7 +142,7 @@ impl<'a: 'p, 'p> Surface<'a, 'p> {
             Texture::Plain(plain) => {
                 let known = if outer.is_none() { self.known.part(plain) } else { None };
                 let (paint, normal) = known.unwrap_or_else(|| {
-                    let around = self.around.with(plain.normal.as_ref());
+                    let around = self.around.with(plain.normal.as_deref());
                     let normal = match &plain.normal {
                         Some(bumps) => bumps.perturbed(self.normal, outer, &self.around),
                         None => self.normal,
@@ -318,7 +318,7 @@ impl<'a> Tracer<'a> {
                     point: point.point,
                     origin: point.spawn(facing),
                     normal: part.normal,
-                    flat: match part.plain.normal {
+                    flat: match &part.plain.normal {
                         Some(_) => flat.or(Some(Flat { normal: facing, behind })),
                         None => flat,
                     },

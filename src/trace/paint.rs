@@ -77,7 +77,7 @@ impl<'a> Tracer<'a> {
             let side = ObjectSide::first(batch.hits, rest, batch.surfaces);
             rest &= !side.mask;
             let plain = batch.plains[side.first_number()];
-            let Some(bumps) = plain.and_then(|plain| plain.normal.as_ref()) else { return };
+            let Some(bumps) = plain.and_then(|plain| plain.normal.as_deref()) else { return };
             let mut normals = Rows::ZERO;
             for number in numbers(side.mask) {
                 normals.set(number, batch.normal(number));

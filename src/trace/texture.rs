@@ -152,7 +152,7 @@ fn patterned(
     surface: SurfacePoint,
 ) -> Color {
     let around = SurfaceInteraction::new(tracer, &ray, &hit, &surface);
-    pigment.color(None, &SurfaceInteraction { bumps: bumps.as_ref(), ..around })
+    pigment.color(None, &SurfaceInteraction { bumps: bumps.as_deref(), ..around })
 }
 
 /// Returns the normal that bumps make of `normal`, which points toward the viewer.
@@ -244,7 +244,7 @@ fn through<'a>(
 ) -> Rgb {
     match texture {
         Texture::Plain(plain) => {
-            let color = plain.pigment.color(outer, &around.with(plain.normal.as_ref()));
+            let color = plain.pigment.color(outer, &around.with(plain.normal.as_deref()));
             let own = if passing.tints { color.transmittance() } else { color.untinted() };
             passing.focus.map_or(own, |focus| own * focus.factor(plain, outer, around))
         }

@@ -212,9 +212,9 @@ impl Evaluator<'_> {
         let depth = depth.checked_sub(1)?;
         match here.unit.expression(id).kind {
             ExpressionKind::Number(_) | ExpressionKind::Component(..) => Some(false),
-            ExpressionKind::Vector(_) | ExpressionKind::Word(Word::X | Word::Y | Word::Z) => {
-                Some(true)
-            }
+            ExpressionKind::Vector(_)
+            | ExpressionKind::Triple(_)
+            | ExpressionKind::Word(Word::X | Word::Y | Word::Z) => Some(true),
             // In a macro the order of its arguments may be the mistake.
             ExpressionKind::Name(_) if self.macro_depth > 0 => None,
             ExpressionKind::Name(name) => match self.scopes.look(here.symbol(name))? {

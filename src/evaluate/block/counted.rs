@@ -27,7 +27,10 @@ impl Evaluator<'_> {
     ) -> Option<Reported> {
         let first = self.peek()?.clone();
         let TokenKind::Expression(id) = first.kind else { return None };
-        if !matches!(first.here.unit.expression(id).kind, ExpressionKind::Vector(_)) {
+        if !matches!(
+            first.here.unit.expression(id).kind,
+            ExpressionKind::Vector(_) | ExpressionKind::Triple(_)
+        ) {
             return None;
         }
         let message = format!("expected {many}, found a vector");

@@ -84,8 +84,8 @@ impl Block for OpenFinish {
         }),
         Part::Optional(Word::Metallic, |f, metallic, _| f.classic.metallic = metallic),
         Part::Special(Word::Reflection, |evaluator, token, f| {
-            let before = f.classic.reflection.clone();
-            f.classic.reflection = Some(evaluator.reflection(token, before)?);
+            let before = f.classic.reflection.as_deref().cloned();
+            f.classic.reflection = Some(Box::new(evaluator.reflection(token, before)?));
             Ok(())
         }),
         Part::Flag(Word::ConserveEnergy, |f, (), _| f.classic.conserve_energy = true),
@@ -98,12 +98,14 @@ impl Block for OpenFinish {
         }),
         Part::Number(Word::Crand, |f, crand, _| f.classic.crand = crand),
         Part::Special(Word::Irid, |evaluator, token, f| {
-            evaluator.irid(token, f.classic.irid).map(|irid| f.classic.irid = Some(irid))
+            let before = f.classic.irid.as_deref().copied();
+            evaluator.irid(token, before).map(|irid| f.classic.irid = Some(Box::new(irid)))
         }),
         // Of old versions.
         Part::Special(Word::ReflectionExponent, |evaluator, token, f| {
             let exponent = evaluator.exponent(token)?;
-            f.classic.reflection.get_or_insert(Reflection::NONE).exponent = exponent;
+            f.classic.reflection.get_or_insert_with(|| Box::new(Reflection::NONE)).exponent =
+                exponent;
             Ok(())
         }),
         Part::Number(Word::Refraction, |f, refraction, _| f.classic.refraction = refraction),

@@ -108,6 +108,8 @@ impl Evaluator<'_> {
                             | ModifierKind::DoubleIlluminate(_) => self.whole(&token),
                             _ => token.here.site(token.span),
                         };
+                        // Most objects have one.
+                        modifiers.reserve_exact(usize::from(modifiers.is_empty()));
                         modifiers.push(Modifier { kind, site });
                     }
                 }

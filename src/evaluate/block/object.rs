@@ -115,7 +115,6 @@ impl Evaluator<'_> {
             modified?;
             kind
         })?;
-        // Most objects have one.
         modifiers.shrink_to_fit();
         self.add_object(Object { kind, modifiers, site, item: None })
     }

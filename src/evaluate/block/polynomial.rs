@@ -144,10 +144,11 @@ impl Evaluator<'_> {
     fn peeks_list(&mut self) -> Option<(Token, usize)> {
         let next = self.peek()?.clone();
         let TokenKind::Expression(id) = next.kind else { return None };
-        let ExpressionKind::Vector(numbers) = next.here.unit.expression(id).kind else {
-            return None;
+        let count = match next.here.unit.expression(id).kind {
+            ExpressionKind::Vector(numbers) => next.here.unit.ast.arguments(numbers).len(),
+            ExpressionKind::Triple(_) => 3,
+            _ => return None,
         };
-        let count = next.here.unit.ast.arguments(numbers).len();
         Some((next, count))
     }
 
@@ -203,6 +204,11 @@ impl Evaluator<'_> {
                     ExpressionKind::Vector(numbers) => {
                         self.next();
                         let value = self.numbers_of(&here, numbers, span)?;
+                        Some(Given { value, span, here, expression: Some(id) })
+                    }
+                    ExpressionKind::Triple(triple) => {
+                        self.next();
+                        let value = here.unit.ast.triple(triple).to_vec();
                         Some(Given { value, span, here, expression: Some(id) })
                     }
                     _ => None,

@@ -219,14 +219,16 @@ impl Evaluator<'_> {
                 ));
             }
         };
-        let components = match next.kind {
-            TokenKind::Expression(id) => match next.here.unit.expression(id).kind {
-                ExpressionKind::Vector(components) => Some(components),
+        let unit = next.here.unit.clone();
+        let numbers = match next.kind {
+            TokenKind::Expression(id) => match unit.expression(id).kind {
+                ExpressionKind::Vector(components) => Some(Ok(components)),
+                ExpressionKind::Triple(triple) => Some(Err(unit.ast.triple(triple).to_vec())),
                 _ => None,
             },
             _ => None,
         };
-        let Some(components) = components else {
+        let Some(numbers) = numbers else {
             if let Some(reported) = self.bare_matrix(&next) {
                 return Err(reported);
             }
@@ -239,8 +241,11 @@ impl Evaluator<'_> {
         if let Some(reported) = self.matrix_of_rows(&next) {
             return Err(reported);
         }
-        let unit = next.here.unit.clone();
-        let numbers = self.numbers_of(&next.here, components, next.span)?;
+        let components = numbers.as_ref().ok().copied();
+        let numbers = match numbers {
+            Ok(components) => self.numbers_of(&next.here, components, next.span)?,
+            Err(numbers) => numbers,
+        };
         let Ok(numbers) = <[f64; 12]>::try_from(numbers.as_slice()) else {
             let lost = self.commas_lost(next.span);
             let place = match lost.first() {
@@ -248,7 +253,7 @@ impl Evaluator<'_> {
                 None if numbers.len() < 12 => self.end_of_call(next.span),
                 // The first surplus number.
                 None => {
-                    let more = unit.ast.arguments(components).get(12..);
+                    let more = components.and_then(|all| unit.ast.arguments(all).get(12..));
                     more.and_then(|more| surplus(&next.here, more)).unwrap_or(next.span)
                 }
             };

@@ -37,6 +37,7 @@ pub(super) fn mention(here: &Here, formula: &Formula, id: ExpressionId) -> Optio
                 None
             }
             ExpressionKind::Number(_)
+            | ExpressionKind::Triple(_)
             | ExpressionKind::String
             | ExpressionKind::GroupItems(_)
             | ExpressionKind::Joint

@@ -144,6 +144,12 @@ impl Evaluator<'_> {
                 let parts: Option<Vec<(Span, f64)>> = parts.collect();
                 parts.filter(|_| list.len() == angles.len())?
             }
+            ExpressionKind::Triple(triple) => {
+                let parts = triple.spans(whole).into_iter().zip(angles.iter().copied());
+                let parts: Vec<(Span, f64)> = parts.filter(|(_, angle)| *angle != 0.0).collect();
+                let all = parts.iter().all(|(_, angle)| is_typed_in_radians(*angle));
+                Some(parts).filter(|_| all && angles.len() == 3)?
+            }
             ExpressionKind::Binary(BinaryOperator::Multiply, left, right) if is_axis(right) => {
                 vec![(unit.expression(left).span, largest)]
             }

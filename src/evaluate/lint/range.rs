@@ -5,7 +5,6 @@ use crate::evaluate::Evaluator;
 use crate::evaluate::block::Given;
 use crate::evaluate::stream::Token;
 use crate::source::Span;
-use crate::syntax::ast::{Argument, ExpressionKind};
 
 use super::is_literal;
 
@@ -54,11 +53,7 @@ impl Evaluator<'_> {
     /// Returns the span of a corner's component, if it is a literal number.
     fn typed_component(&self, corner: &Given<[f64; 2]>, axis: usize) -> Option<Span> {
         let unit = &corner.here.unit;
-        let ExpressionKind::Vector(list) = unit.expression(corner.expression?).kind else {
-            return None;
-        };
-        let Argument::Expression(id) = *unit.ast.arguments(list).get(axis)? else { return None };
-        let span = unit.expression(id).span;
+        let span = unit.component_span(corner.expression?, axis)?;
         is_literal(self.sources.text(span)).then_some(span)
     }
 }

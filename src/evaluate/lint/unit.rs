@@ -77,6 +77,14 @@ impl Walk<'_> {
                 let unit = self.unit;
                 self.largest(unit.ast.arguments(list), depth)?
             }
+            ExpressionKind::Triple(triple) => {
+                let numbers = self.unit.ast.triple(triple);
+                // A sign is a node.
+                let levels = numbers.map(|number| 1 + u32::from(number.is_sign_negative()));
+                self.nodes = self.nodes.checked_sub(levels.into_iter().sum())?;
+                levels.into_iter().try_for_each(|level| depth.checked_sub(level).map(|_| ()))?;
+                numbers.into_iter().map(|number| power_of_number(number.abs())).fold(0, i32::max)
+            }
             ExpressionKind::Call(Callee::Word(word, _), list) => {
                 let unit = self.unit;
                 match word {

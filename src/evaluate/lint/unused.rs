@@ -1,5 +1,6 @@
 //! Names that are declared but never used.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::MOST_LOOKS;
@@ -47,7 +48,10 @@ impl Evaluator<'_> {
         let faults = self.diagnostics.iter().filter(is_error);
         let faulty = faults.flat_map(|told| told.labels.iter().map(|label| label.span));
         let faulty: BTreeSet<(FileId, usize)> = faulty.map(|span| self.line_of(span)).collect();
-        let only_declared = self.only_declared(main);
+        // All of the text is searched for these: only if there are any candidates.
+        let known = OnceCell::new();
+        let is_only_declared =
+            |name: &str| known.get_or_init(|| self.only_declared(main)).contains(name);
         let mut unused: Vec<(Unused, Diagnostic)> = Vec::new();
         for (name, declared, value) in self.scopes.declarations() {
             if declared.used {
@@ -56,14 +60,14 @@ impl Evaluator<'_> {
             let theirs = match declared.of {
                 Owner::Main => true,
                 // A branch that was not run may use it, or a macro that this one calls.
-                Owner::Macro => only_declared.contains(name),
+                Owner::Macro => is_only_declared(name),
                 Owner::Other => false,
             };
             if !theirs || name.starts_with('_') || !is_meant(name) {
                 continue;
             }
             let is_light = matches!(value, Some(&Value::Object(object)) if self.is_light(object));
-            if has_errors && !only_declared.contains(name) {
+            if has_errors && !is_only_declared(name) {
                 continue;
             }
             // Another mistake on its line has priority.

@@ -21,7 +21,7 @@ fn reflection(default: &str, own: &str) -> Reflection {
         sphere {{ 0, 1 finish {{ reflection {{ {own} }} }} }}"
     );
     match scene(&text).finishes.last() {
-        Some(Finish::Classic(finish)) => finish.reflection.clone().expect("it reflects"),
+        Some(Finish::Classic(finish)) => *finish.reflection.clone().expect("it reflects"),
         other => panic!("{other:?}"),
     }
 }

@@ -123,7 +123,7 @@ fn an_opaque_object_keeps_its_interior_for_fresnel() {
     };
     let scene = |minimum: f64, ior: Option<f64>| {
         let mut build = Build::new();
-        let reflection = Some(fresnel(minimum));
+        let reflection = Some(Box::new(fresnel(minimum)));
         let finish = build.finish(ClassicFinish { reflection, ..ClassicFinish::default() });
         let mut modifiers = vec![ModifierKind::Texture(PLAIN), finish];
         modifiers.extend(ior.map(|ior| build.interior(ior)));
@@ -153,14 +153,14 @@ fn energy_is_conserved_only_where_something_is_both_reflected_and_let_through() 
         let part = Rgb::gray(mirror);
         let finish = build.finish(ClassicFinish {
             conserve_energy: true,
-            reflection: Some(Reflection {
+            reflection: Some(Box::new(Reflection {
                 minimum: part,
                 maximum: part,
                 falloff: 1.0,
                 fresnel: false,
                 exponent: 1.0,
                 metallic: 0.0,
-            }),
+            })),
             ..ClassicFinish::default()
         });
         build.ball(0.0, vec![color, finish]);

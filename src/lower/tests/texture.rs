@@ -349,7 +349,8 @@ fn what_a_finish_gives_no_weight_is_absent() {
         exponent: 1.0,
         metallic: 0.0,
     };
-    let dull = lowered(ClassicFinish { reflection: Some(black.clone()), ..Default::default() });
+    let dull =
+        lowered(ClassicFinish { reflection: Some(Box::new(black.clone())), ..Default::default() });
     assert!(dull.lobes.is_empty() && dull.reflection.is_none());
     assert_eq!(dull.emission, Rgb::gray(0.1));
     let bright = lowered(ClassicFinish {
@@ -357,7 +358,7 @@ fn what_a_finish_gives_no_weight_is_absent() {
         specular: 0.25,
         roughness: 0.125,
         metallic: 0.75,
-        reflection: Some(Reflection { maximum: Rgb::WHITE, ..black }),
+        reflection: Some(Box::new(Reflection { maximum: Rgb::WHITE, ..black })),
         ..Default::default()
     });
     let lobes: Vec<_> = bright.lobes.iter().map(|l| (l.weight, l.exponent, l.metallic)).collect();

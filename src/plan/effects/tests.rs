@@ -9,7 +9,7 @@ use crate::shape::{Shape, Sphere};
 use crate::source::{ExpansionId, FileId, Span};
 use crate::texture::{Blend, Pattern, Source, Space};
 use crate::world::{
-    Dropped, Finish, LightKind, Lobe, LobeKind, Object, Reflection, Sky, SkyOrigin,
+    Dropped, Finish, LightKind, Lobe, LobeKind, Object, Reflection, Sky, SkyOrigin, TextureOrigin,
 };
 
 fn site(place: usize) -> Site {
@@ -56,14 +56,14 @@ fn lit_mirror() -> (World, Origins) {
         objects: vec![site(1)],
         lights: vec![site(20)],
         textures: vec![TextureOrigin {
-            clear: vec![],
-            filter: vec![],
             pigment: Some(site(9)),
             finish: Some(site(10)),
-            pattern: vec![],
-            highlights: vec![site(12), site(11), site(12)],
-            reflection: vec![site(13)],
-            behind: vec![],
+            sites: vec![
+                (TexturePart::Highlights, site(12)),
+                (TexturePart::Highlights, site(11)),
+                (TexturePart::Highlights, site(12)),
+                (TexturePart::Reflection, site(13)),
+            ],
         }],
         max_trace_level: Some(site(30)),
         ..Origins::default()
@@ -218,7 +218,7 @@ fn a_sky_and_its_patterns_are_called_for_by_the_sky() {
     };
     let entries = vec![(0.0, Color::WHITE)];
     let blend = Blend { space: Space::default(), pattern: checker, entries };
-    world.sky = Some(Sky { pigments: vec![Pigment::Ramp(blend)], emission: Rgb::WHITE });
+    world.sky = Some(Sky { pigments: vec![Pigment::Ramp(Box::new(blend))], emission: Rgb::WHITE });
     let plan = plan(&world, &origins, &OPTIONS);
     let by = |effect| plan.called(effect).map(|called| called.by.clone());
     assert_eq!(by(Effect::Sky), Some(vec![site(40), site(42)]));

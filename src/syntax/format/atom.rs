@@ -139,6 +139,15 @@ fn roles(ast: &Ast, length: usize) -> Vec<Role> {
                 set(node.span.start as usize, Role::Angle);
                 set(before_end(node.span), Role::Angle);
             }
+            ExpressionKind::Triple(triple) => {
+                set(node.span.start as usize, Role::Angle);
+                set(before_end(node.span), Role::Angle);
+                for (number, span) in ast.triple(triple).into_iter().zip(triple.spans(node.span)) {
+                    if number.is_sign_negative() {
+                        set(span.start as usize, Role::Sign);
+                    }
+                }
+            }
             ExpressionKind::Call(Callee::Word(_, span) | Callee::Name(_, span), _) => {
                 set(span.start as usize, Role::Callee);
             }
@@ -271,9 +280,11 @@ impl<'a> List<'a> {
             TokenKind::Word(_) | TokenKind::Name if role == Role::Callee => Kind::Callee,
             TokenKind::Word(word) if role == Role::Item => Kind::Word(word),
             TokenKind::Name if role == Role::Item => Kind::OwnWord,
-            TokenKind::Word(_) | TokenKind::Name | TokenKind::Number | TokenKind::String => {
-                Kind::Value
-            }
+            TokenKind::Word(_)
+            | TokenKind::Name
+            | TokenKind::Number
+            | TokenKind::Triple
+            | TokenKind::String => Kind::Value,
             TokenKind::Directive(head) => {
                 self.declares = matches!(head, Head::Declare | Head::Local);
                 Kind::Directive(head)

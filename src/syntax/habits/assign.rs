@@ -372,6 +372,7 @@ impl Reader<'_> {
                             | Mark::Close(_)
                     ) | TokenKind::Numbers
                         | TokenKind::Vectors
+                        | TokenKind::Triple
                         | TokenKind::Word(_)
                 )
             )

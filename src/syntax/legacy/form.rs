@@ -134,7 +134,8 @@ impl Legacy<'_> {
             | ExpressionKind::Unary(..)
             | ExpressionKind::Binary(..)
             | ExpressionKind::Component(..)
-            | ExpressionKind::Vector(_) => true,
+            | ExpressionKind::Vector(_)
+            | ExpressionKind::Triple(_) => true,
             ExpressionKind::Call(Callee::Word(word, _), _) => {
                 matches!(word.family(), Family::FloatFunction | Family::VectorFunction)
             }

@@ -76,7 +76,8 @@ fn seed(rgb: Rgb, kd: f64, ks: f64, exponent: f64, ambient: f64) -> Plain {
 fn ramp(kind: Kind, steps: Vec<Step>, entries: Vec<(f64, Color)>) -> Pigment {
     let wave = Wave::new(kind.wave(), kind.frequency(), 0.0);
     let pattern = Pattern { source: Source::Kind(kind), setting: Setting::default(), wave };
-    Pigment::Ramp(Blend { space: Space { start: Start::Slot(0), steps }, pattern, entries })
+    let space = Space { start: Start::Slot(0), steps };
+    Pigment::Ramp(Box::new(Blend { space, pattern, entries }))
 }
 
 fn gradient(direction: Vector) -> Kind {

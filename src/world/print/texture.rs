@@ -17,7 +17,7 @@ pub(super) fn texture(out: &mut String, texture: &Texture, indent: &str) -> fmt:
     branches.count(texture);
     for plain in texture.plains() {
         branches.count(&plain.pigment);
-        plain.normal.iter().for_each(|normal| branches.count(normal));
+        plain.normal.iter().for_each(|normal| branches.count(&**normal));
     }
     part(out, texture, indent, &mut branches)
 }
