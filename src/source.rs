@@ -181,17 +181,12 @@ pub struct Position {
 impl Source {
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
-        let ends = text.match_indices('\n').map(|(at, _)| at);
         let mut line_starts = vec![0];
-        line_starts.extend(ends.map(|at| at as u32 + 1));
+        line_starts.extend(text.match_indices('\n').map(|(at, _)| at as u32 + 1));
         // A lone carriage return ends a line too (old Macintosh files).
-        let lone = text.match_indices('\r').map(|(at, _)| at);
-        let lone = lone.filter(|at| !text[at + 1..].starts_with('\n'));
-        let before = line_starts.len();
-        line_starts.extend(lone.map(|at| at as u32 + 1));
-        if line_starts.len() > before {
-            line_starts.sort_unstable();
-        }
+        let lone = text.match_indices('\r').filter(|(at, _)| !text[at + 1..].starts_with('\n'));
+        line_starts.extend(lone.map(|(at, _)| at as u32 + 1));
+        line_starts.sort_unstable();
         let blocks = text.as_bytes().chunks(BLOCK).scan(0, |before, block| {
             let start = *before;
             *before += characters(block) as u32;

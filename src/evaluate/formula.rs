@@ -119,8 +119,7 @@ impl Evaluator<'_> {
             ExpressionKind::Conditional(condition, then, otherwise) => {
                 let all = [condition, then, otherwise].map(|id| self.node(here, formula, id));
                 let [Ok(condition), Ok(then), Ok(otherwise)] = all else { return Err(Reported) };
-                let built = formula.builder.choose(condition, then, otherwise);
-                self.built(here, span, built)
+                self.built(here, span, formula.builder.choose(condition, then, otherwise))
             }
             ExpressionKind::Group(inner) => self.node(here, formula, inner),
             ExpressionKind::Call(callee, arguments) => {

@@ -109,7 +109,7 @@ pub fn box_(corners: [Vector; 2], map: &Affine) -> Result<(Box_, [LocalFace; 6])
     let half = Double::from(0.5);
     let centre = map.point((a + b) * half);
     let half_widths = ((b - a) * half).map(Double::abs).components();
-    let sides = match map.is_translation() {
+    let sides = match map.is_translation {
         true => std::array::from_fn(|axis| {
             let (normal, half_width) = (DoubleVector::axis(axis), half_widths[axis]);
             Side { axis, normal, half_width, turned: false }

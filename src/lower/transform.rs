@@ -31,7 +31,7 @@ pub struct Affine {
     /// Bound on the rounding error of the linear part, relative to its size.
     rounding: f64,
     /// The linear part is the identity, as in most maps.
-    is_translation: bool,
+    pub is_translation: bool,
 }
 
 /// The inverse of the linear part before division: row i over `determinant`.
@@ -160,11 +160,6 @@ impl Affine {
     /// Returns whether this is exactly the identity, as most maps are.
     pub fn moves_nothing(&self) -> bool {
         self.rounding == 0.0 && self.is_identity()
-    }
-
-    /// Returns whether its linear part is the identity.
-    pub fn is_translation(&self) -> bool {
-        self.is_translation
     }
 
     pub fn is_identity(&self) -> bool {

@@ -89,7 +89,7 @@ impl Reader<'_> {
             end += 1;
         }
         match self.kind(end)? {
-            TokenKind::Number | TokenKind::Name => Some((at, end + 1)),
+            TokenKind::Number | TokenKind::Name | TokenKind::Triple => Some((at, end + 1)),
             TokenKind::Mark(Mark::Less) => {
                 // A colour has five parts at most.
                 let close = (end..end + 24).find(|&ahead| self.is(ahead, Mark::Greater))?;

@@ -179,7 +179,10 @@ impl Reader<'_> {
         // A name and a value side by side; nothing that a declared name could be.
         let first = matches!(before, Some(TokenKind::Mark(Mark::Open(_) | Mark::Comma)));
         let bare = (first || named > 0)
-            && matches!(self.kind(1), Some(TokenKind::Number | TokenKind::Mark(Mark::Less)));
+            && matches!(
+                self.kind(1),
+                Some(TokenKind::Number | TokenKind::Triple | TokenKind::Mark(Mark::Less))
+            );
         if !signed && (!bare || parts(opener).is_none()) {
             return false;
         }
