@@ -106,6 +106,11 @@ pub fn bounds(generator: NoiseGenerator, point: [Interval; 3]) -> Interval {
     range::value_range(generator, point)
 }
 
+/// Returns how far computed noise may be from the exact one.
+pub fn rounding(generator: NoiseGenerator) -> f64 {
+    range::rounding(generator)
+}
+
 /// Returns [`bounds`], and intervals that contain the slope along each axis at every point of a box,
 /// including 0 where noise is clamped.
 pub fn bounds_and_slopes(
