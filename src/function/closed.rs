@@ -1,6 +1,7 @@
 //! Closed functions: a function together with everything it calls, independent of its environment.
 
 use super::domain::{Needed, needed};
+use super::rounded::Rounded;
 use super::slope::Sloped;
 use super::tape::{Function, Step};
 use super::{Outside, OutsideId};
@@ -22,6 +23,12 @@ pub trait Ask: Clone + PartialEq + std::fmt::Debug {
     fn sloped<const N: usize>(&self, arguments: &[Sloped<N>]) -> Sloped<N> {
         let values: Vec<_> = arguments.iter().map(|argument| argument.value).collect();
         Sloped::anyhow(self.bounds(&values), arguments.iter().all(Sloped::is_level))
+    }
+
+    /// Returns the bounds with the error of a computed number, as [`Outside::rounded`] does.
+    fn rounded(&self, arguments: &[Rounded]) -> Rounded {
+        let values: Vec<_> = arguments.iter().map(|argument| argument.value).collect();
+        Rounded::anyhow(self.bounds(&values))
     }
 }
 
@@ -96,6 +103,13 @@ impl<A: Ask> Outside for Closed<A> {
         match self.asked.get(id.0 as usize) {
             Some(asked) => asked.sloped(arguments),
             None => Sloped::anyhow(Interval::EVERYTHING, false),
+        }
+    }
+
+    fn rounded(&self, id: OutsideId, arguments: &[Rounded]) -> Rounded {
+        match self.asked.get(id.0 as usize) {
+            Some(asked) => asked.rounded(arguments),
+            None => Rounded::anyhow(Interval::EVERYTHING),
         }
     }
 }

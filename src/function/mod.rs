@@ -15,6 +15,7 @@ mod domain;
 mod noise;
 mod number;
 mod operation;
+mod rounded;
 mod slope;
 mod tape;
 
@@ -25,6 +26,7 @@ pub use closed::{Ask, Closed};
 pub use noise::NoiseFunction;
 pub use number::{Batch, LANES, Number};
 pub use operation::{Binary, Unary};
+pub use rounded::Rounded;
 pub use slope::Sloped;
 pub use tape::{Function, Run};
 
@@ -50,6 +52,15 @@ pub trait Outside {
         }
         let value = self.bounds(id, &values[..arguments.len().min(MOST_ARGUMENTS)]);
         Sloped::anyhow(value, arguments.iter().all(Sloped::is_level))
+    }
+
+    /// Returns the bounds with the error of a number computed for the arguments, given those of the arguments.
+    fn rounded(&self, id: OutsideId, arguments: &[Rounded]) -> Rounded {
+        let mut values = [Interval::point(0.0); MOST_ARGUMENTS];
+        for (value, argument) in values.iter_mut().zip(arguments) {
+            *value = argument.value;
+        }
+        Rounded::anyhow(self.bounds(id, &values[..arguments.len().min(MOST_ARGUMENTS)]))
     }
 }
 

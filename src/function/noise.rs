@@ -7,8 +7,11 @@
 //! **Source:** F. K. Musgrave in Ebert and others, *Texturing and Modeling*, 3rd ed., chapter 16, for the two
 //! multifractals; differences from it, and `f_ridge`, were measured on POV-Ray 3.7.
 
+use std::cell::Cell;
+
 use super::number::Number;
 use super::operation::{Binary, Unary};
+use super::rounded::Rounded;
 use super::slope::Sloped;
 use crate::math::Vector;
 use crate::math::elementary::pow;
@@ -33,9 +36,15 @@ pub enum NoiseFunction {
 /// Noise with the bounds of its gradient.
 fn sloped<const N: usize>(generator: NoiseGenerator, point: [Sloped<N>; 3]) -> Sloped<N> {
     let at = point.map(|coordinate| coordinate.value);
-    let (value, [x, y, z]) = noise::bounds_and_slopes(generator, at);
-    let flat = Sloped::follow_both(value, (x, &point[0]), (y, &point[1]));
-    Sloped::follow_both(value, (Interval::point(1.0), &flat), (z, &point[2]))
+    let (value, steepness) = noise::bounds_and_slopes(generator, at);
+    Sloped::follow_point(value, steepness, &point)
+}
+
+/// Noise with the error of a computed number.
+fn rounded(generator: NoiseGenerator, point: [Rounded; 3]) -> Rounded {
+    let sloped = sloped(generator, point.map(|coordinate| coordinate.sloped()));
+    let Rounded { value, error } = Rounded::new(sloped, 0.0);
+    Rounded { value, error: error + noise::rounding(generator) }
 }
 
 /// Maximum number of octaves; further ones are below the precision of numbers, or all equal.
@@ -67,6 +76,12 @@ impl NoiseFunction {
         let level = arguments.iter().all(Sloped::is_level);
         self.of(own, arguments, sloped, |argument| argument.value.single())
             .unwrap_or(Sloped::anyhow(Interval::EVERYTHING, level))
+    }
+
+    /// Returns the bounds with the error of a computed number.
+    pub fn rounded(self, own: NoiseGenerator, arguments: &[Rounded]) -> Rounded {
+        let single = |argument: Rounded| argument.value.single();
+        self.of(own, arguments, rounded, single).unwrap_or(Rounded::anyhow(Interval::EVERYTHING))
     }
 
     fn of<N: Number>(
@@ -126,7 +141,15 @@ struct Octaves {
 
 impl Octaves {
     fn new(h: f64, scale: f64, count: f64) -> Self {
-        Self { scale, weight: pow(scale, -h), count: count.min(MOST_OCTAVES) }
+        thread_local! {
+            /// The last power: mostly it is the same for all points.
+            static LAST: Cell<[f64; 3]> = const { Cell::new([1.0; 3]) };
+        }
+        let [last_scale, last_h, last] = LAST.get();
+        let is_last = last_scale == scale && last_h == h;
+        let weight = if is_last { last } else { pow(scale, -h) };
+        LAST.set([scale, h, weight]);
+        Self { scale, weight, count: count.min(MOST_OCTAVES) }
     }
 
     /// The fractional part of the count.

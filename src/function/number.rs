@@ -138,14 +138,17 @@ impl Number for Batch {
 }
 
 impl Number for Interval {
+    #[inline]
     fn constant(value: f64) -> Self {
         Self::point(value)
     }
 
+    #[inline]
     fn unary(operation: Unary, a: Self) -> Self {
         operation.bounds(a)
     }
 
+    #[inline]
     fn binary(operation: Binary, a: Self, b: Self) -> Self {
         operation.bounds(a, b)
     }

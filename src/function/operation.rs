@@ -95,6 +95,7 @@ impl Unary {
     }
 
     /// Returns an interval that contains [`Self::of`] for every number in `a`.
+    #[inline]
     pub fn bounds(self, a: Interval) -> Interval {
         const INFINITY: f64 = f64::INFINITY;
         match self {
@@ -167,6 +168,7 @@ impl Binary {
     }
 
     /// Returns an interval that contains [`Self::of`] for every pair of numbers from `a` and `b`.
+    #[inline]
     pub fn bounds(self, a: Interval, b: Interval) -> Interval {
         let decided = |always: bool, never: bool| match (always, never) {
             (true, _) => Interval::point(1.0),

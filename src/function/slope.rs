@@ -23,10 +23,12 @@ const LEVEL: Interval = Interval { low: 0.0, high: 0.0 };
 const ONE: Interval = Interval { low: 1.0, high: 1.0 };
 
 /// Product of a steepness and a slope; a constant has slope 0, however steep the operation.
+#[inline]
 fn times(steepness: Interval, slope: Interval) -> Interval {
     if slope == LEVEL || steepness == LEVEL { LEVEL } else { steepness * slope }
 }
 
+#[inline]
 fn plus(a: Interval, b: Interval) -> Interval {
     match (a == LEVEL, b == LEVEL) {
         (true, _) => b,
@@ -42,13 +44,19 @@ fn of_steps(value: Interval) -> Interval {
 
 impl<const N: usize> Sloped<N> {
     /// Chain rule for one argument.
-    fn follow(value: Interval, steepness: Interval, a: &Self) -> Self {
+    #[inline]
+    pub fn follow(value: Interval, steepness: Interval, a: &Self) -> Self {
         let known = value != Interval::EVERYTHING;
         let steepness = if known { steepness } else { Interval::EVERYTHING };
-        Self { value, slopes: a.slopes.map(|slope| times(steepness, slope)) }
+        let mut slopes = a.slopes;
+        for slope in &mut slopes {
+            *slope = times(steepness, *slope);
+        }
+        Self { value, slopes }
     }
 
     /// Chain rule for two arguments, each with its own steepness.
+    #[inline]
     pub(super) fn follow_both(
         value: Interval,
         (first, a): (Interval, &Self),
@@ -57,11 +65,29 @@ impl<const N: usize> Sloped<N> {
         let known = value != Interval::EVERYTHING;
         let steepness = |s: Interval| if known { s } else { Interval::EVERYTHING };
         let (first, second) = (steepness(first), steepness(second));
-        let slope = |at: usize| plus(times(first, a.slopes[at]), times(second, b.slopes[at]));
-        Self { value, slopes: std::array::from_fn(slope) }
+        let mut slopes = a.slopes;
+        for (slope, other) in slopes.iter_mut().zip(&b.slopes) {
+            *slope = plus(times(first, *slope), times(second, *other));
+        }
+        Self { value, slopes }
     }
 
-    fn hull(&self, other: &Self) -> [Interval; N] {
+    /// Chain rule for a function of a point, with its steepness along each axis.
+    #[inline]
+    pub fn follow_point(value: Interval, steepness: [Interval; 3], point: &[Self; 3]) -> Self {
+        let known = value != Interval::EVERYTHING;
+        let mut slopes = [LEVEL; N];
+        for (coordinate, steepness) in point.iter().zip(steepness) {
+            let steepness = if known { steepness } else { Interval::EVERYTHING };
+            for (slope, step) in slopes.iter_mut().zip(&coordinate.slopes) {
+                *slope = plus(*slope, times(steepness, *step));
+            }
+        }
+        Self { value, slopes }
+    }
+
+    /// Returns the ranges of the slopes of either.
+    pub fn hull(&self, other: &Self) -> [Interval; N] {
         std::array::from_fn(|at| self.slopes[at].hull(other.slopes[at]))
     }
 
@@ -125,6 +151,7 @@ impl<const N: usize> Number for Sloped<N> {
         Self::anyhow(Interval::point(value), !value.is_nan())
     }
 
+    #[inline]
     fn unary(operation: Unary, a: Self) -> Self {
         let value = operation.bounds(a.value);
         if a.is_level() {
@@ -133,6 +160,7 @@ impl<const N: usize> Number for Sloped<N> {
         Self::follow(value, steepness(operation, a.value, value), &a)
     }
 
+    #[inline]
     fn binary(operation: Binary, a: Self, b: Self) -> Self {
         let value = operation.bounds(a.value, b.value);
         if a.is_level() && b.is_level() {
@@ -142,6 +170,7 @@ impl<const N: usize> Number for Sloped<N> {
         match operation {
             Binary::Add => both(ONE, ONE),
             Binary::Subtract => both(ONE, -ONE),
+            Binary::Multiply if b.is_level() => Self::follow(value, b.value, &a),
             Binary::Multiply => both(b.value, a.value),
             Binary::Divide => both(ONE / b.value, -(value / b.value)),
             Binary::Less

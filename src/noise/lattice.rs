@@ -57,15 +57,49 @@ impl<S: Simd> Cell<S> {
     #[inline(always)]
     pub fn blend<const N: usize>(&self, table: &[CornerRow; N], places: [usize; 8]) -> f64 {
         let [x, y, z] = [self.weights(0), self.weights(1), self.weights(2)];
-        let line = [
+        let line = self.lines(table, places, z);
+        let plane = [line[0] * y[0] + line[1] * y[1], line[2] * y[0] + line[3] * y[1]];
+        sum(plane[0] * x[0] + plane[1] * x[1])
+    }
+
+    /// Returns [`Cell::blend`] and its slopes along x, y and z.
+    #[inline(always)]
+    pub fn blend_and_slopes<const N: usize>(
+        &self,
+        table: &[CornerRow; N],
+        places: [usize; 8],
+    ) -> (f64, [f64; 3]) {
+        let [x, y, z] = [self.weights(0), self.weights(1), self.weights(2)];
+        let [by_x, by_y, by_z] = [self.rises(0), self.rises(1), self.rises(2)];
+        let line = self.lines(table, places, z);
+        let plane = [line[0] * y[0] + line[1] * y[1], line[2] * y[0] + line[3] * y[1]];
+        let along_y =
+            [line[0] * by_y[0] + line[1] * by_y[1], line[2] * by_y[0] + line[3] * by_y[1]];
+        let line = self.lines(table, places, by_z);
+        let along_z = [line[0] * y[0] + line[1] * y[1], line[2] * y[0] + line[3] * y[1]];
+        let value = sum(plane[0] * x[0] + plane[1] * x[1]);
+        let slopes = [
+            sum(plane[0] * by_x[0] + plane[1] * by_x[1]),
+            sum(along_y[0] * x[0] + along_y[1] * x[1]),
+            sum(along_z[0] * x[0] + along_z[1] * x[1]),
+        ];
+        (value, slopes)
+    }
+
+    /// Returns the blends along z.
+    #[inline(always)]
+    fn lines<const N: usize>(
+        &self,
+        table: &[CornerRow; N],
+        places: [usize; 8],
+        z: [Wide<S>; 2],
+    ) -> [Wide<S>; 4] {
+        [
             self.row(table, places[0]) * z[0] + self.row(table, places[1]) * z[1],
             self.row(table, places[2]) * z[0] + self.row(table, places[3]) * z[1],
             self.row(table, places[4]) * z[0] + self.row(table, places[5]) * z[1],
             self.row(table, places[6]) * z[0] + self.row(table, places[7]) * z[1],
-        ];
-        let plane = [line[0] * y[0] + line[1] * y[1], line[2] * y[0] + line[3] * y[1]];
-        let [value, x, y, z] = (plane[0] * x[0] + plane[1] * x[1]).into();
-        (value + x) + (y + z)
+        ]
     }
 
     #[inline(always)]
@@ -82,6 +116,17 @@ impl<S: Simd> Cell<S> {
         weights[0][1 + axis] = self.weighted[0][axis];
         weights[1][1 + axis] = self.weighted[1][axis];
         [Wide::simd_from(self.simd, weights[0]), Wide::simd_from(self.simd, weights[1])]
+    }
+
+    /// Returns the slopes of [`Cell::weights`] along their axis.
+    #[inline(always)]
+    fn rises(&self, axis: usize) -> [Wide<S>; 2] {
+        let [near, far] = [self.offset[0][axis], self.offset[1][axis]];
+        let rise = -6.0 * near * far;
+        let mut rises = [[-rise; 4], [rise; 4]];
+        rises[0][1 + axis] = self.weight[0][axis] - rise * near;
+        rises[1][1 + axis] = self.weight[1][axis] + rise * far;
+        [Wide::simd_from(self.simd, rises[0]), Wide::simd_from(self.simd, rises[1])]
     }
 
     /// Returns the blend of three linear functions of each of the corners; a fourth is 0.
@@ -112,6 +157,13 @@ impl<S: Simd> Cell<S> {
         let [value, by_z] = [Wide::simd_from(self.simd, *value), Wide::simd_from(self.simd, *by_z)];
         (value + by_x * x) + (by_y * y + by_z * z)
     }
+}
+
+/// Returns the sum of the lanes.
+#[inline(always)]
+fn sum<S: Simd>(lanes: Wide<S>) -> f64 {
+    let [a, b, c, d] = lanes.into();
+    (a + b) + (c + d)
 }
 
 /// Returns 3t² − 2t³.

@@ -77,9 +77,38 @@ pub(crate) fn noise_by<S: Simd>(simd: S, generator: NoiseGenerator, point: Vecto
     noise.clamp(0.0, 1.0)
 }
 
+/// Returns the noise at `point` before it is clamped, and its slopes along x, y and z.
+fn noise_and_slopes(generator: NoiseGenerator, point: Vector) -> (f64, [f64; 3]) {
+    dispatch!(Instructions::best().level(), simd => noise_and_slopes_by(simd, generator, point))
+}
+
+#[inline(always)]
+fn noise_and_slopes_by<S: Simd>(
+    simd: S,
+    generator: NoiseGenerator,
+    point: Vector,
+) -> (f64, [f64; 3]) {
+    if generator == NoiseGenerator::Perlin {
+        return perlin::noise_and_slopes(simd, point);
+    }
+    let cell = Cell::new(simd, point, LATTICE_ORIGIN as f64);
+    let (plain, [x, y, z]) = cell.blend_and_slopes(&ROWS, hashes(cell.low));
+    match generator {
+        NoiseGenerator::RangeCorrected => {
+            ((plain + 0.5 + SHIFT) * SCALE, [x * SCALE, y * SCALE, z * SCALE])
+        }
+        _ => (plain + 0.5, [x, y, z]),
+    }
+}
+
 /// Returns an interval that contains the noise of every point of a box.
 pub fn bounds(generator: NoiseGenerator, point: [Interval; 3]) -> Interval {
-    range::range(generator, point).0
+    range::value_range(generator, point)
+}
+
+/// Returns how far computed noise may be from the exact one.
+pub fn rounding(generator: NoiseGenerator) -> f64 {
+    range::rounding(generator)
 }
 
 /// Returns [`bounds`], and intervals that contain the slope along each axis at every point of a box,
@@ -141,10 +170,13 @@ fn hashes([x, y, z]: [usize; 3]) -> [usize; 8] {
     hashes
 }
 
-/// A component's data at a lattice point.
-fn corner(component: usize, [i, j, k]: [usize; 3]) -> range::Linear {
-    let at = last_step(step(step(i) ^ j) ^ k) + STRIDE * component;
-    [0.5 * NUMBERS[at], NUMBERS[at + 1], NUMBERS[at + 2], NUMBERS[at + 3]]
+/// A component's data at the corners of a cell, by x, then y, then z.
+#[inline(always)]
+fn corners(component: usize, low: [usize; 3]) -> [range::Linear; 8] {
+    hashes(low).map(|hash| {
+        let at = hash + STRIDE * component;
+        [0.5 * NUMBERS[at], NUMBERS[at + 1], NUMBERS[at + 2], NUMBERS[at + 3]]
+    })
 }
 
 /// Returns the number of an integer cell, 0 … 4095, by the same walk as for lattice points, but with the

@@ -26,16 +26,25 @@ pub(super) fn noise<S: Simd>(simd: S, point: Vector) -> f64 {
     0.4925 + 0.795 * cell.blend(&lattice.gradients, lattice.places(cell.low))
 }
 
+/// Returns [`noise`] and its slopes along x, y and z.
+#[inline(always)]
+pub(super) fn noise_and_slopes<S: Simd>(simd: S, point: Vector) -> (f64, [f64; 3]) {
+    let lattice = &*LATTICE;
+    let cell = Cell::new(simd, point + Vector::splat(ORIGIN), 0.0);
+    let (value, [x, y, z]) = cell.blend_and_slopes(&lattice.gradients, lattice.places(cell.low));
+    (0.4925 + 0.795 * value, [0.795 * x, 0.795 * y, 0.795 * z])
+}
+
 /// Converts coordinates to those of the lattice.
 pub(super) fn shifted(i: Interval) -> Interval {
     Interval { low: i.low + ORIGIN, high: i.high + ORIGIN }
 }
 
-/// The data of a lattice point.
-pub(super) fn corner([i, j, k]: [usize; 3]) -> Linear {
+/// The data of the corners of a cell, by x, then y, then z.
+#[inline(always)]
+pub(super) fn corners(low: [usize; 3]) -> [Linear; 8] {
     let lattice = &*LATTICE;
-    let column = lattice.step(lattice.step(i).wrapping_add(j));
-    lattice.gradients[column.wrapping_add(k) % SIZE].0
+    lattice.places(low).map(|place| lattice.gradients[place % SIZE].0)
 }
 
 struct Lattice {

@@ -250,6 +250,37 @@ fn wild_turbulence_without_end_is_still_finite_where_its_layers_fade() {
 }
 
 #[test]
+fn no_corners_of_a_cell_make_noise_steeper_than_is_said() {
+    let smooth = |t: f64| t * t * (3.0 - 2.0 * t);
+    let mut steepest = 0.0_f64;
+    for at in 0..16 * 16 * 16 {
+        let place = [at / 256, at / 16 % 16, at % 16].map(|i| f64::from(i) / 15.0);
+        for axis in 0..3 {
+            // Each corner adds the most that it may.
+            let corner = |corner: usize| {
+                let side = |axis: usize| corner >> axis & 1;
+                let offset = |axis: usize| place[axis] - side(axis) as f64;
+                let weight = |axis: usize| match side(axis) {
+                    0 => 1.0 - smooth(place[axis]),
+                    _ => smooth(place[axis]),
+                };
+                let rise =
+                    6.0 * place[axis] * (1.0 - place[axis]) * (2.0 * side(axis) as f64 - 1.0);
+                let across = weight((axis + 1) % 3) * weight((axis + 2) % 3);
+                let slope = |row: &table::CornerRow| {
+                    let [value, x, y, z] = row.0;
+                    let there = value + x * offset(0) + y * offset(1) + z * offset(2);
+                    across * (rise * there + weight(axis) * row.0[1 + axis])
+                };
+                ROWS.iter().map(slope).fold(0.0, f64::max)
+            };
+            steepest = steepest.max((0..8).map(corner).sum());
+        }
+    }
+    assert!((3.7..3.95).contains(&steepest), "{steepest}");
+}
+
+#[test]
 fn noise_changes_no_faster_than_the_slopes_of_a_box_around_it() {
     let mut narrow = 0;
     for seed in 0..4_000 {

@@ -1,6 +1,6 @@
 //! `bozo`: smooth noise.
 
-use super::layers::noise_bounds;
+use super::layers::{noise_bounds, noise_slopes};
 use super::parameter::parameters;
 use super::{Pattern, Sample, Setting};
 use crate::math::Vector;
@@ -38,6 +38,15 @@ impl Pattern for Bozo {
 
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
         noise_bounds(setting.noise, point, reach)
+    }
+
+    fn sloped(
+        &self,
+        point: Vector,
+        reach: Vector,
+        setting: &Setting,
+    ) -> Option<(Interval, [Interval; 3])> {
+        Some(noise_slopes(setting.noise, point, reach))
     }
 }
 

@@ -30,6 +30,15 @@ impl Pattern for Bumps {
         Bozo {}.bounds(point, reach, setting)
     }
 
+    fn sloped(
+        &self,
+        point: Vector,
+        reach: Vector,
+        setting: &Setting,
+    ) -> Option<(Interval, [Interval; 3])> {
+        Bozo {}.sloped(point, reach, setting)
+    }
+
     /// Returns the vector noise.
     ///
     /// **Source:** measured on POV-Ray 3.7; frequency, phase and wave have no effect.

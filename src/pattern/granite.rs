@@ -31,6 +31,15 @@ impl Pattern for Granite {
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
         LAYERS.bounds(point, reach, setting, Self::RANGE)
     }
+
+    fn sloped(
+        &self,
+        point: Vector,
+        reach: Vector,
+        setting: &Setting,
+    ) -> Option<(Interval, [Interval; 3])> {
+        Some(LAYERS.sloped(point, reach, setting, Self::RANGE))
+    }
 }
 
 #[cfg(test)]

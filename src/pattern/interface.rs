@@ -88,4 +88,15 @@ pub(super) trait Pattern: Parameters + Copy {
     fn bounds(&self, _point: Vector, _reach: Vector, _setting: &Setting) -> Interval {
         Self::RANGE
     }
+
+    /// Returns [`Pattern::bounds`], and intervals that contain the slope along each axis; `None` if slopes are not
+    /// known.
+    fn sloped(
+        &self,
+        _point: Vector,
+        _reach: Vector,
+        _setting: &Setting,
+    ) -> Option<(Interval, [Interval; 3])> {
+        None
+    }
 }

@@ -13,6 +13,17 @@ pub(super) fn noise_bounds(generator: NoiseGenerator, point: Vector, reach: Vect
     noise::bounds(generator, [axis(0), axis(1), axis(2)])
 }
 
+/// Returns [`noise_bounds`], and intervals that contain the slope along each axis.
+pub(super) fn noise_slopes(
+    generator: NoiseGenerator,
+    point: Vector,
+    reach: Vector,
+) -> (Interval, [Interval; 3]) {
+    let (low, high) = (point - reach, point + reach);
+    let axis = |i: usize| Interval { low: low[i].next_down(), high: high[i].next_up() };
+    noise::bounds_and_slopes(generator, [axis(0), axis(1), axis(2)])
+}
+
 /// Returns noise with the spread of generator 1: that of the others is stretched to twice its range around
 /// 0.5, and clamped.
 ///
@@ -95,23 +106,75 @@ impl Layers {
         setting: &Setting,
         range: Interval,
     ) -> Interval {
-        let generator = setting.noise;
-        let layer = |frequency: f64| {
-            let Interval { low, high } =
-                noise_bounds(generator, point * frequency, reach * frequency);
-            let noise = Interval { low: spread(generator, low), high: spread(generator, high) };
-            match self.is_folded {
-                true => Interval { low: 0.5 - noise.high, high: 0.5 - noise.low }.abs(),
-                false => noise,
-            }
+        let mut sum = Interval { low: 0.0, high: 0.0 };
+        for i in 0..self.count {
+            let scale = f64::from(1u32 << i);
+            let frequency = self.frequency * scale;
+            let noise = noise_bounds(setting.noise, point * frequency, reach * frequency);
+            self.add(&mut sum, spread_bounds(setting.noise, noise), scale);
+        }
+        self.total(sum, range)
+    }
+
+    /// Returns [`Layers::bounds`], and intervals that contain the slope along each axis.
+    pub fn sloped(
+        &self,
+        point: Vector,
+        reach: Vector,
+        setting: &Setting,
+        range: Interval,
+    ) -> (Interval, [Interval; 3]) {
+        let mut sum = Interval { low: 0.0, high: 0.0 };
+        let mut slopes = [Interval { low: 0.0, high: 0.0 }; 3];
+        // Each layer is as steep as the others.
+        let steep = match setting.noise {
+            NoiseGenerator::Plateaus => self.frequency * self.amplitude,
+            _ => 2.0 * self.frequency * self.amplitude,
         };
-        let [low, high] = [self.sum(|f| layer(f).low), self.sum(|f| layer(f).high)];
+        for i in 0..self.count {
+            let scale = f64::from(1u32 << i);
+            let frequency = self.frequency * scale;
+            let (noise, layer) = noise_slopes(setting.noise, point * frequency, reach * frequency);
+            let noise = spread_bounds(setting.noise, noise);
+            self.add(&mut sum, noise, scale);
+            let is_cut = noise.low <= 0.0 || noise.high >= 1.0;
+            for (slope, layer) in slopes.iter_mut().zip(layer) {
+                let zero = is_cut || self.is_folded && noise.contains(0.5);
+                let layer = if zero { layer.hull(Interval { low: 0.0, high: 0.0 }) } else { layer };
+                let layer = match self.is_folded {
+                    true if noise.high < 0.5 => -layer,
+                    true if noise.low <= 0.5 => layer.hull(-layer),
+                    _ => layer,
+                };
+                *slope = Interval {
+                    low: slope.low + steep * layer.low,
+                    high: slope.high + steep * layer.high,
+                };
+            }
+        }
+        let off = 1e-12 * steep;
+        let slopes =
+            slopes.map(|Interval { low, high }| Interval { low: low - off, high: high + off });
+        (self.total(sum, range), slopes)
+    }
+
+    /// Adds the bounds of a layer.
+    fn add(&self, sum: &mut Interval, noise: Interval, scale: f64) {
+        let layer = match self.is_folded {
+            true => Interval { low: 0.5 - noise.high, high: 0.5 - noise.low }.abs(),
+            false => noise,
+        };
+        let amplitude = self.amplitude / scale;
+        sum.low += layer.low * amplitude;
+        sum.high += layer.high * amplitude;
+    }
+
+    fn total(&self, Interval { low, high }: Interval, range: Interval) -> Interval {
         // The sums and the differences are rounded.
         Interval { low: (low - 1e-14).max(range.low), high: (high + 1e-14).min(range.high) }
     }
+}
 
-    fn sum(&self, layer: impl Fn(f64) -> f64) -> f64 {
-        let halves = (0..self.count).map(|i| f64::from(1u32 << i));
-        halves.map(|scale| layer(self.frequency * scale) * (self.amplitude / scale)).sum()
-    }
+fn spread_bounds(generator: NoiseGenerator, Interval { low, high }: Interval) -> Interval {
+    Interval { low: spread(generator, low), high: spread(generator, high) }
 }

@@ -268,6 +268,19 @@ macro_rules! patterns {
                     $(Self::$kind(kind) => kind.bounds(point, reach, setting),)*
                 }
             }
+
+            /// Returns [`Kind::bounds`], and intervals that contain the slope along each axis; `None` if slopes are
+            /// not known.
+            pub fn sloped(
+                &self,
+                point: Vector,
+                reach: Vector,
+                setting: &Setting,
+            ) -> Option<(Interval, [Interval; 3])> {
+                match self {
+                    $(Self::$kind(kind) => kind.sloped(point, reach, setting),)*
+                }
+            }
         }
     };
 }

@@ -28,4 +28,13 @@ impl Pattern for Spotted {
     fn bounds(&self, point: Vector, reach: Vector, setting: &Setting) -> Interval {
         Bozo {}.bounds(point, reach, setting)
     }
+
+    fn sloped(
+        &self,
+        point: Vector,
+        reach: Vector,
+        setting: &Setting,
+    ) -> Option<(Interval, [Interval; 3])> {
+        Bozo {}.sloped(point, reach, setting)
+    }
 }

@@ -131,6 +131,25 @@ impl Wave {
         self.kind.bounds(Interval { low: lifted.low.max(0.0), high: lifted.high })
     }
 
+    /// Returns an interval that contains the slopes between the positions of any two values in `raw`.
+    pub fn steepness(&self, raw: Interval) -> Interval {
+        let (scaled, speed) = match self.frequency == 0.0 {
+            true => (raw, Interval::point(1.0)),
+            false => {
+                let frequency = Interval::point(self.frequency);
+                (raw * frequency + Interval::point(self.phase), frequency)
+            }
+        };
+        let is_within = |low: f64, high: f64| low <= scaled.low && scaled.high <= high;
+        // From −1 to 0, and from 0 on, nothing jumps; frequency 0 goes on beyond 1.
+        let is_steady = is_within(0.0, if self.frequency == 0.0 { f64::MAX } else { 1.0 })
+            || is_within(-1.0, (-0.0f64).next_down());
+        match is_steady {
+            true => speed * self.kind.steepness(),
+            false => Interval::EVERYTHING,
+        }
+    }
+
     /// Returns the position with its error bound. A value whose error cannot separate it from a jump of the
     /// wave is on its far side, where a period starts.
     #[inline]
@@ -181,6 +200,17 @@ impl Wave {
 }
 
 impl WaveKind {
+    /// Returns an interval that contains the slopes between any two positions; of a cubic, those in 0 … 1.
+    fn steepness(self) -> Interval {
+        let between = |low: f64, high: f64| Interval { low, high };
+        match self {
+            Self::Ramp => between(1.0, 1.0),
+            Self::Triangle => between(-2.0, 2.0),
+            Self::Sine | Self::Scallop => between(-PI.next_up(), PI.next_up()),
+            Self::Cubic | Self::Poly(_) => Interval::EVERYTHING,
+        }
+    }
+
     /// The image of a number that is not negative.
     #[inline]
     fn value(self, position: f64) -> f64 {

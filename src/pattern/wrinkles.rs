@@ -33,6 +33,15 @@ impl Pattern for Wrinkles {
         LAYERS.bounds(point, reach, setting, Self::RANGE)
     }
 
+    fn sloped(
+        &self,
+        point: Vector,
+        reach: Vector,
+        setting: &Setting,
+    ) -> Option<(Interval, [Interval; 3])> {
+        Some(LAYERS.sloped(point, reach, setting, Self::RANGE))
+    }
+
     /// Returns layers of the absolute vector noise, so that no component is negative.
     ///
     /// **Source:** measured on POV-Ray 3.7; frequency, phase and wave have no effect.

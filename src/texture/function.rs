@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::pigment::Pigment;
 use crate::color::Color;
-use crate::function::{self, Ask, NoiseFunction, Sloped};
+use crate::function::{self, Ask, NoiseFunction, Rounded, Sloped};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::noise::NoiseGenerator;
@@ -85,13 +85,28 @@ impl Ask for Asked {
     }
 
     fn has_slopes(&self) -> bool {
-        !matches!(self, Self::Pigment { .. })
+        match self {
+            Self::Noise { .. } | Self::Spline { .. } => true,
+            Self::Pigment { pigment, .. } => pigment.has_slopes(),
+        }
+    }
+
+    fn rounded(&self, arguments: &[Rounded]) -> Rounded {
+        match self {
+            Self::Noise { function, generator } => function.rounded(*generator, arguments),
+            Self::Pigment { pigment, component } => pigment.rounded(arguments, *component),
+            Self::Spline { .. } => {
+                let values: Vec<_> = arguments.iter().map(|argument| argument.value).collect();
+                Rounded::anyhow(self.bounds(&values))
+            }
+        }
     }
 
     fn sloped<const N: usize>(&self, arguments: &[Sloped<N>]) -> Sloped<N> {
         match self {
             Self::Noise { function, generator } => function.sloped(*generator, arguments),
-            Self::Spline { .. } | Self::Pigment { .. } => {
+            Self::Pigment { pigment, component } => pigment.sloped(arguments, *component),
+            Self::Spline { .. } => {
                 let values: Vec<_> = arguments.iter().map(|argument| argument.value).collect();
                 Sloped::anyhow(self.bounds(&values), arguments.iter().all(Sloped::is_level))
             }

@@ -7,7 +7,7 @@
 //!
 //! An interval has no root if the bounds, or the slopes starting from its ends, exclude one; it has at most
 //! one if the function is monotone in it. Any other interval is reduced to what the slopes at its ends leave
-//! of it, or divided in two.
+//! of it, or divided in two. Slopes hold in all parts of their interval, where often a value is enough.
 //!
 //! **Source:** R. E. Moore, R. B. Kearfott, M. J. Cloud, *Introduction to Interval Analysis* (2009), chapter
 //! 8; D. Mitchell, "Robust ray intersection with interval arithmetic", Graphics Interface (1990), p. 68.
@@ -71,6 +71,21 @@ const MOST: u32 = 4_096;
 /// Fractions at which intervals are divided: uneven, so that they rarely coincide with a feature.
 const CUTS: [f64; 3] = [0.4934, 0.5481, 0.4127];
 
+/// Share of an interval with two ends of one sign, which the slopes say is certain, from which on its middle may well
+/// settle the rest: a value takes a fraction of the time of bounds.
+const NEARLY: f64 = 0.15;
+
+/// Up to this share of an interval that slopes are known of, those of a part are much narrower.
+const AGAIN: f64 = 0.6;
+
+/// Share of an interval that is certain from an end so near to a root that only a monotone function settles it; and
+/// [`AGAIN`] for such an interval.
+const WEAK: f64 = 0.03;
+const AGAIN_AT_ROOT: f64 = 0.3;
+
+/// Number of times that the ends around a root are moved towards it before slopes are narrowed.
+const MOVES: u32 = 4;
+
 #[derive(Debug, Clone, Copy)]
 struct End {
     s: f64,
@@ -92,6 +107,33 @@ fn sign(value: Interval) -> Option<bool> {
     }
 }
 
+/// Returns how far from each end its sign is certain, if the slopes in between are in `slope`.
+fn reaches(first: &End, last: &End, slope: Interval) -> [f64; 2] {
+    let width = last.s - first.s;
+    let far = |gap: f64, speed: f64| if speed > 0.0 { 0.999_999 * gap / speed } else { width };
+    let from_first = match first.sign() {
+        Some(false) => far(first.value.low, -slope.low),
+        Some(true) => far(-first.value.high, slope.high),
+        None => 0.0,
+    };
+    let from_last = match last.sign() {
+        Some(false) => far(last.value.low, slope.high),
+        Some(true) => far(-last.value.high, -slope.low),
+        None => 0.0,
+    };
+    [from_first, from_last]
+}
+
+/// An interval to search.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    ends: [End; 2],
+    /// Range of the slopes, as far as known.
+    slope: Interval,
+    /// Width of the interval that it is the range of.
+    of: f64,
+}
+
 /// A search that proceeds from interval to interval, in order.
 pub struct Search<F> {
     function: F,
@@ -101,7 +143,7 @@ pub struct Search<F> {
     /// The last position evaluated.
     end: Option<End>,
     /// Intervals yet to be searched, the nearest last.
-    left: SmallVec<[(End, End); 64]>,
+    left: SmallVec<[Part; 64]>,
 }
 
 /// Returns the changes of sign of a function in an interval.
@@ -128,29 +170,29 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
 
     /// Searches an interval.
     pub fn through(&mut self, from: f64, to: f64) {
-        self.begin(from, to);
+        self.begin(from, to, Interval::EVERYTHING);
         while self.goes_on() {}
     }
 
-    /// Starts the search of an interval; [`Search::goes_on`] performs it.
-    pub fn begin(&mut self, from: f64, to: f64) {
+    /// Starts the search of an interval with slopes in `slope`; [`Search::goes_on`] performs it.
+    pub fn begin(&mut self, from: f64, to: f64, slope: Interval) {
         let first = self.look_again(from);
         let last = self.look(to);
         self.note(from, first.sign());
         self.end = Some(last);
-        self.left.push((first, last));
+        self.left.push(Part { ends: [first, last], slope, of: to - from });
     }
 
     /// Continues to the next change; returns `false` if there is none and the interval is done.
     pub fn goes_on(&mut self) -> bool {
         let told = self.found.all.len();
-        while let Some((a, b)) = self.left.pop() {
-            match self.part(a, b) {
-                Some(([left, right], cut)) => {
-                    self.left.push((cut, right));
-                    self.left.push((left, cut));
+        while let Some(part) = self.left.pop() {
+            match self.part(part) {
+                Some((Part { ends: [first, last], slope, of }, cut)) => {
+                    self.left.push(Part { ends: [cut, last], slope, of });
+                    self.left.push(Part { ends: [first, cut], slope, of });
                 }
-                None => self.note(b.s, b.sign()),
+                None => self.note(part.ends[1].s, part.ends[1].sign()),
             }
             if self.found.all.len() > told {
                 return true;
@@ -169,7 +211,11 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
         let last = self.look(to);
         self.end = Some(last);
         if first.sign().is_none() || last.sign().is_none() {
-            self.left.push((first, last));
+            self.left.push(Part {
+                ends: [first, last],
+                slope: Interval::EVERYTHING,
+                of: to - from,
+            });
             while self.goes_on() {}
         }
         self.note(from, first.sign());
@@ -210,36 +256,55 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
     }
 
     /// Returns the reduced interval and the position at which to divide it; `None` if it need not be divided.
-    fn part(&mut self, a: End, b: End) -> Option<([End; 2], End)> {
+    fn part(&mut self, Part { ends, slope: known, of }: Part) -> Option<(Part, End)> {
         let Fineness { resolution, least } = self.fineness;
-        let width = b.s - a.s;
+        let [mut a, mut b] = ends;
+        let mut width = b.s - a.s;
         self.cells += 1;
         let is_short = width.is_nan() || width <= resolution;
         let is_spent = self.cells > 8 * MOST || self.cells > MOST && is_short;
         if is_spent || width.is_nan() || width <= least {
             return None;
         }
+        let both = a.sign().is_some() && a.sign() == b.sign();
+        let [from_first, from_last] = reaches(&a, &b, known);
+        if both && from_first + from_last >= width {
+            return None;
+        }
+        let is_known = known.low.is_finite() && known.high.is_finite();
+        if is_known
+            && both
+            && Self::is_for_values(width / of, [from_first / width, from_last / width])
+        {
+            let middle = 0.5 * ((a.s + from_first) + (b.s - from_last));
+            if !(a.s < middle && middle < b.s) {
+                return None;
+            }
+            self.note(a.s, a.sign());
+            return Some((Part { ends, slope: known, of }, self.look(middle)));
+        }
+        if is_known && !both && a.sign().is_some() && b.sign().is_some() {
+            for _ in 0..MOVES {
+                let [from_first, from_last] = reaches(&a, &b, known);
+                if from_first + from_last < 0.12 * width || width < 0.25 * of {
+                    break;
+                }
+                (a, b) = (self.nearer(a, a.s + from_first), self.nearer(b, b.s - from_last));
+                width = b.s - a.s;
+            }
+            self.note(a.s, a.sign());
+        }
         let all = (self.function)(Interval { low: a.s, high: b.s });
         if all.is_undefined() {
             return None;
         }
-        let Interval { low: fall, high: rise } = all.slope;
-        if sign(all.value).is_some() || fall > 0.0 || rise < 0.0 {
+        let slope =
+            Interval { low: all.slope.low.max(known.low), high: all.slope.high.min(known.high) };
+        if sign(all.value).is_some() || slope.low > 0.0 || slope.high < 0.0 {
+            self.note(b.s, b.sign());
             return None;
         }
-        // How far from each end its sign is certain yet.
-        let far = |gap: f64, speed: f64| if speed > 0.0 { 0.999_999 * gap / speed } else { width };
-        let from_first = match a.sign() {
-            Some(false) => far(a.value.low, -fall),
-            Some(true) => far(-a.value.high, rise),
-            None => 0.0,
-        };
-        let from_last = match b.sign() {
-            Some(false) => far(b.value.low, rise),
-            Some(true) => far(-b.value.high, -fall),
-            None => 0.0,
-        };
-        let both = a.sign().is_some() && a.sign() == b.sign();
+        let [from_first, from_last] = reaches(&a, &b, slope);
         if both && from_first + from_last >= width {
             return None;
         }
@@ -270,7 +335,16 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
             return None;
         }
         self.note(first.s, first.sign());
-        Some(([first, last], cut))
+        Some((Part { ends: [first, last], slope, of: width }, cut))
+    }
+
+    /// Returns whether a value is to divide an interval with two ends of one sign, instead of bounds, given its share of
+    /// the interval that slopes are known of, and the shares that are certain from its ends.
+    fn is_for_values(share: f64, [first, last]: [f64; 2]) -> bool {
+        match first.min(last) < WEAK {
+            true => share > AGAIN_AT_ROOT,
+            false => first + last > NEARLY || share > AGAIN,
+        }
     }
 
     /// Moves an end inward while its sign is certain; returns it unchanged if rounding prevents that.
@@ -281,114 +355,4 @@ impl<F: Fn(Interval) -> Bounds> Search<F> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::math::random::{Random, tries};
-
-    const FINE: Fineness = Fineness { resolution: 1e-3, least: 1e-14 };
-
-    /// The product of x − r over the roots, in interval arithmetic.
-    fn polynomial(roots: &[f64]) -> impl Fn(Interval) -> Bounds {
-        move |x| {
-            let (mut value, mut slope) = (Interval::point(1.0), Interval::point(0.0));
-            for root in roots {
-                let factor = x - Interval::point(*root);
-                slope = slope * factor + value;
-                value = value * factor;
-            }
-            Bounds { value, slope }
-        }
-    }
-
-    #[test]
-    fn every_root_of_a_polynomial_is_found_and_in_order() {
-        let mut random = Random(3);
-        for _ in 0..tries() {
-            let mut roots = [(); 5].map(|()| random.number(-1.0, 1.0));
-            // Two of them near each other.
-            roots[1] = roots[0] + random.size(-5.0, -1.0);
-            roots.sort_by(f64::total_cmp);
-            let changes = changes(&polynomial(&roots), -2.0, 3.0, FINE);
-            assert_eq!(changes.all.len(), 5, "{roots:?} {changes:?}");
-            for (change, root) in changes.all.iter().zip(roots) {
-                assert!(change.before < root && root < change.after, "{roots:?} {changes:?}");
-            }
-            assert!(changes.all.iter().enumerate().all(|(i, c)| c.rising == (i % 2 == 0)));
-        }
-    }
-
-    #[test]
-    fn who_wants_one_change_looks_no_farther() {
-        let looks = std::cell::Cell::new(0);
-        let roots = polynomial(&[-0.9, 0.1, 0.100_01, 0.100_02, 0.9]);
-        let counted = |x: Interval| {
-            looks.set(looks.get() + 1);
-            roots(x)
-        };
-        let mut search = Search::new(counted, FINE);
-        search.begin(-2.0, 3.0);
-        assert!(search.goes_on());
-        let first = looks.get();
-        assert_eq!(search.found().all.len(), 1);
-        while search.goes_on() {}
-        let roots = polynomial(&[-0.9, 0.1, 0.100_01, 0.100_02, 0.9]);
-        assert_eq!(search.found(), &changes(&roots, -2.0, 3.0, FINE));
-        assert!(3 * first < looks.get(), "{first} {}", looks.get());
-    }
-
-    #[test]
-    fn the_last_place_of_certain_sign_is_the_end_of_what_was_searched() {
-        // Flat, and then falling: from its root on the slope alone tells the sign.
-        let ramp = |x: Interval| Bounds {
-            value: Interval::point(0.5) - x.max(Interval::point(0.0)),
-            slope: Interval { low: if x.high > 0.0 { -1.0 } else { 0.0 }, high: 0.0 },
-        };
-        let found = changes(&ramp, -1.0, 1.0, FINE);
-        assert_eq!((found.all.len(), found.last), (1, Some((1.0, true))), "{found:?}");
-    }
-
-    #[test]
-    fn what_touches_zero_and_does_not_pass_it_changes_no_sign() {
-        let touching = |x: Interval| Bounds {
-            value: (x - Interval::point(0.3)).square(),
-            slope: Interval::point(2.0) * (x - Interval::point(0.3)),
-        };
-        assert!(changes(&touching, -1.0, 1.0, FINE).all.is_empty());
-    }
-
-    #[test]
-    fn where_a_distance_is_0_throughout_few_looks_are_enough() {
-        let zero = Interval::point(0.0);
-        let looks = std::cell::Cell::new(0);
-        // From what lies between −1 and 1.
-        let distance = |x: Interval| {
-            looks.set(looks.get() + 1);
-            let beyond = (x.abs() - Interval::point(1.0)).max(zero);
-            let length = (beyond.square() + zero.square()).sqrt();
-            let slope = match (x.low >= 1.0, x.high <= -1.0) {
-                (true, _) => Interval::point(1.0),
-                (_, true) => Interval::point(-1.0),
-                _ => Interval::EVERYTHING,
-            };
-            Bounds { value: length - Interval::point(0.5), slope }
-        };
-        let found = changes(&distance, -2.0, 2.1, FINE);
-        assert_eq!(found.all.len(), 2, "{found:?}");
-        assert!(looks.get() < 100, "{}", looks.get());
-    }
-
-    #[test]
-    fn a_jump_is_found_as_exactly_as_numbers_go() {
-        let step = |x: Interval| {
-            let at = |x: f64| if x < 0.123_456 { -1.0 } else { 1.0 };
-            let value = Interval { low: at(x.low), high: at(x.high) };
-            let slope =
-                if value.single().is_some() { Interval::point(0.0) } else { Interval::EVERYTHING };
-            Bounds { value, slope }
-        };
-        let found = changes(&step, -1.0, 1.0, FINE);
-        let [change] = found.all[..] else { panic!("{found:?}") };
-        assert!(change.rising && change.before < 0.123_456 && change.after >= 0.123_456);
-        assert!(change.after - change.before < 1e-13);
-    }
-}
+mod tests;

@@ -16,6 +16,9 @@ use crate::shape::local::LocalRay;
 /// Maximum number of subdivisions of the box along each axis.
 const DEPTH: u32 = 6;
 
+/// Number of subdivisions from which on the errors of computed numbers are those of the cell around.
+const ROUNDED: u32 = 3;
+
 /// Margin by which cells are enlarged, relative to the box's size; lines with a smaller error can be traced
 /// through cells.
 pub(super) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
@@ -44,6 +47,8 @@ pub(super) struct Known {
     pub undefined: bool,
     /// Value at the middle.
     value: Interval,
+    /// How far a number computed for a point of the cell may be from the exact one; infinite if that is not known.
+    error: f32,
     /// Range of the gradient in the cell; valid only there.
     slopes: [[f32; 2]; 3],
 }
@@ -65,10 +70,12 @@ impl Clone for Cells {
 }
 
 /// Evaluates the function over boxes.
-pub(super) struct Evaluate<B, V> {
+pub(super) struct Evaluate<B, V, E> {
     /// Bounds of the value and the gradient; `None` where it is undefined.
     pub bounds: B,
     pub value: V,
+    /// Error of a number computed for a point.
+    pub error: E,
 }
 
 impl Known {
@@ -76,10 +83,12 @@ impl Known {
         evaluate: &Evaluate<
             impl Fn([Interval; 3]) -> Option<Sloped<3>>,
             impl Fn([Interval; 3]) -> Interval,
+            impl Fn([Interval; 3]) -> f64,
         >,
         middle: Vector,
         half: Vector,
         margin: f64,
+        (depth, error): (u32, f32),
     ) -> Self {
         let around = |axis: usize| {
             let (at, far) = (middle[axis], half[axis] + margin);
@@ -93,7 +102,7 @@ impl Known {
         let slopes = slopes
             .map(|Interval { low, high }| [(low as f32).next_down(), (high as f32).next_up()]);
         let mut known =
-            Self { negative: sign(all), undefined, value: Interval::EVERYTHING, slopes };
+            Self { negative: sign(all), undefined, value: Interval::EVERYTHING, error, slopes };
         if known.negative.is_none() {
             known.value = (evaluate.value)(middle.to_array().map(Interval::point));
             let step = |axis: usize| {
@@ -101,6 +110,14 @@ impl Known {
                 known.slope(axis) * Interval { low: -far, high: far }
             };
             known.negative = sign(known.value + step(0) + step(1) + step(2));
+        }
+        let is_leaf = depth == DEPTH || known.is_flat();
+        if known.negative.is_none()
+            && !undefined
+            && error == f32::INFINITY
+            && (is_leaf || depth == ROUNDED)
+        {
+            known.error = ((evaluate.error)([0, 1, 2].map(around)) as f32).next_up();
         }
         known
     }
@@ -127,6 +144,17 @@ impl Known {
         term(0) + term(1) + term(2)
     }
 
+    /// Returns how far a number computed for a point of the cell may be from the exact one for a point within `off`
+    /// along each axis; infinite if that is not known.
+    pub fn error(&self, off: f64) -> f64 {
+        let steepest = |axis: usize| {
+            let Interval { low, high } = self.slope(axis);
+            high.max(-low)
+        };
+        let error = f64::from(self.error) + off * (steepest(0) + steepest(1) + steepest(2));
+        if error.is_nan() { f64::INFINITY } else { error }
+    }
+
     /// Returns the range of the function at a point of the cell that may be off by `blur`.
     pub fn at(&self, from_middle: Vector, blur: f64) -> Interval {
         let term = |axis: usize| {
@@ -150,6 +178,8 @@ struct Visit<'a> {
     cell: &'a Cell,
     middle: Vector,
     depth: u32,
+    /// As far as known from the cell around it.
+    error: f32,
     from: f64,
     to: f64,
 }
@@ -165,6 +195,7 @@ impl Cells {
         evaluate: &Evaluate<
             impl Fn([Interval; 3]) -> Option<Sloped<3>>,
             impl Fn([Interval; 3]) -> Interval,
+            impl Fn([Interval; 3]) -> f64,
         >,
         mut show: impl FnMut(Piece) -> bool,
     ) {
@@ -173,10 +204,19 @@ impl Cells {
             std::array::from_fn(|depth| half / f64::from(1u32 << depth));
         let inverse = ray.direction.recip();
         let mut stack: SmallVec<[Visit; 24]> = SmallVec::new();
-        stack.push(Visit { cell: &self.root, middle: Vector::ZERO, depth: 0, from, to });
-        while let Some(Visit { cell, middle, depth, from, to }) = stack.pop() {
+        stack.push(Visit {
+            cell: &self.root,
+            middle: Vector::ZERO,
+            depth: 0,
+            error: f32::INFINITY,
+            from,
+            to,
+        });
+        while let Some(Visit { cell, middle, depth, error, from, to }) = stack.pop() {
             let half = halves[depth as usize];
-            let known = cell.known.get_or_init(|| Known::new(evaluate, middle, half, margin));
+            let known = cell
+                .known
+                .get_or_init(|| Known::new(evaluate, middle, half, margin, (depth, error)));
             let is_told = known.negative.is_some() || known.undefined;
             if is_told || depth == DEPTH || known.is_flat() {
                 if !show(Piece { from, to, known, middle }) {
@@ -211,7 +251,7 @@ impl Cells {
                     |axis: usize| if above.test(axis) { quarter[axis] } else { -quarter[axis] };
                 let cell = &parts[bit(0) | bit(1) | bit(2)];
                 let middle = middle + Vector::new(way(0), way(1), way(2));
-                stack.push(Visit { cell, middle, depth: depth + 1, from, to });
+                stack.push(Visit { cell, middle, depth: depth + 1, error: known.error, from, to });
             }
         }
     }

@@ -26,13 +26,16 @@ pub(super) struct Line<'a> {
     run: OnceCell<RefCell<Running<'a, Sloped<1>>>>,
     values: OnceCell<RefCell<Running<'a, Interval>>>,
     plain: OnceCell<RefCell<Running<'a, f64>>>,
+    /// How far [`Line::value`] may be from the exact value, where that is known.
+    error: Cell<f64>,
 }
 
 impl<'a> Line<'a> {
     pub fn new(surface: &'a Isosurface, ray: &'a LocalRay<'a>) -> Self {
         let has_slopes = surface.function.has_slopes();
         let (run, values, plain) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
-        Self { surface, has_slopes, ray, run, values, plain }
+        let error = Cell::new(f64::INFINITY);
+        Self { surface, has_slopes, ray, run, values, plain, error }
     }
 
     /// Returns the range of the value less the threshold, and of its slope, over all lines that may be
@@ -78,6 +81,12 @@ impl<'a> Line<'a> {
 
     /// Returns the value of [`Self::bounds`] at a position, sooner where its sign is certain.
     pub fn value_at(&self, s: f64) -> Interval {
+        if self.error.get() < f64::INFINITY {
+            let (value, error) = (self.value(s), self.error.get());
+            if value.abs() > error {
+                return Interval { low: value - error, high: value + error };
+            }
+        }
         let Isosurface { centre, scale, threshold, .. } = *self.surface;
         let blur = self.ray.blur_at(s);
         let coordinate = |axis: usize| {
@@ -199,15 +208,35 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Searches for roots in a piece of the line, using the bounds of its cell.
+/// Searches for roots in a piece of the line, using the bounds of its cell, until one is certainly beyond `enough`;
+/// returns whether the piece was searched to its end.
 pub(super) fn look<F: Fn(Interval) -> Bounds>(
     search: &mut Search<F>,
-    ray: &LocalRay,
+    line: &Line,
     piece: &Piece,
     (from, to): (f64, f64),
-) {
+    enough: f64,
+) -> bool {
+    let ray = line.ray;
     let blur = ray.blur_at(from.abs().max(to.abs())) + 4.0 * U * (1.0 + from.abs().max(to.abs()));
     let at = |s: f64| piece.known.at(ray.at(s) - piece.middle, blur);
+    let Isosurface { centre, scale, .. } = *line.surface;
+    line.error.set(piece.known.error(blur + 4.0 * U * (1.0 + centre.abs().max_element() / scale)));
+    let whole = look_closer(search, line, piece, (from, to), enough, at);
+    line.error.set(f64::INFINITY);
+    whole
+}
+
+/// Does what [`look`] does; `at` bounds the function at a position, by its slopes from the middle of the cell.
+fn look_closer<F: Fn(Interval) -> Bounds>(
+    search: &mut Search<F>,
+    line: &Line,
+    piece: &Piece,
+    (from, to): (f64, f64),
+    enough: f64,
+    at: impl Fn(f64) -> Interval,
+) -> bool {
+    let ray = line.ray;
     let sign = |value: Interval| match (value.low > 0.0, value.high < 0.0) {
         (true, _) => Some(false),
         (_, true) => Some(true),
@@ -217,16 +246,26 @@ pub(super) fn look<F: Fn(Interval) -> Bounds>(
     let half = 0.5 * (to - from);
     let whole = at(from + half) + along * Interval { low: -half, high: half };
     if let Some(negative) = sign(whole) {
-        return search.certain(from, to, negative);
+        search.certain(from, to, negative);
+        return true;
     }
     if !(along.low > 0.0 || along.high < 0.0) {
-        return search.through(from, to);
+        search.begin(from, to, along);
+        while search.goes_on() {
+            let is_beyond =
+                |change: &Change| change.before - 4.0 * U * change.before.abs() > enough;
+            if search.found().all.last().is_some_and(is_beyond) {
+                return false;
+            }
+        }
+        return true;
     }
     // Which sign at the first end lasts to the last, and the other way round.
     let falls = along.high < 0.0;
     let first = sign(at(from)).or_else(|| search.sign_at(from));
     if first == Some(falls) {
-        return search.certain(from, to, falls);
+        search.certain(from, to, falls);
+        return true;
     }
     let last = sign(at(to)).or_else(|| search.sign_at(to));
     match (first, last) {
@@ -237,4 +276,5 @@ pub(super) fn look<F: Fn(Interval) -> Bounds>(
         }
         _ => search.through_slope(from, to),
     }
+    true
 }

@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use super::local::{Crossings, Height, Local, LocalRay, Met};
 use super::{Memory, U, multiple};
-use crate::function::{Number, Run, Sloped};
+use crate::function::{Binary, Number, Rounded, Run, Sloped};
 use crate::math::Vector;
 use crate::math::interval::Interval;
 use crate::math::roots::isolate::{Bounds, Changes, Fineness, Search};
@@ -114,6 +114,17 @@ impl Isosurface {
         self.run::<Interval>().at([0, 1, 2].map(along)) - Interval::point(self.threshold)
     }
 
+    /// Returns how far a number computed for a point of a box may be from the exact one.
+    fn rounding(&self, point: [Interval; 3]) -> f64 {
+        let along = |axis: usize| {
+            let Interval { low, high } = point[axis];
+            let place = Interval { low: low * self.scale, high: high * self.scale };
+            Rounded { value: Interval::point(self.centre[axis]) + place, error: 0.0 }
+        };
+        let all = self.run::<Rounded>().at([0, 1, 2].map(along));
+        Rounded::binary(Binary::Subtract, all, Rounded::constant(self.threshold)).error
+    }
+
     /// Central differences of the function with the given step.
     fn differences(&self, point: Vector, step: f64) -> Vector {
         let along = |axis: Vector| {
@@ -201,7 +212,9 @@ impl Isosurface {
             let evaluate = cells::Evaluate {
                 bounds: |point| self.bounds(point),
                 value: |point| self.value_bounds(point),
+                error: |point| self.rounding(point),
             };
+            let enough = if wanted == Wanted::All { f64::INFINITY } else { ahead };
             self.cells.along(ray, half, ends, &evaluate, |piece| {
                 is_whole = piece.to == ends.1;
                 if piece.to < from {
@@ -226,7 +239,7 @@ impl Isosurface {
                         };
                         let to = if is_whole { last() } else { piece.to };
                         if from < to {
-                            look(&mut search, ray, &piece, (from, to));
+                            is_whole &= look(&mut search, &line, &piece, (from, to), enough);
                         }
                     }
                 }

@@ -223,7 +223,7 @@ impl JuliaFractal {
                 }
                 stretch => {
                     let next = if stretch.is_some() { (place + piece).min(reach) } else { reach };
-                    search.begin(place, next);
+                    search.begin(place, next, Interval::EVERYTHING);
                     piece *= 2.0;
                     most = 2.0 * piece;
                     (next, false)

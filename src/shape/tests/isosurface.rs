@@ -8,14 +8,15 @@ use super::placed::{
     ray_at_placed,
 };
 use super::*;
-use crate::function::{Binary, Builder, Function, Node, Unary};
+use crate::function::{Binary, Builder, Function, Node, NoiseFunction, OutsideId, Unary};
 use crate::math::random::tries_in;
+use crate::noise::NoiseGenerator;
 use crate::shape::Body;
 use crate::shape::Memory;
 use crate::shape::exact::Triple;
 use crate::shape::isosurface::{Container, Isosurface};
 use crate::shape::local::{Crossings, Local, LocalRay, Met};
-use crate::texture::Closed;
+use crate::texture::{Asked, Closed};
 
 /// Operations as they are read.
 pub(super) struct Formula(Builder);
@@ -218,6 +219,53 @@ fn a_gyroid_is_inside_wherever_its_crossings_say() {
         crossed += all.len();
     }
     assert!(crossed > 4 * tries_in(100), "{crossed}");
+}
+
+/// What is below noise, with the function of `noise` and its arguments after the point.
+fn below(noise: NoiseFunction, arguments: &[f64]) -> Arc<Closed> {
+    let mut formula = Formula(Builder::new(3).expect("three"));
+    let [x, y, z] = [0, 1, 2].map(|axis| formula.0.parameter(axis).expect("three"));
+    let mut asked = [x, y, z].map(|a| formula.times(a, 2.0)).to_vec();
+    asked.extend(arguments.iter().map(|argument| formula.number(*argument)));
+    let noise_there = formula.0.ask(OutsideId(0), &asked).expect("short");
+    let height = formula.times(noise_there, 0.5);
+    let result = formula.two(Binary::Subtract, y, height);
+    let asked = Asked::Noise { function: noise, generator: NoiseGenerator::RangeCorrected };
+    let function = formula.0.finish(result);
+    Arc::new(Closed::new(function, |_| Some(asked.clone())).expect("noise"))
+}
+
+#[test]
+fn landscapes_of_noise_are_inside_wherever_their_crossings_say() {
+    let mut random = Random(98);
+    let functions = [
+        below(NoiseFunction::Noise3d, &[]),
+        below(NoiseFunction::Ridged, &[0.9, 2.0, 4.0, 1.0, 2.0, 2.0]),
+        below(NoiseFunction::Hetero, &[0.8, 2.2, 3.0, 0.5, 0.6, 2.0]),
+        below(NoiseFunction::Generator, &[3.0]),
+    ];
+    let mut crossed = 0;
+    for function in functions {
+        let surface = surface(function, Container::Box(Vector::ONE));
+        for _ in 0..tries_in(200) {
+            let ray = line(&mut random);
+            let all = met(&surface, &ray);
+            assert!(all.iter().enumerate().all(|(i, met)| met.leaving == (i % 2 == 1)), "{all:?}");
+            assert_told_everywhere(&surface, &ray, &all, 1_000);
+            // The first of them is found alone, from anywhere.
+            let from = random.number(-1.0, 1.0);
+            let mut first = Crossings::new();
+            surface.first_crossings(&ray, (from, f64::INFINITY), &mut first);
+            let next = |all: &[Met]| all.iter().find(|met| met.t > from + 1e-6).map(|met| met.t);
+            let is_same = match (next(&all), next(&first)) {
+                (Some(one), Some(other)) => (one - other).abs() < 1e-7,
+                (one, other) => one == other,
+            };
+            assert!(is_same, "{from}: {all:?} {first:?} {ray:?}");
+            crossed += all.len();
+        }
+    }
+    assert!(crossed > tries_in(200), "{crossed}");
 }
 
 #[test]
