@@ -5,7 +5,6 @@ use crate::noise::NoiseGenerator;
 use crate::source::Site;
 use crate::vocabulary::Word;
 
-#[expect(clippy::large_enum_variant, reason = "nearly all are the large one")]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Finish {
     /// The native formula (`kd ks phong_exponent`).

@@ -42,7 +42,6 @@ use walk::Node;
 pub const DEEPEST: usize = 64;
 
 /// What a surface looks like.
-#[expect(clippy::large_enum_variant, reason = "nearly all are plain, and shared")]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Texture {
     Plain(Plain),
