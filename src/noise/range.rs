@@ -132,7 +132,7 @@ pub(super) fn range(generator: NoiseGenerator, point: [Interval; 3]) -> (Interva
         (narrowed(value, there, change(&point, middle, &slopes), rounded), slopes)
     };
     let is_cut = value.low <= 0.0 || value.high >= 1.0;
-    let value = Interval { low: value.low.max(0.0), high: value.high.min(1.0) };
+    let value = Interval { low: value.low.clamp(0.0, 1.0), high: value.high.clamp(0.0, 1.0) };
     let zero = Interval { low: 0.0, high: 0.0 };
     (value, if is_cut { slopes.map(|slope| slope.hull(zero)) } else { slopes })
 }
