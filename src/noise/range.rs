@@ -43,7 +43,8 @@ struct Shape {
 
 impl Shape {
     /// Bounds for all boxes. The steepest slope is that at any place in a cell, with the data at each of its corners
-    /// that make it steepest: 3.87 for the measured data, 2.18 for gradients of length 1.
+    /// that make it steepest: over a grid of places at most 3.87 for the measured data, 2.18 for gradients of length
+    /// 1. The limits leave room for what lies between the places, by estimate and not by proof.
     ///
     /// |s′| is at most 1.5 and |s″| at most 6, and the linear functions of two adjacent corners, with |value| ≤ ½ + 3
     /// within a cell and slope ≤ 1, differ by at most 7; so a slope changes by at most 6·7 + 2·1.5·2 along its axis,
