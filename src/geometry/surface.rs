@@ -158,7 +158,7 @@ impl SurfacePoints {
         self.faces[number]
     }
 
-    /// Finds the points of spheres, planes and flat parts; returns a bit for each of which it cannot.
+    /// Finds the points of spheres, planes, ellipsoids and flat parts; returns a bit for each of which it cannot.
     #[inline(always)]
     fn solve<S: Simd>(
         &mut self,
@@ -177,12 +177,12 @@ impl SurfacePoints {
                 let scale = four(simd, &shapes.scales, group);
                 let spheres = WideSpheres { centre: vector, radius: size, scale };
                 let found = spheres.surface(simd, &ray, t);
-                unsure |= bits(found.unsure, group) & shapes.spheres;
-                self.store(simd, group, shapes.spheres, found);
+                unsure |= self.store(simd, group, shapes.spheres, found);
             }
             if has(shapes.planes, group) {
                 let planes = WidePlanes { normal: vector, distance: size };
-                self.store(simd, group, shapes.planes, planes.surface(simd, &ray, t));
+                let found = planes.surface(simd, &ray, t);
+                unsure |= self.store(simd, group, shapes.planes, found);
             }
         }
         // Those of one ellipsoid, or of one body, together.
@@ -200,8 +200,7 @@ impl SurfacePoints {
                 if has(same, group) {
                     let (ray, t) = (rays.four(simd, group), four(simd, distances, group));
                     let found = ellipsoid.surface_of_four(simd, &ray, t);
-                    unsure |= bits(found.unsure, group) & same;
-                    self.store(simd, group, same, found);
+                    unsure |= self.store(simd, group, same, found);
                 }
             }
             ellipsoids &= !same;
@@ -220,8 +219,7 @@ impl SurfacePoints {
                     };
                     let (ray, t) = (rays.four(simd, group), four(simd, distances, group));
                     let found = facets.surface(simd, placed, &ray, t);
-                    unsure |= bits(found.unsure, group) & same;
-                    self.store(simd, group, same, found);
+                    unsure |= self.store(simd, group, same, found);
                 }
             }
             facets &= !same;
@@ -229,13 +227,15 @@ impl SurfacePoints {
         unsure
     }
 
+    /// Replaces the points of `solved`; returns a bit for each of which it takes more to tell.
     #[inline(always)]
-    fn store<S: Simd>(&mut self, simd: S, group: usize, solved: u32, found: WidePoints<S>) {
+    fn store<S: Simd>(&mut self, simd: S, group: usize, solved: u32, found: WidePoints<S>) -> u32 {
         let mask = mask(simd, solved, group);
-        let WidePoints { point, normal, error, .. } = found;
+        let WidePoints { point, normal, error, unsure } = found;
         point.or(mask, WideVector::of(simd, &self.points, group)).store(&mut self.points, group);
         normal.or(mask, WideVector::of(simd, &self.normals, group)).store(&mut self.normals, group);
         store(mask.select(error, four(simd, &self.errors, group)), &mut self.errors, group);
+        bits(unsure, group) & solved
     }
 
     /// Finds the sides that rays come from.

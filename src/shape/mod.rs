@@ -68,7 +68,7 @@ pub use sphere_sweep::SphereSweep;
 pub use superellipsoid::Superellipsoid;
 pub use text::Text;
 pub use torus::Torus;
-pub(crate) use wide::chords::Chords;
+pub(crate) use wide::chords::{Chords, ChordsOfFour};
 pub(crate) use wide::points::WideFacets;
 pub(crate) use wide::{First, FirstOfFour, WidePlanes, WidePoints, WideSpheres};
 

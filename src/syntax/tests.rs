@@ -346,25 +346,30 @@ fn check_joined(text: &str, dialect: Dialect) {
     }
 }
 
+/// Replaces, inserts or removes bytes at places of a text.
+fn edited(mut bytes: Vec<u8>, edits: Vec<(usize, u8, u8)>) -> String {
+    const BYTES: &[u8] = b"{}()[]<>#\"/*,;=.-+?:&|!aex1 \n\\@";
+    for (at, edit, with) in edits {
+        let at = at % bytes.len();
+        let byte = BYTES[with as usize % BYTES.len()];
+        match edit {
+            0 => bytes[at] = byte,
+            1 => bytes.insert(at, byte),
+            _ => drop(bytes.remove(at)),
+        }
+    }
+    crate::source::decode(bytes).0
+}
+
 proptest::proptest! {
     #[test]
     fn joined_vectors_give_the_tree_of_all_tokens_or_none(
         edits in proptest::collection::vec((0..WRITTEN.len(), 0..3_u8, 0..32_u8), 0..4),
         lines in 1..6_usize,
     ) {
-        const BYTES: &[u8] = b"{}()[]<>#\"/*,;=.-+?:&|!aex1 \n\\@";
         let written: Vec<&str> = WRITTEN.lines().take(lines).collect();
-        let mut bytes = written.join("\n").into_bytes();
-        for (at, edit, with) in edits {
-            let at = at % bytes.len();
-            let byte = BYTES[with as usize % BYTES.len()];
-            match edit {
-                0 => bytes[at] = byte,
-                1 => bytes.insert(at, byte),
-                _ => drop(bytes.remove(at)),
-            }
-        }
-        let (text, _) = crate::source::decode(bytes);
+        let bytes = written.join("\n").into_bytes();
+        let text = edited(bytes, edits);
         check_joined(&text, Dialect::Pov);
         check_joined(&text, Dialect::Scene);
     }
@@ -373,18 +378,8 @@ proptest::proptest! {
     fn no_change_of_bytes_makes_it_panic(
         edits in proptest::collection::vec((0..SAMPLE.len(), 0..3_u8, 0..32_u8), 1..12)
     ) {
-        const BYTES: &[u8] = b"{}()[]<>#\"/*,;=.-+?:&|!aex1 \n\\@";
-        let mut bytes = SAMPLE.as_bytes().to_vec();
-        for (at, edit, with) in edits {
-            let at = at % bytes.len();
-            let byte = BYTES[with as usize % BYTES.len()];
-            match edit {
-                0 => bytes[at] = byte,
-                1 => bytes.insert(at, byte),
-                _ => drop(bytes.remove(at)),
-            }
-        }
-        let (text, _) = crate::source::decode(bytes);
+        let bytes = SAMPLE.as_bytes().to_vec();
+        let text = edited(bytes, edits);
         let (_, printed, _, errors) = shape(&text, Dialect::Scene);
         // What is read without an error is so in print too. The trees may differ: `<1 2>` is
         // printed with its comma, and may then be part of a run.

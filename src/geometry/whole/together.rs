@@ -9,7 +9,7 @@ use super::{MOST_BALLS, Whole, from_inside};
 use crate::math::wide::*;
 use crate::shape::local::Crossings;
 use crate::shape::seen::SeenRow;
-use crate::shape::{Chord, Chords, Ray};
+use crate::shape::{Chord, Chords, ChordsOfFour, Ray};
 
 /// A ray that crosses a whole, and what is known of where it crosses the leaves.
 #[derive(Clone, Copy)]

@@ -39,7 +39,7 @@ impl Chords {
     }
 
     #[inline(always)]
-    fn store<S: Simd>(&mut self, group: usize, four: &Four<S>) {
+    fn store<S: Simd>(&mut self, group: usize, four: &FourChords<S>) {
         for end in 0..2 {
             store(four.ends[end], &mut self.ends[end], group);
             store(four.errors[end], &mut self.errors[end], group);
@@ -51,14 +51,29 @@ impl Chords {
 }
 
 /// The chords of four rays.
-struct Four<S: Simd> {
+pub(crate) struct FourChords<S: Simd> {
     ends: [Wide<S>; 2],
     errors: [Wide<S>; 2],
     met: Mask<S>,
     unsure: Mask<S>,
 }
 
-impl<S: Simd> Four<S> {
+/// A solid whose chords are found for four rays at once.
+pub(crate) trait ChordsOfFour {
+    fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> FourChords<S>;
+
+    /// Finds the chords of the rays of `mask`.
+    #[inline(always)]
+    fn chords<S: Simd>(&self, simd: S, rays: &Rays, mask: u32, chords: &mut Chords) {
+        for group in 0..GROUPS {
+            if has(mask, group) {
+                chords.store(group, &self.chords_of_four(simd, &rays.four(simd, group)));
+            }
+        }
+    }
+}
+
+impl<S: Simd> FourChords<S> {
     /// Returns the first crossing that is ahead and seen, of the rays that are `near`.
     #[inline(always)]
     fn first(&self, simd: S, near: Mask<S>, shows: [bool; 2], limit: Wide<S>) -> First<S> {
@@ -77,19 +92,10 @@ impl<S: Simd> Four<S> {
     }
 }
 
-impl Sphere {
-    /// Finds [`Sphere::chord`] of the rays of `mask`.
+impl ChordsOfFour for Sphere {
+    /// Returns [`Sphere::chord`] of each ray.
     #[inline(always)]
-    pub(crate) fn chords<S: Simd>(&self, simd: S, rays: &Rays, mask: u32, chords: &mut Chords) {
-        for group in 0..GROUPS {
-            if has(mask, group) {
-                chords.store(group, &self.chords_of_four(simd, &rays.four(simd, group)));
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> Four<S> {
+    fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> FourChords<S> {
         let radius = all(simd, self.radius);
         let radius_squared = all(simd, self.radius * self.radius);
         let start = ray.origin - WideVector::splat(simd, self.centre);
@@ -104,25 +110,16 @@ impl Sphere {
         let is_close = (all(simd, 1024.0) * power.abs()).simd_lt(radius_squared);
         let is_close = is_close & is_planet(simd, radius, ray.origin);
         let roots = WideRoots { along, miss: miss_squared.sqrt(), start_squared, radius };
-        let Four { ends, errors, met, unsure } = roots.chord(simd, None);
+        let FourChords { ends, errors, met, unsure } = roots.chord(simd, None);
         let met = met & !miss_squared.simd_gt(radius_squared);
-        Four { ends, errors, met, unsure: unsure | !is_safe | is_close }
+        FourChords { ends, errors, met, unsure: unsure | !is_safe | is_close }
     }
 }
 
-impl Ellipsoid {
-    /// Finds [`Ellipsoid::chord`] of the rays of `mask`.
+impl ChordsOfFour for Ellipsoid {
+    /// Returns [`Ellipsoid::chord`] of each ray.
     #[inline(always)]
-    pub(crate) fn chords<S: Simd>(&self, simd: S, rays: &Rays, mask: u32, chords: &mut Chords) {
-        for group in 0..GROUPS {
-            if has(mask, group) {
-                chords.store(group, &self.chords_of_four(simd, &rays.four(simd, group)));
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> Four<S> {
+    fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> FourChords<S> {
         let matrix = self.placement.local_from_world;
         let sizes = matrix.abs();
         let from_centre = ray.origin - WideVector::splat(simd, self.placement.centre);
@@ -182,7 +179,7 @@ struct WideBlur<S: Simd> {
 impl<S: Simd> WideRoots<S> {
     /// Returns the chord of roots that need not be refined: `Roots::blurred_chord`.
     #[inline(always)]
-    fn chord(&self, simd: S, blur: Option<WideBlur<S>>) -> Four<S> {
+    fn chord(&self, simd: S, blur: Option<WideBlur<S>>) -> FourChords<S> {
         let Self { along, miss, start_squared, radius } = *self;
         let (zero, u, two) = (all(simd, 0.0), all(simd, U), all(simd, 2.0));
         let half = ((radius - miss) * (radius + miss)).sqrt();
@@ -225,23 +222,14 @@ impl<S: Simd> WideRoots<S> {
                 *end *= blur.unit;
             }
         }
-        Four { ends, errors, met: half.simd_gt(zero), unsure: Mask::splat(simd, false) }
+        FourChords { ends, errors, met: half.simd_gt(zero), unsure: Mask::splat(simd, false) }
     }
 }
 
-impl Box_ {
-    /// Finds [`Box_::chord_of_part`] of the rays of `mask`.
+impl ChordsOfFour for Box_ {
+    /// Returns [`Box_::chord_of_part`] of each ray.
     #[inline(always)]
-    pub(crate) fn chords<S: Simd>(&self, simd: S, rays: &Rays, mask: u32, chords: &mut Chords) {
-        for group in 0..GROUPS {
-            if has(mask, group) {
-                chords.store(group, &self.chords_of_four(simd, &rays.four(simd, group)));
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> Four<S> {
+    fn chords_of_four<S: Simd>(&self, simd: S, ray: &WideRay<S>) -> FourChords<S> {
         let start = ray.origin - WideVector::splat(simd, self.centre);
         let reach = start.abs().element_sum();
         let infinity = all(simd, f64::INFINITY);
@@ -276,7 +264,7 @@ impl Box_ {
         }
         let met = !enter_least.simd_gt(leave_most);
         let leave = larger(leave, enter);
-        Four {
+        FourChords {
             ends: [enter, leave],
             errors: [
                 larger(enter - enter_least, enter_most - enter),
