@@ -135,22 +135,41 @@ pub(super) trait RowSeeker<'a> {
                 numbers(mask).for_each(|number| self.look_alone(place, number));
             }
             Solid::Sphere(sphere) => self.look_in_row(simd, place, mask, sphere, shows),
+            Solid::Box(_) | Solid::Ellipsoid(_) | Solid::Whole(_) => self.look_apart(place, mask),
+            Solid::Placed(i) if entry.sides == Sides::Both => {
+                self.look_together(place, *i, mask);
+            }
+            Solid::Placed(_) => numbers(mask).for_each(|number| self.look_alone(place, number)),
+        }
+    }
+
+    /// [`Self::look`] at what takes longer, in a function of its own: so the loop over spheres stays short.
+    #[inline(never)]
+    fn look_apart(&mut self, place: usize, mask: u32) {
+        let geometry = self.geometry();
+        dispatch!(geometry.instructions.level(), simd => self.look_longer(simd, place, mask));
+    }
+
+    #[inline(always)]
+    fn look_longer<S: Simd>(&mut self, simd: S, place: usize, mask: u32) {
+        let geometry = self.geometry();
+        let entry = &geometry.entries[place];
+        let shows = [entry.sides.shows(false), entry.sides.shows(true)];
+        match &entry.solid {
             Solid::Box(i) => {
                 self.look_in_row(simd, place, mask, &geometry.boxes[*i as usize], shows);
             }
             Solid::Ellipsoid(i) => {
                 self.look_in_row(simd, place, mask, &geometry.ellipsoids[*i as usize], shows);
             }
-            Solid::Placed(i) if entry.sides == Sides::Both => {
-                self.look_together(place, *i, mask);
-            }
             Solid::Whole(i) => {
                 let whole = &geometry.wholes[*i as usize];
                 let near = whole.may_meet(simd, self.rays(), self.limits(), mask);
-                let known = geometry.known(simd, whole, self.rays(), near);
+                let mut known = Known::new();
+                geometry.bring_to_leaves(simd, whole, self.rays(), near, &mut known);
                 numbers(near).for_each(|number| self.look_at_whole(place, *i, number, &known));
             }
-            Solid::Placed(_) => numbers(mask).for_each(|number| self.look_alone(place, number)),
+            Solid::Sphere(_) | Solid::Plane(_) | Solid::Placed(_) => {}
         }
     }
 

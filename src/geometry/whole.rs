@@ -32,6 +32,8 @@ pub(super) struct Whole {
     pub is_around: Vec<bool>,
     /// Nothing else is a part of it.
     pub is_convex: bool,
+    /// It is the intersection of its leaves, and none of these is a sheet.
+    pub is_intersection: bool,
     /// What holds it.
     pub bounds: Option<Bounds>,
     /// Around its first leaves, four by four.
@@ -95,6 +97,7 @@ impl Whole {
     ) -> Self {
         let (mut around, is_all) = around(&whole.nodes);
         let count = around.len();
+        let is_intersection = is_all && !parts.iter().any(|part| part.is_sheet);
         // What is outside of something tells a span where that is a plane.
         around.retain(|part| {
             let is_plane = matches!(leaves[part.leaf as usize].solid, Solid::Plane(_));
@@ -136,6 +139,7 @@ impl Whole {
             around,
             is_around,
             is_convex,
+            is_intersection,
             bounds,
             balls,
             inside,
@@ -171,21 +175,23 @@ impl Geometry {
     /// the whole's that lie from one place to another are missing.
     fn gather(&self, whole: &Whole, line: &Line, between: (f64, f64), events: &mut Events) -> bool {
         let ray = line.ray;
-        let mut span = match &whole.bounds {
-            Some(bounds) => Span::of_bounds(bounds, ray),
-            None => Span::ALL,
-        };
-        let near = whole.near(ray);
-        if span.is_empty() || near & whole.inside != whole.inside {
+        let span_of_bounds =
+            || whole.bounds.as_ref().map_or(Span::ALL, |bounds| Span::of_bounds(bounds, ray));
+        // Of rays in rows these are left out before.
+        if line.known.is_none() && span_of_bounds().is_empty() {
             return true;
         }
-        if whole.is_convex && self.gather_convex(whole, line, events) {
+        let near = line.near(whole);
+        if near.0 & whole.inside != whole.inside {
             return true;
         }
-        let is_near = |leaf: u32| leaf >= MOST_BALLS || near >> leaf & 1 != 0;
+        if whole.is_intersection && self.gather_intersection(whole, line, near, between, events) {
+            return true;
+        }
+        let mut span = span_of_bounds();
         for part in &whole.around {
             let leaf = &whole.leaves[part.leaf as usize];
-            if is_near(part.leaf) {
+            if near.has(part.leaf) {
                 self.with_crossings(part.leaf, &leaf.solid, line, |all| {
                     span = span.and(Span::of_crossings(all, part.inverse));
                     add_events(part.leaf, false, all, EVERYWHERE, events);
@@ -199,7 +205,7 @@ impl Geometry {
         }
         let reach = span.reach();
         whole.search_within(ray, reach, |leaf| {
-            if !whole.is_around[leaf as usize] && is_near(leaf) {
+            if !whole.is_around[leaf as usize] && near.has(leaf) {
                 let solid = &whole.leaves[leaf as usize].solid;
                 let sheet = self.is_sheet(solid);
                 self.with_crossings(leaf, solid, line, |all| {
@@ -235,7 +241,8 @@ impl Geometry {
 
     #[inline(never)]
     fn crossings_of_body(&self, leaf: u32, solid: &Solid, line: &Line) -> Crossings {
-        let mut all = self.crossings_of_leaf(leaf, solid, line);
+        let mut all = Crossings::new();
+        self.add_crossings_of_leaf(leaf, solid, line, &mut all);
         self.drop_grazed(solid, line.ray, &mut all);
         let mut inside = false;
         if !self.is_sheet(solid) {
@@ -290,7 +297,9 @@ impl Geometry {
         match solid {
             Solid::Placed(i) => {
                 let placed = &self.placed[*i as usize];
-                from_inside(placed, ray, placed.crossings_of_part(ray))
+                let mut all = placed.crossings_of_part(ray);
+                begin_inside(placed, ray, &mut all);
+                all
             }
             _ => {
                 let ends = self.chord(solid, ray).map(ends_of_chord);
@@ -352,8 +361,8 @@ impl Geometry {
     }
 }
 
-/// The crossings of a line with a body, with where it enters if it comes from inside.
-fn from_inside(placed: &Placed, ray: &Ray, mut all: Crossings) -> Crossings {
+/// Adds to the crossings of a line with a body where it enters, if it comes from inside.
+fn begin_inside(placed: &Placed, ray: &Ray, all: &mut Crossings) {
     let inside = match all.first() {
         Some(first) => first.leaving && !placed.body.is_sheet(),
         None => placed.body.reach() == f64::INFINITY && placed.holds(ray),
@@ -361,11 +370,10 @@ fn from_inside(placed: &Placed, ray: &Ray, mut all: Crossings) -> Crossings {
     if inside {
         all.insert(0, FROM_INSIDE);
     }
-    all
 }
 
 /// All of a line.
-const EVERYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+pub(super) const EVERYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 /// Where a line enters what it comes from inside of.
 const FROM_INSIDE: Met =

@@ -1,8 +1,10 @@
 //! Wholes: found with and without their trees, their surface where membership changes.
 
 use super::*;
+use crate::geometry::whole::EVERYWHERE;
+use crate::geometry::whole::together::Line;
 use crate::shape::body::Body;
-use crate::shape::csg::Node;
+use crate::shape::csg::{Event, Events, Node};
 use crate::shape::local::Met;
 use crate::shape::{Cylinder, Placed};
 
@@ -150,6 +152,56 @@ fn a_whole_is_entered_and_left_where_membership_changes() {
         }
     }
     assert!(ends > tries() / 200, "{ends}");
+}
+
+/// Some parts are outside, and some are flush with one another.
+#[test]
+fn intersections_are_crossed_where_the_algebra_says() {
+    let mut random = Random(27);
+    let (mut told, mut cut) = (0, 0);
+    for scene in 0..200 {
+        let size = random.size(-6.0, 6.0);
+        let (mut world, mut nodes) = (empty(), Vec::new());
+        let centre = Vector::splat(size) * random.below(3) as f64;
+        for _ in 0..2 + random.below(5) {
+            add_parts(&mut world, &mut random, (centre, size), 0, false, &mut nodes);
+            if let Some(last) = world.boxes.last_mut()
+                && scene % 2 == 0
+            {
+                let steps = [(); 3].map(|()| size * 0.25 * random.below(4) as f64);
+                *last = aligned_box(centre + Vector::from_array(steps), [size * 0.5; 3]);
+            }
+        }
+        let count = nodes.len() as u32;
+        nodes.push(Node::Intersection(count));
+        world.csg_solids.push(crate::world::CsgSolid {
+            nodes,
+            first: 0,
+            count,
+            cutaway: Vec::new(),
+        });
+        let geometry = Geometry::build(&world);
+        let Some(whole) = geometry.wholes.first() else { continue };
+        let by_algebra = Whole { is_intersection: false, ..whole.clone() };
+        for _ in 0..tries_in(300) {
+            let ray = random_ray(&mut random, &world, size * 2.0);
+            let [events, expected] = [whole, &by_algebra].map(|whole| {
+                let events = geometry.events(whole, &ray).into_iter();
+                let events = events.map(|event| Event { last: None, ..event });
+                events.filter(|event| event.met.is_seen()).collect::<Vec<_>>()
+            });
+            assert_eq!(events, expected, "{ray:?} {world:?}");
+            let (line, mut alone) = (Line::alone(&ray), Events::new());
+            let near = line.near(whole);
+            if whole.is_intersection
+                && geometry.gather_intersection(whole, &line, near, EVERYWHERE, &mut alone)
+            {
+                told += usize::from(!alone.is_empty());
+                cut += usize::from(alone.len() > 2);
+            }
+        }
+    }
+    assert!(told > tries() / 50 && cut > tries() / 500, "{told} told, {cut} cut");
 }
 
 /// Stands most planes across an axis: of such bounds are made.

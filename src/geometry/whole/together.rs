@@ -5,7 +5,7 @@
 use smallvec::SmallVec;
 
 use super::super::{Geometry, Solid};
-use super::{MOST_BALLS, Whole, from_inside};
+use super::{MOST_BALLS, Whole, begin_inside};
 use crate::math::wide::*;
 use crate::shape::local::Crossings;
 use crate::shape::seen::SeenRow;
@@ -24,12 +24,35 @@ impl<'a> Line<'a> {
     pub fn alone(ray: &'a Ray) -> Self {
         Self { ray, known: None }
     }
+
+    /// Returns which leaves of the whole it may meet.
+    #[inline(always)]
+    pub fn near(&self, whole: &Whole) -> Near {
+        Near(match self.known {
+            Some((known, number)) => known.near[number],
+            None => whole.near(self.ray),
+        })
+    }
+}
+
+/// A bit for each of the first leaves of a whole that a line may meet.
+#[derive(Clone, Copy)]
+pub(in crate::geometry) struct Near(pub u32);
+
+impl Near {
+    /// Whether the line may meet a leaf: of those without a bit, each.
+    #[inline(always)]
+    pub fn has(self, leaf: u32) -> bool {
+        leaf >= MOST_BALLS || self.0 >> leaf & 1 != 0
+    }
 }
 
 /// What is known of the first leaves of a whole, for rays side by side.
 pub(in crate::geometry) struct Known {
     /// Of each leaf where in its list it is found.
     places: [Place; MOST_BALLS as usize],
+    /// For each ray, the leaves that its line may meet.
+    near: [u32; ROW],
     chords: SmallVec<[Chords; 4]>,
     seen: SmallVec<[SeenRow; 2]>,
 }
@@ -42,6 +65,13 @@ enum Place {
 }
 
 impl Known {
+    /// Nothing.
+    #[inline(always)]
+    pub fn new() -> Self {
+        let places = [Place::Nowhere; MOST_BALLS as usize];
+        Self { places, near: [0; ROW], chords: SmallVec::new(), seen: SmallVec::new() }
+    }
+
     /// Adds the chords of a leaf, which are to be filled in: in place, as they are large.
     #[inline(always)]
     fn next_chords(&mut self, leaf: usize) -> &mut Chords {
@@ -66,22 +96,24 @@ impl Known {
 }
 
 impl Geometry {
-    /// Brings rays side by side to the leaves of a whole that they may meet.
+    /// Brings rays side by side to the leaves of a whole that they may meet. What is `known` is filled in: it is
+    /// large.
     #[inline(always)]
-    pub(in crate::geometry) fn known<S: Simd>(
+    pub(in crate::geometry) fn bring_to_leaves<S: Simd>(
         &self,
         simd: S,
         whole: &Whole,
         rays: &Rays,
         mask: u32,
-    ) -> Known {
-        let (chords, seen) = (SmallVec::new(), SmallVec::new());
-        let mut known = Known { places: [Place::Nowhere; MOST_BALLS as usize], chords, seen };
-        if mask.count_ones() < 2 || whole.tree.is_some() {
-            return known;
+        known: &mut Known,
+    ) {
+        if whole.tree.is_some() {
+            known.near = [u32::MAX; ROW];
+            return;
         }
         for (leaf, entry) in whole.leaves.iter().enumerate().take(MOST_BALLS as usize) {
             let near = whole.near_leaf(simd, leaf, rays, mask);
+            numbers(near).for_each(|number| known.near[number] |= 1 << leaf);
             if near.count_ones() < 2 {
                 continue;
             }
@@ -100,7 +132,6 @@ impl Geometry {
                 Solid::Plane(_) | Solid::Whole(_) => {}
             }
         }
-        known
     }
 
     /// [`Geometry::chord`] of a leaf.
@@ -120,23 +151,25 @@ impl Geometry {
         self.chord(solid, line.ray)
     }
 
-    /// [`Geometry::crossings`] of a leaf.
+    /// Adds [`Geometry::crossings`] of a leaf.
     #[inline(always)]
-    pub(in crate::geometry) fn crossings_of_leaf(
+    pub(in crate::geometry) fn add_crossings_of_leaf(
         &self,
         leaf: u32,
         solid: &Solid,
         line: &Line,
-    ) -> Crossings {
+        all: &mut Crossings,
+    ) {
         if let Some((known, number)) = line.known
             && let (Place::Seen(place), Solid::Placed(i)) = (known.place(leaf), solid)
             && let row = &known.seen[place as usize]
             && row.holds(number)
         {
             let placed = &self.placed[*i as usize];
-            let all = placed.crossings_of_part_in(row, number, line.ray);
-            return from_inside(placed, line.ray, all);
+            placed.add_crossings_of_part_in(row, number, line.ray, all);
+            begin_inside(placed, line.ray, all);
+            return;
         }
-        self.crossings(solid, line.ray)
+        *all = self.crossings(solid, line.ray);
     }
 }

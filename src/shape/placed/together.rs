@@ -52,25 +52,24 @@ impl Placed {
         crossed
     }
 
-    /// Brings the rays of `mask` to where [`Self::crossings_of_part_in`] finds them.
+    /// Brings the rays of `mask` to where [`Self::add_crossings_of_part_in`] finds them.
     #[inline(always)]
     pub(crate) fn see_part<S: Simd>(&self, simd: S, rays: &Rays, mask: u32, row: &mut SeenRow) {
         row.see(simd, self, rays, mask, &[0.0; ROW], self.moved());
     }
 
-    /// [`Self::crossings_of_part`] for the ray of this number in a row.
-    pub(crate) fn crossings_of_part_in(
+    /// Adds [`Self::crossings_of_part`] for the ray of this number in a row to none.
+    pub(crate) fn add_crossings_of_part_in(
         &self,
         row: &SeenRow,
         number: usize,
         ray: &Ray,
-    ) -> Crossings {
-        let mut found = Crossings::new();
+        found: &mut Crossings,
+    ) {
         if row.reaching >> number & 1 == 1 {
-            self.body.crossings(&row.line(number, self, ray), &mut found);
+            self.body.crossings(&row.line(number, self, ray), found);
             found.iter_mut().for_each(|met| *met = row.met(number, *met));
         }
-        found
     }
 
     /// Calls `find` with the numbers of the rays that may meet the body, the rays, their lines and where these are
