@@ -40,7 +40,8 @@ pub struct Mesh {
     pub(super) normals: Vec<Vector>,
     /// In the order of the tree.
     pub(super) faces: Vec<Face>,
-    tree: Tree,
+    /// `None` where the faces are [`FEW`].
+    tree: Option<Tree>,
     skin: Skin,
     /// For a solid, the direction of the inside test: a point is inside if the ray in this direction crosses
     /// an odd number of faces.
@@ -83,9 +84,13 @@ impl Mesh {
             let [a, b, c] = face.corners.map(|i| corners[i as usize]);
             Bounds { low: a.min(b).min(c), high: a.max(b).max(c) }
         };
-        let boxes: Vec<Bounds> = whole.iter().map(|&i| bounds(&faces[i as usize])).collect();
-        let (tree, order) = Tree::build(&boxes);
-        let order: Vec<u32> = order.into_iter().map(|i| whole[i as usize]).collect();
+        let (tree, order) = if whole.len() <= FEW {
+            (None, whole)
+        } else {
+            let boxes: Vec<Bounds> = whole.iter().map(|&i| bounds(&faces[i as usize])).collect();
+            let (tree, order) = Tree::build(&boxes);
+            (Some(tree), order.into_iter().map(|i| whole[i as usize]).collect())
+        };
         let faces: Vec<Face> = order.iter().map(|&i| faces[i as usize]).collect();
         let skin = skin.in_order(&order);
         let used = faces.iter().flat_map(|face| face.corners);
@@ -113,7 +118,7 @@ impl Mesh {
 
     /// Returns whether lines side by side are found sooner than one by one.
     fn goes_together(&self, lines: &[LocalRay]) -> bool {
-        let are_many = lines.len() >= packet::LEAST as usize && self.faces.len() > FEW;
+        let are_many = lines.len() >= packet::LEAST as usize && self.tree.is_some();
         are_many && self.inside.is_none()
     }
 
@@ -140,11 +145,14 @@ impl Mesh {
             }
             limit
         };
-        if self.faces.len() <= FEW {
-            look(0..self.faces.len(), to - from);
-        } else {
-            let start = Ray { origin: ray.at(from), direction: ray.direction };
-            self.tree.visit(&start, slack, to - from, &mut look);
+        match &self.tree {
+            None => {
+                look(0..self.faces.len(), to - from);
+            }
+            Some(tree) => {
+                let start = Ray { origin: ray.at(from), direction: ray.direction };
+                tree.visit(&start, slack, to - from, &mut look);
+            }
         }
         view.is_in_a_plane.get()
     }
@@ -251,13 +259,12 @@ impl Local for Mesh {
         if !self.goes_together(lines) {
             return local::first_crossings_one_by_one(self, lines, between, each);
         }
-        let mut all: SmallVec<[Crossings; ROW]> =
-            SmallVec::from_elem(Crossings::new(), lines.len());
+        let mut all: SmallVec<[(usize, Met); ROW]> = SmallVec::new();
         let mut limits: SmallVec<[f64; ROW]> = between.iter().map(|(_, to)| *to).collect();
         let search = |number: usize, met: Met| {
             let limit = &mut limits[number];
             if met.t <= *limit {
-                all[number].push(met);
+                all.push((number, met));
                 if met.t - met.error > lines[number].ahead_of(between[number].0) {
                     *limit = met.t;
                 }
@@ -267,11 +274,14 @@ impl Local for Mesh {
         if !self.pierced_together(lines, between, search) {
             return local::first_crossings_one_by_one(self, lines, between, each);
         }
-        for (number, (found, limit)) in all.iter_mut().zip(limits).enumerate() {
-            found.retain(|met| met.t <= limit);
+        let mut found = Crossings::new();
+        for (number, limit) in limits.into_iter().enumerate() {
+            let own = all.iter().filter(|(line, met)| *line == number && met.t <= limit);
+            found.clear();
+            found.extend(own.map(|(_, met)| *met));
             if !found.is_empty() {
-                sort(found);
-                each(number, found);
+                sort(&mut found);
+                each(number, &mut found);
             }
         }
     }
@@ -338,13 +348,19 @@ impl Local for Mesh {
     }
 
     fn extent(&self, along: Vector) -> (f64, f64) {
-        let greatest = |along: Vector| {
-            self.tree.greatest(along, |run| {
-                let corners = self.faces[run].iter().flat_map(|face| self.corners_of(face));
-                corners.map(|corner| corner.dot(along)).fold(f64::NEG_INFINITY, f64::max)
-            })
+        let heights = |run: Range<usize>| {
+            let corners = self.faces[run].iter().flat_map(|face| self.corners_of(face));
+            corners.map(move |corner| corner.dot(along))
         };
-        (-greatest(-along), greatest(along))
+        let Some(tree) = &self.tree else {
+            let nowhere = (f64::INFINITY, f64::NEG_INFINITY);
+            return heights(0..self.faces.len())
+                .fold(nowhere, |(low, high), height| (low.min(height), high.max(height)));
+        };
+        let highest = tree.greatest(along, |run| heights(run).fold(f64::NEG_INFINITY, f64::max));
+        let lowest =
+            tree.greatest(-along, |run| heights(run).map(|h| -h).fold(f64::NEG_INFINITY, f64::max));
+        (-lowest, highest)
     }
 
     fn price(&self) -> u64 {

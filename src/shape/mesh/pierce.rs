@@ -88,6 +88,11 @@ impl<'a> View<'a> {
         self.across.axes
     }
 
+    /// Returns whether the line goes against its dominant axis.
+    pub fn is_against(&self) -> bool {
+        self.across.is_against
+    }
+
     /// Returns a point of the line, and its slope across the dominant axis.
     pub fn line(&self) -> (Vector, [f64; 2]) {
         (self.across.start, self.across.shear)
@@ -185,11 +190,23 @@ fn turns_left(p: [f64; 2], q: [f64; 2]) -> Option<bool> {
 }
 
 /// Returns the crossing of a line with a triangle that it pierces.
+pub(in super::super) fn met(ray: &LocalRay, corners: [Vector; 3], leaving: bool, part: u32) -> Met {
+    met_with_plane(ray, corners, Flat::through(corners).as_ref(), leaving, part)
+}
+
+/// [`met`], given the plane of the triangle, if it has one.
 ///
 /// With n the normal and P the crossing, s = n·(A − start)/n·d. **Error:** B, the error of the line there,
 /// plus the rounding of A − start and s·d, plus the displacement at P when the normal's error turns the plane
 /// about A, all over |n·d|. The crossing lies between the triangle's ends along the line.
-pub(in super::super) fn met(ray: &LocalRay, corners: [Vector; 3], leaving: bool, part: u32) -> Met {
+#[inline(always)]
+pub(super) fn met_with_plane(
+    ray: &LocalRay,
+    corners: [Vector; 3],
+    plane: Option<&Flat>,
+    leaving: bool,
+    part: u32,
+) -> Met {
     let LocalRay { nearest, direction, .. } = *ray;
     let depths = corners.map(|corner| (corner - nearest).dot(direction));
     let low = depths.into_iter().fold(f64::INFINITY, f64::min);
@@ -198,7 +215,7 @@ pub(in super::super) fn met(ray: &LocalRay, corners: [Vector; 3], leaving: bool,
         |t: f64| ray.blur_at(t) + 8.0 * U * (nearest.length() + corners[0].length() + t.abs());
     let middle = 0.5 * (low + high);
     let anywhere = Met { t: middle, error: 0.5 * (high - low) + off(middle), leaving, part };
-    let Some(Flat { normal, turn }) = Flat::through(corners) else { return anywhere };
+    let Some(&Flat { normal, turn }) = plane else { return anywhere };
     let slope = normal.dot(direction);
     let t = (normal.dot(corners[0] - nearest) / slope).clamp(low, high);
     if !t.is_finite() {

@@ -1,24 +1,23 @@
 //! Lines through a mesh side by side: of four at once it is known which certainly miss a triangle.
 //!
-//! **Invariant:** each line finds what it finds alone: a triangle that it may pierce is tested for it alone.
+//! **Invariant:** each line finds what it finds alone: where four at once do not tell, a triangle is tested for it
+//! alone.
 
 use std::ops::Range;
 
 use super::super::U;
 use super::super::local::{LocalRay, Met};
-use super::Mesh;
 use super::pierce::{self, View};
+use super::{Flat, Mesh};
 use crate::bvh::packet::PacketSeeker;
 use crate::math::Vector;
 use crate::math::ray::Ray;
 use crate::math::wide::*;
-use smallvec::SmallVec;
 
 /// Lines that go much the same way: along the same axis, and in the same direction along each.
 struct Search<'a, 'b, F> {
     mesh: &'a Mesh,
     lines: &'a [LocalRay<'b>],
-    views: SmallVec<[View<'b>; ROW]>,
     /// Where the search along each begins.
     from: Row,
     /// How far each goes from there.
@@ -29,6 +28,8 @@ struct Search<'a, 'b, F> {
     starts: [Row; 3],
     shears: [Row; 2],
     doubts: Row,
+    /// A bit for each line that goes against the dominant axis.
+    against: u32,
     found: F,
 }
 
@@ -41,28 +42,29 @@ impl Mesh {
         between: &[(f64, f64)],
         found: impl FnMut(usize, Met) -> f64,
     ) -> bool {
-        let views = lines.iter().map(|line| View::along(line, self.reach));
-        let views: SmallVec<[View; ROW]> = views.take(ROW).collect();
-        let Some(first) = views.first() else { return true };
-        let axes = first.axes();
-        if lines.len() > ROW || views.iter().any(|view| view.axes() != axes) {
+        let (Some(first), Some(tree)) = (lines.first(), &self.tree) else { return false };
+        let axes = View::along(first, self.reach).axes();
+        if lines.len() > ROW {
             return false;
         }
         let (mut rays, mut slack) = (Rays::NONE, 0.0f64);
         let mut search = Search {
             mesh: self,
             lines,
-            views,
             from: [0.0; ROW],
             limits: [f64::NEG_INFINITY; ROW],
             axes,
             starts: [[0.0; ROW]; 3],
             shears: [[0.0; ROW]; 2],
             doubts: [0.0; ROW],
+            against: 0,
             found,
         };
         for (number, (line, (from, to))) in lines.iter().zip(between).enumerate() {
-            let view = &search.views[number];
+            let view = View::along(line, self.reach);
+            if view.axes() != axes {
+                return false;
+            }
             let own = 32.0 * U * (self.reach + line.nearest.length()) + view.doubt;
             let from = from.max(-self.reach - own);
             slack = slack.max(own);
@@ -76,8 +78,9 @@ impl Mesh {
                 row[number] = shear;
             }
             search.doubts[number] = view.doubt;
+            search.against |= u32::from(view.is_against()) << number;
         }
-        self.tree.visit_together(&rays, slack, &mut search);
+        tree.visit_together(&rays, slack, &mut search);
         true
     }
 }
@@ -94,23 +97,37 @@ impl<F: FnMut(usize, Met) -> f64> Search<'_, '_, F> {
     #[inline(always)]
     fn face<S: Simd>(&mut self, simd: S, number: usize, mask: u32) {
         let corners = self.mesh.corners_of(&self.mesh.faces[number]);
+        // Found for the first line that needs it.
+        let mut plane = None;
         for group in 0..GROUPS {
             if !has(mask, group) {
                 continue;
             }
-            let pierced = bits(self.may_pierce(simd, group, &corners), group) & mask;
-            for line in numbers(pierced) {
-                if let Some(pierced) = self.views[line].pierces(corners) {
-                    let met = pierce::met(&self.lines[line], corners, pierced, 2 * number as u32);
-                    self.limits[line] = (self.found)(line, met) - self.from[line];
-                }
+            let sides = self.sides(simd, group, &corners);
+            let may_pierce = bits(sides.may_pierce, group) & mask;
+            let [left, right] = sides.around_all.map(|mask| bits(mask, group));
+            for line in numbers(may_pierce) {
+                let is_against = self.against >> line & 1 == 1;
+                let leaving = match (left >> line & 1, right >> line & 1) {
+                    (0, 0) => {
+                        match View::along(&self.lines[line], self.mesh.reach).pierces(corners) {
+                            Some(leaving) => leaving,
+                            None => continue,
+                        }
+                    }
+                    (is_left, _) => (is_left == 1) == is_against,
+                };
+                let plane = plane.get_or_insert_with(|| Flat::through(corners)).as_ref();
+                let (ray, part) = (&self.lines[line], 2 * number as u32);
+                let met = pierce::met_with_plane(ray, corners, plane, leaving, part);
+                self.limits[line] = (self.found)(line, met) - self.from[line];
             }
         }
     }
 
-    /// Returns which of four lines do not certainly turn to the left around one edge and to the right around another.
+    /// Returns how four lines pass the edges of a triangle.
     #[inline(always)]
-    fn may_pierce<S: Simd>(&self, simd: S, group: usize, corners: &[Vector; 3]) -> Mask<S> {
+    fn sides<S: Simd>(&self, simd: S, group: usize, corners: &[Vector; 3]) -> Sides<S> {
         let [a, b, c] = corners;
         let (a, b, c) =
             (self.seen(simd, group, *a), self.seen(simd, group, *b), self.seen(simd, group, *c));
@@ -118,7 +135,10 @@ impl<F: FnMut(usize, Met) -> f64> Search<'_, '_, F> {
         let ab = turns_surely(simd, doubt, a, b);
         let bc = turns_surely(simd, doubt, b, c);
         let ca = turns_surely(simd, doubt, c, a);
-        !((ab[0] | bc[0] | ca[0]) & (ab[1] | bc[1] | ca[1]))
+        Sides {
+            may_pierce: !((ab[0] | bc[0] | ca[0]) & (ab[1] | bc[1] | ca[1])),
+            around_all: [ab[0] & bc[0] & ca[0], ab[1] & bc[1] & ca[1]],
+        }
     }
 
     /// Returns the projection of a point, as [`View`] sees it.
@@ -132,6 +152,14 @@ impl<F: FnMut(usize, Met) -> f64> Search<'_, '_, F> {
         let [right, up] = &self.shears;
         [first - four(simd, right, group) * main, second - four(simd, up, group) * main]
     }
+}
+
+/// How four lines pass the edges of a triangle.
+struct Sides<S: Simd> {
+    /// Those that do not certainly turn to the left around one edge and to the right around another.
+    may_pierce: Mask<S>,
+    /// Those that certainly turn to the left around all edges, and to the right.
+    around_all: [Mask<S>; 2],
 }
 
 /// Returns which lines see certainly a turn to the left from `p` to `q`, and which to the right: [`View`]'s
