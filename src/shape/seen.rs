@@ -2,7 +2,9 @@
 //!
 //! **Invariant:** rays side by side have the bits of each alone.
 
+use super::body::Body;
 use super::local::{InWorld, Local, LocalRay, Met};
+use super::mesh::missed::WideLines;
 use super::wide::points::times;
 use super::{Placed, Ray, U};
 use crate::math::placement::Placement;
@@ -176,7 +178,12 @@ impl SeenRow {
         store(start, &mut self.starts, group);
         store(speed, &mut self.speeds, group);
         store(start_error, &mut self.start_errors, group);
-        self.reaching |= bits(!is_beyond, group);
+        let mut reaching = !is_beyond;
+        if let Body::Mesh(mesh) = &*placed.body {
+            let lines = WideLines { nearest, direction, blur, turn, miss };
+            reaching &= mesh.may_be_pierced(simd, placed, &lines, ray.origin);
+        }
+        self.reaching |= bits(reaching, group);
     }
 
     /// Returns whether the ray of a number is one of them.

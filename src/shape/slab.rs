@@ -114,7 +114,7 @@ pub(super) enum Level {
 /// Number of roundings that may be in the start and direction of a ray that was meant to lie in a plane. A
 /// ray that leaves the plane at such a small slope may be classified as in it: it runs along the surface and
 /// contributes no light to it.
-const MEANT: f64 = 16.0 * U;
+pub(super) const MEANT: f64 = 16.0 * U;
 
 /// Returns how far from a plane, in local space, a line classified as lying in it may be.
 pub(super) fn meant(ray: &LocalRay) -> f64 {

@@ -3,6 +3,7 @@
 //! **Invariant:** watertight: a line through a shared edge or corner intersects one of the triangles there,
 //! and an even number of the triangles of a closed mesh.
 
+pub(super) mod missed;
 pub(super) mod pierce;
 mod skin;
 mod together;

@@ -2,6 +2,7 @@
 
 use super::placed::{assert_crossed_where_it_is, assert_left_where_it_is, placed, ray_at_placed};
 use super::*;
+use crate::math::wide::{Instructions, ROW, Rays};
 use crate::shape::exact::Triple;
 use crate::shape::local::{Crossings, Local, LocalRay, Met};
 use crate::shape::mesh::Face;
@@ -104,6 +105,57 @@ fn lines_side_by_side_meet_what_each_meets_alone() {
         }
     }
     assert!(met.min(together) > tries() / 20, "{met} {together}");
+}
+
+/// Most of the rays go close by an edge or a corner, where it is hardest to tell.
+#[test]
+fn rays_in_rows_meet_one_or_two_faces_as_each_alone() {
+    let mut random = Random(86);
+    let (mut met, mut missed) = (0, 0);
+    for turn in 0..tries_in(20) {
+        let size = random.size(-3.0, 0.0);
+        let centre = random.point(0.5);
+        let corners: Vec<Vector> = (0..4).map(|_| centre + random.point(size)).collect();
+        let faces = [[0, 1, 2], [1, 3, 2]][..1 + random.below(2)].iter().copied().map(flat);
+        let Some(mesh) = Mesh::new(corners.clone(), Vec::new(), faces.collect(), None) else {
+            continue;
+        };
+        let placed = placed(&mut random, Body::Mesh(mesh));
+        let rays: [Ray; ROW] = std::array::from_fn(|_| {
+            let [a, b] = [0; 2].map(|_| corners[random.below(4)]);
+            let edge = a + (b - a) * [0.0, 0.5, random.number(0.0, 1.0)][random.below(3)];
+            let off = [0.0, random.size(-18.0, 0.0)][random.below(2)];
+            let target = placed.placement.world_point(edge + random.point(off * size));
+            let far = random.size(-1.0, 2.0);
+            let origin = placed.placement.world_point(random.point(far));
+            let direction = UnitVector::from_direction(target - origin).unwrap_or(UnitVector::X);
+            Ray { origin, direction: direction.get() }
+        });
+        let row = Rays::new(rays.iter());
+        let limits = [f64::INFINITY; ROW];
+        let mut found: [Crossings; ROW] = Default::default();
+        let instructions = Instructions::all()[turn % 2];
+        placed.first_crossings_together(
+            instructions,
+            &row,
+            row.mask,
+            &limits,
+            |number, _, these| {
+                found[number] = Crossings::from_slice(these);
+            },
+        );
+        let crossed =
+            placed.crosses_together(instructions, &row, row.mask, &limits, |_, met| met.t > 0.0);
+        for (number, ray) in rays.iter().enumerate() {
+            let alone = placed.first_crossings(ray, f64::INFINITY);
+            assert_eq!(found[number], alone, "{ray:?} {placed:?}");
+            let is_crossed = placed.crosses(ray, f64::INFINITY, |met| met.t > 0.0);
+            assert_eq!(crossed >> number & 1 == 1, is_crossed, "{ray:?} {placed:?}");
+            met += usize::from(!alone.is_empty());
+            missed += usize::from(alone.is_empty());
+        }
+    }
+    assert!(met.min(missed) > tries() / 10, "{met} {missed}");
 }
 
 #[test]
