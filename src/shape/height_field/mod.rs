@@ -181,7 +181,7 @@ impl HeightField {
             [(2 * number, [first, right, up]), (2 * number + 1, [last, up, right])]
         {
             if let Some(leaving) = view.pierces(corners) {
-                found(pierce::met(ray, corners, leaving, part));
+                found(pierce::met(ray, corners, Flat::through(corners), leaving, part));
             }
         }
     }

@@ -48,6 +48,8 @@ pub struct Mesh {
     /// an odd number of faces.
     pub(super) inside: Option<UnitVector>,
     reach: f64,
+    /// The planes of its faces, if these are no more than [`FEW`].
+    flats: Vec<Flat>,
 }
 
 impl Mesh {
@@ -97,7 +99,10 @@ impl Mesh {
         let used = faces.iter().flat_map(|face| face.corners);
         let reach = used.map(|i| corners[i as usize].length()).fold(0.0, f64::max);
         let reach = reach * (1.0 + 4.0 * U);
-        Some(Self { corners, normals, faces, tree, skin, inside, reach })
+        let flat = |face: &Face| Flat::through(face.corners.map(|i| corners[i as usize]));
+        let few = if faces.len() <= FEW { faces.as_slice() } else { &[] };
+        let flats = few.iter().filter_map(flat).collect();
+        Some(Self { corners, normals, faces, tree, skin, inside, reach, flats })
     }
 
     /// Returns the slenderness of the most slender face: its longest side over the height on that side.
@@ -115,6 +120,15 @@ impl Mesh {
 
     fn corners_of(&self, face: &Face) -> [Vector; 3] {
         face.corners.map(|i| self.corners[i as usize])
+    }
+
+    /// Returns the plane of the face of this number.
+    #[inline]
+    fn flat(&self, number: usize) -> Option<Flat> {
+        match self.flats.get(number) {
+            Some(flat) => Some(*flat),
+            None => Flat::through(self.corners_of(self.faces.get(number)?)),
+        }
     }
 
     /// Returns whether lines side by side are found sooner than one by one.
@@ -141,7 +155,8 @@ impl Mesh {
                 let corners = self.corners_of(&self.faces[number]);
                 if let Some(pierced) = view.pierces(corners) {
                     let part = 2 * number as u32;
-                    limit = found(pierce::met(ray, corners, pierced, part)) - from;
+                    let flat = self.flat(number);
+                    limit = found(pierce::met(ray, corners, flat, pierced, part)) - from;
                 }
             }
             limit
@@ -183,6 +198,7 @@ fn sort(found: &mut Crossings) {
 }
 
 /// The plane of a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Flat {
     /// Of length about 1.
     pub normal: Vector,
@@ -342,10 +358,11 @@ impl Local for Mesh {
     }
 
     fn facet(&self, part: u32) -> Option<Facet> {
-        let corners = self.corners_of(self.faces.get(part as usize / 2)?);
-        let Flat { normal, turn } = Flat::through(corners)?;
+        let number = part as usize / 2;
+        let [corner, _, _] = self.corners_of(self.faces.get(number)?);
+        let Flat { normal, turn } = self.flat(number)?;
         let normal = if part % 2 == 1 { -normal } else { normal };
-        Some(Facet { corner: corners[0], normal, turn })
+        Some(Facet { corner, normal, turn })
     }
 
     fn extent(&self, along: Vector) -> (f64, f64) {

@@ -189,21 +189,15 @@ fn turns_left(p: [f64; 2], q: [f64; 2]) -> Option<bool> {
     }
 }
 
-/// Returns the crossing of a line with a triangle that it pierces.
-pub(in super::super) fn met(ray: &LocalRay, corners: [Vector; 3], leaving: bool, part: u32) -> Met {
-    met_with_plane(ray, corners, Flat::through(corners).as_ref(), leaving, part)
-}
-
-/// [`met`], given the plane of the triangle, if it has one.
+/// Returns the crossing of a line with a triangle that it pierces, and whose plane is `flat`, if it has one.
 ///
 /// With n the normal and P the crossing, s = n·(A − start)/n·d. **Error:** B, the error of the line there,
 /// plus the rounding of A − start and s·d, plus the displacement at P when the normal's error turns the plane
 /// about A, all over |n·d|. The crossing lies between the triangle's ends along the line.
-#[inline(always)]
-pub(super) fn met_with_plane(
+pub(in super::super) fn met(
     ray: &LocalRay,
     corners: [Vector; 3],
-    plane: Option<&Flat>,
+    flat: Option<Flat>,
     leaving: bool,
     part: u32,
 ) -> Met {
@@ -215,7 +209,7 @@ pub(super) fn met_with_plane(
         |t: f64| ray.blur_at(t) + 8.0 * U * (nearest.length() + corners[0].length() + t.abs());
     let middle = 0.5 * (low + high);
     let anywhere = Met { t: middle, error: 0.5 * (high - low) + off(middle), leaving, part };
-    let Some(&Flat { normal, turn }) = plane else { return anywhere };
+    let Some(Flat { normal, turn }) = flat else { return anywhere };
     let slope = normal.dot(direction);
     let t = (normal.dot(corners[0] - nearest) / slope).clamp(low, high);
     if !t.is_finite() {

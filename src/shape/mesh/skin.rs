@@ -57,7 +57,7 @@ impl Mesh {
     /// Returns the barycentric coordinates of a point of a face.
     pub(super) fn weights(&self, face: usize, point: Vector) -> Option<[f64; 3]> {
         let corners = self.corners_of(self.faces.get(face)?);
-        let Flat { normal, .. } = Flat::through(corners)?;
+        let Flat { normal, .. } = self.flat(face)?;
         let [a, b, c] = corners.map(|corner| corner - point);
         let areas = [c.cross(b), a.cross(c), b.cross(a)].map(|area| area.dot(normal).max(0.0));
         let all: f64 = areas.iter().sum();

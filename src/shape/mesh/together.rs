@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::super::U;
 use super::super::local::{LocalRay, Met};
 use super::pierce::{self, View};
-use super::{Flat, Mesh};
+use super::Mesh;
 use crate::bvh::packet::PacketSeeker;
 use crate::math::Vector;
 use crate::math::ray::Ray;
@@ -98,7 +98,7 @@ impl<F: FnMut(usize, Met) -> f64> Search<'_, '_, F> {
     fn face<S: Simd>(&mut self, simd: S, number: usize, mask: u32) {
         let corners = self.mesh.corners_of(&self.mesh.faces[number]);
         // Found for the first line that needs it.
-        let mut plane = None;
+        let mut flat = None;
         for group in 0..GROUPS {
             if !has(mask, group) {
                 continue;
@@ -117,9 +117,9 @@ impl<F: FnMut(usize, Met) -> f64> Search<'_, '_, F> {
                     }
                     (is_left, _) => (is_left == 1) == is_against,
                 };
-                let plane = plane.get_or_insert_with(|| Flat::through(corners)).as_ref();
+                let flat = *flat.get_or_insert_with(|| self.mesh.flat(number));
                 let (ray, part) = (&self.lines[line], 2 * number as u32);
-                let met = pierce::met_with_plane(ray, corners, plane, leaving, part);
+                let met = pierce::met(ray, corners, flat, leaving, part);
                 self.limits[line] = (self.found)(line, met) - self.from[line];
             }
         }
