@@ -55,7 +55,7 @@ impl PartialEq for Instructions {
 }
 
 /// Vectors side by side, by coordinate.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rows(pub [Row; 3]);
 
 impl Rows {

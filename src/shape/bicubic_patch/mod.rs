@@ -14,20 +14,19 @@
 
 mod foot;
 mod net;
+mod piece;
 
 use super::local::{Crossings, Height, Local, LocalRay, Met};
 use super::tree::Tree;
 use super::{Bounds, U};
 use crate::math::Vector;
-use net::{Across, Net, Place, bounds};
+use crate::math::wide::*;
+use net::{Net, bounds};
+use piece::{Piece, Root, Seen};
 use smallvec::SmallVec;
 
 /// Maximum number of pieces. A line that is not tangent to the patch, within rounding, never needs as many.
 const MOST_PIECES: usize = 1 << 14;
-
-/// Maximum deviation of a piece's map from a linear one for Newton's method: below 1/3, convergence to the
-/// single root is certain.
-const NEARLY_LINEAR: f64 = 0.3;
 
 /// Area in u and v up to which a piece is not halved in advance, however bent it is.
 const SMALLEST: f64 = 1.0 / 64.0;
@@ -49,41 +48,10 @@ pub struct BicubicPatch {
     reach: f64,
 }
 
-/// A part of the surface; relative to a line, x and y are across it, and z is along it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Piece {
-    net: Net,
-    /// Start in u and v.
-    start: [f64; 2],
-    /// Extent in u and v.
-    size: [f64; 2],
-}
-
-/// Classification of a piece.
-enum Seen {
-    /// Beside the line, or beside the requested range of it.
-    Beside,
-    /// The map from u and v to the distances from the line is nearly linear: composed with this matrix, it
-    /// differs from the identity by at most the second value.
-    Linear([[f64; 2]; 2], f64),
-    /// Entirely on the line, within rounding.
-    Point,
-    /// None of these.
-    Bent,
-}
-
-/// An intersection of the line with the surface.
-struct Root {
-    met: Met,
-    place: [f64; 2],
-    /// Error of `place`.
-    off: [f64; 2],
-}
-
 impl BicubicPatch {
     /// Builds a patch from finite control points.
     pub fn new(points: [Vector; 16]) -> Self {
-        let net = Net(points);
+        let net = Net::new(&points);
         let mut pieces = Vec::new();
         let mut bent = vec![Piece { net, start: [0.0; 2], size: [1.0; 2] }];
         while let Some(mut piece) = bent.pop() {
@@ -119,191 +87,84 @@ impl BicubicPatch {
     }
 }
 
-impl Piece {
-    /// Returns whether lines that intersect its box are likely to need its halves.
-    fn is_bent(&self) -> bool {
-        let off = |steps: [Vector; 12]| {
-            let mean = steps.iter().copied().sum::<Vector>() / 12.0;
-            let farthest = steps.iter().map(|step| (*step - mean).length()).fold(0.0, f64::max);
-            farthest > NEARLY_LINEAR * mean.length()
-        };
-        off(self.net.steps_along_u()) || off(self.net.steps_along_v())
-    }
-
-    /// Classifies it for a range along the line, where distances below `off` count as 0.
-    fn look(&self, (from, to): (f64, f64), off: f64) -> Seen {
-        let (low, high) = self.net.bounds();
-        if low.x > off || low.y > off || high.x < -off || high.y < -off {
-            return Seen::Beside;
-        }
-        if low.z > to + off || high.z < from - off {
-            return Seen::Beside;
-        }
-        let greatest = low.abs().max(high.abs());
-        if greatest.x <= off && greatest.y <= off {
-            return Seen::Point;
-        }
-        let points = &self.net.0;
-        let along_u = points[3] + points[15] - points[0] - points[12];
-        let along_v = points[12] + points[15] - points[0] - points[3];
-        let Some(inverse) = inverse(along_u * 0.5, along_v * 0.5) else { return Seen::Bent };
-        let [[a, b], [c, d]] = inverse;
-        let straight = |p: Vector| Vector::new(a * p.x + b * p.y, c * p.x + d * p.y, p.z);
-        let net = self.net.map(straight);
-        let (low, high) = net.bounds();
-        let (off_u, off_v) = (off * (a.abs() + b.abs()), off * (c.abs() + d.abs()));
-        if low.x > off_u || high.x < -off_u || low.y > off_v || high.y < -off_v {
-            return Seen::Beside;
-        }
-        // How far the derivative is from the identity.
-        let farthest = |steps: [Vector; 12], from: Vector| {
-            let (low, high) = bounds(&steps);
-            (low - from).abs().max((high - from).abs())
-        };
-        let by_u = farthest(net.steps_along_u(), Vector::X);
-        let by_v = farthest(net.steps_along_v(), Vector::Y);
-        let bend = (by_u.x + by_v.x).max(by_u.y + by_v.y);
-        if bend <= NEARLY_LINEAR { Seen::Linear(inverse, bend) } else { Seen::Bent }
-    }
-
-    /// Keeps one half, split along its longer parameter direction, and returns the other.
-    fn halve(&mut self, length: impl Fn(Vector) -> f64) -> Self {
-        let length = |steps: [Vector; 12]| steps.into_iter().map(&length).sum::<f64>();
-        let is_along_u = length(self.net.steps_along_u()) >= length(self.net.steps_along_v());
-        let net = if is_along_u { self.net.halve_along_u() } else { self.net.halve_along_v() };
-        let axis = usize::from(!is_along_u);
-        self.size[axis] *= 0.5;
-        let mut start = self.start;
-        start[axis] += self.size[axis];
-        Self { net, start, size: self.size }
-    }
-
-    /// Returns the intersection with a nearly linear piece, if it is within the piece's bounds, to rounding:
-    /// Newton's method, clamped near them.
-    ///
-    /// **Error**: with M the inverse of the derivative and κ its deviation from linear, u and v are off by at
-    /// most |M|·off/(1 − κ), counted twice; the position along the line is off by that times the largest
-    /// derivative.
-    fn root(
-        &self,
-        whole: &Net,
-        across: &Across,
-        inverse: [[f64; 2]; 2],
-        bend: f64,
-        off: f64,
-    ) -> Option<Root> {
-        let Self { start, size, .. } = *self;
-        let global = |x: [f64; 2]| [start[0] + x[0] * size[0], start[1] + x[1] * size[1]];
-        let mut x = [0.5, 0.5];
-        for _ in 0..32 {
-            let [u, v] = global(x);
-            let [point, along_u, along_v] = across.at(u, v);
-            // Far less than what can be told.
-            if point[0].abs().max(point[1].abs()) <= off / 16.0 {
-                break;
-            }
-            let way = |along: [f64; 2], size: f64| Vector::new(along[0], along[1], 0.0) * size;
-            let Some([[a, b], [c, d]]) =
-                self::inverse(way(along_u, size[0]), way(along_v, size[1]))
-            else {
-                break;
-            };
-            let step = [a * point[0] + b * point[1], c * point[0] + d * point[1]];
-            let next = [0, 1].map(|i| (x[i] - step[i]).clamp(-0.25, 1.25));
-            let moved = (next[0] - x[0]).abs().max((next[1] - x[1]).abs());
-            x = next;
-            if moved <= 2.0 * U {
-                break;
-            }
-        }
-        let [[a, b], [c, d]] = inverse;
-        let spread = 2.0 * off / (1.0 - bend);
-        let spread = [spread * (a.abs() + b.abs()), spread * (c.abs() + d.abs())];
-        let place = global(x);
-        let Place { point, along_u, along_v } = whole.at(place[0], place[1]);
-        let within = (0..2).all(|i| -spread[i] <= x[i] && x[i] <= 1.0 + spread[i]);
-        if !within || point.x.abs().max(point.y.abs()) > off {
-            return None;
-        }
-        let steepest =
-            |steps: [Vector; 12]| steps.iter().map(|step| step.z.abs()).fold(0.0, f64::max);
-        let error = spread[0] * steepest(self.net.steps_along_u())
-            + spread[1] * steepest(self.net.steps_along_v())
-            + off;
-        // The normal is v × u.
-        let leaving = along_u.x * along_v.y - along_u.y * along_v.x < 0.0;
-        let met = Met { t: point.z, error, leaving, part: part_at(place) };
-        Some(Root { met, place, off: [spread[0] * size[0], spread[1] * size[1]] })
-    }
-}
-
-impl Root {
-    /// Returns whether both are the same intersection, found in two adjacent pieces.
-    fn is(&self, other: &Self) -> bool {
-        let near = |i: usize| {
-            let apart = (self.place[i] - other.place[i]).abs();
-            apart <= self.off[i] + other.off[i] + 8.0 * U
-        };
-        self.met.leaving == other.met.leaving && near(0) && near(1)
-    }
-}
-
 fn part_at([u, v]: [f64; 2]) -> u32 {
     let number = |t: f64| (t.clamp(0.0, 1.0) * STEPS).round() as u32;
     (number(u) << 15) | number(v)
 }
 
-/// Returns the inverse of the matrix with these derivatives along u and v, restricted to the directions
-/// across the line.
-fn inverse(along_u: Vector, along_v: Vector) -> Option<[[f64; 2]; 2]> {
-    let determinant = along_u.x * along_v.y - along_v.x * along_u.y;
-    let by = 1.0 / determinant;
-    let inverse = [[along_v.y * by, -along_v.x * by], [-along_u.y * by, along_u.x * by]];
-    inverse.iter().flatten().all(|entry| entry.is_finite()).then_some(inverse)
+/// What is asked of a line.
+#[derive(Clone, Copy)]
+struct Asked {
+    /// From where to where crossings may lie.
+    between: (f64, f64),
+    /// Crossings are wanted up to the first that is certainly ahead of this.
+    ahead: f64,
 }
 
 impl BicubicPatch {
-    /// Adds the crossings that may lie in a range, in order.
-    fn meet(&self, ray: &LocalRay, between: (f64, f64), found: &mut Crossings) {
+    /// Adds the crossings that may lie in a range, in order; none are missing before the first that is enough.
+    fn meet(&self, ray: &LocalRay, asked: Asked, found: &mut Crossings) {
         // What the view rounds points by, what halving does and what a value does, generously.
         let size = self.reach + ray.nearest.length();
         let off = ray.blur_at(size) + 128.0 * U * size;
-        let mut roots: SmallVec<[Root; 4]> = SmallVec::new();
-        let mut tips = [false; 4];
         let mut near: SmallVec<[usize; 16]> = SmallVec::new();
         self.tree.along(ray, off, |run| near.extend(run));
         if near.is_empty() {
             return;
         }
+        dispatch!(Instructions::best().level(), simd => self.meet_near(simd, ray, asked, off, &near, found));
+        found.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
+    }
+
+    /// [`Self::meet`] for some pieces, in no order.
+    #[inline(always)]
+    fn meet_near<S: Simd>(
+        &self,
+        simd: S,
+        ray: &LocalRay,
+        Asked { between: (from, mut to), ahead }: Asked,
+        off: f64,
+        near: &[usize],
+        found: &mut Crossings,
+    ) {
         let LocalRay { nearest, direction, .. } = *ray;
         let (aside, across) = direction.any_orthonormal_pair();
-        let seen = |point: Vector| {
-            let from = point - nearest;
-            Vector::new(from.dot(aside), from.dot(across), from.dot(direction))
-        };
-        let whole = self.net.map(seen);
-        let across = whole.across();
+        let axes = [aside, across, direction];
+        let mut whole = None;
+        let mut roots: SmallVec<[Root; 4]> = SmallVec::new();
+        let mut tips = [false; 4];
         let mut pieces: SmallVec<[Piece; 16]> = SmallVec::new();
+        let mut near = near.iter().rev();
         let mut count = 0;
-        let placed = |number: usize| {
-            let piece = &self.pieces[number];
-            Piece { net: piece.net.map(seen), ..*piece }
-        };
         loop {
             if pieces.is_empty() {
-                pieces.extend(near.pop().map(&placed));
+                let Some(number) = near.next() else { break };
+                let piece = &self.pieces[*number];
+                pieces.push(Piece { net: piece.net.seen(simd, nearest, &axes), ..*piece });
             }
             let Some(piece) = pieces.last_mut() else { break };
             count += 1;
             if count > MOST_PIECES {
                 break;
             }
-            match piece.look(between, off) {
+            match piece.look(simd, (from, to), off) {
                 Seen::Beside => {}
                 Seen::Linear(inverse, bend) => {
-                    let root = piece.root(&whole, &across, inverse, bend, off);
-                    let new = root.filter(|root| !roots.iter().any(|other| other.is(root)));
-                    roots.extend(new);
+                    if whole.is_none() {
+                        whole = Some(self.net.seen(simd, nearest, &axes));
+                    }
+                    let root = whole
+                        .as_ref()
+                        .and_then(|whole| piece.root(simd, whole, (inverse, bend), off));
+                    if let Some(root) = root
+                        && !roots.iter().any(|other| other.is(&root))
+                    {
+                        let Met { t, error, .. } = root.met;
+                        if t - error > ahead {
+                            to = to.min(t + error);
+                        }
+                        roots.push(root);
+                    }
                 }
                 // The halves are looked at where they lie: they are large.
                 Seen::Bent => {
@@ -323,17 +184,17 @@ impl BicubicPatch {
             pieces.pop();
         }
         found.extend(roots.into_iter().map(|root| root.met));
-        found.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.part.cmp(&b.part)));
     }
 }
 
 impl Local for BicubicPatch {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        self.meet(ray, (f64::NEG_INFINITY, f64::INFINITY), found);
+        let between = (f64::NEG_INFINITY, f64::INFINITY);
+        self.meet(ray, Asked { between, ahead: f64::INFINITY }, found);
     }
 
     fn first_crossings(&self, ray: &LocalRay, between: (f64, f64), found: &mut Crossings) {
-        self.meet(ray, between, found);
+        self.meet(ray, Asked { between, ahead: ray.ahead_of(between.0) }, found);
     }
 
     fn part_at(&self, ray: &LocalRay, s: f64, _: bool) -> Option<u32> {
@@ -341,7 +202,8 @@ impl Local for BicubicPatch {
         let size = self.reach + ray.nearest.length();
         let near = 8.0 * ray.blur_at(size) + 64.0 * U * size;
         let mut found = Crossings::new();
-        self.meet(ray, (s - near, s + near), &mut found);
+        let between = (s - near, s + near);
+        self.meet(ray, Asked { between, ahead: f64::INFINITY }, &mut found);
         found.retain(|met| (met.t - s).abs() <= near);
         let [met] = found[..] else { return None };
         Some(met.part)
@@ -401,12 +263,13 @@ impl BicubicPatch {
 
 #[cfg(test)]
 impl BicubicPatch {
-    pub(super) fn points(&self) -> &[Vector; 16] {
-        &self.net.0
+    pub(super) fn points(&self) -> [Vector; 16] {
+        self.net.points()
     }
 
     /// Returns a point of the surface and its normal.
     pub(super) fn at(&self, u: f64, v: f64) -> (Vector, Vector) {
-        (self.net.at(u, v).point, self.normal(u, v).normalize_or(Vector::Z))
+        let place = dispatch!(Instructions::best().level(), simd => self.net.place(simd, [u, v]));
+        (place.point, self.normal(u, v).normalize_or(Vector::Z))
     }
 }

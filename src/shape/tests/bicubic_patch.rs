@@ -1,7 +1,8 @@
 //! Bézier patches against exact arithmetic, at their edges and tips, and along them.
 
 use super::placed::{
-    assert_crossed_where_it_is, at_the_origin, blur, local_at, placed, ray_at_placed,
+    assert_crossed_where_it_is, assert_first_found_up_to_a_limit, at_the_origin, blur, local_at,
+    placed, ray_at_placed,
 };
 use super::*;
 use crate::shape::exact::Triple;
@@ -46,6 +47,7 @@ fn a_patch_is_met_where_exact_arithmetic_meets_it_and_as_often() {
         let placed = placed(&mut random, Body::BicubicPatch(patch));
         let ray = ray_at_placed(&mut random, &placed);
         met += assert_crossed_where_it_is(&mut random, &placed, &ray, over_hill);
+        assert_first_found_up_to_a_limit(&mut random, &placed, &ray);
         // Of the line's part above and below the square, each hand of each crossing is told by the ones
         // before.
         let all = placed.crossings(&ray);
