@@ -118,7 +118,7 @@ impl Algebraic {
     /// **Error** of each coefficient: let A be the same polynomial with all absolute values, and A′ that with
     /// the line's blur and turn added to those of its point and direction. The line contributes A′ − A, and
     /// rounding contributes each coefficient of A′ times the rounding of all three.
-    fn along_ray(&self, ray: &LocalRay) -> Polynomial {
+    fn along_ray<const ROOM: usize>(&self, ray: &LocalRay) -> Polynomial<ROOM> {
         let LocalRay { nearest, direction, blur, turn, .. } = *ray;
         let (place, way) = (nearest.abs(), direction.abs());
         let line =
@@ -144,12 +144,30 @@ impl Algebraic {
     fn meet(
         &self,
         ray: &LocalRay,
+        between: (f64, f64),
+        found: &mut Crossings,
+        is_enough: impl Fn(&Met) -> bool,
+    ) {
+        // Most have few terms: there is little to be cleared and copied.
+        match self.degree {
+            0..=2 => self.meet_in::<3>(ray, between, found, is_enough),
+            3 => self.meet_in::<4>(ray, between, found, is_enough),
+            4 => self.meet_in::<5>(ray, between, found, is_enough),
+            5..=8 => self.meet_in::<9>(ray, between, found, is_enough),
+            _ => self.meet_in::<{ MOST + 1 }>(ray, between, found, is_enough),
+        }
+    }
+
+    /// [`Self::meet`] with room for so many coefficients.
+    fn meet_in<const ROOM: usize>(
+        &self,
+        ray: &LocalRay,
         (from, to): (f64, f64),
         found: &mut Crossings,
         is_enough: impl Fn(&Met) -> bool,
     ) {
         let (mut line, mut start) = (*ray, 0.0);
-        let mut polynomial = self.along_ray(ray);
+        let mut polynomial = self.along_ray::<ROOM>(ray);
         if let Some(vertex) = polynomial.doubtful_vertex() {
             // Of planes that are close together, or of a flat ellipsoid, the terms are small between its sides.
             line = about(ray, vertex);

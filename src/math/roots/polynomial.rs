@@ -64,6 +64,9 @@ type Brackets = SmallVec<[Bracket; 6]>;
 /// Positions at which the polynomial is evaluated.
 type Marks = SmallVec<[f64; 16]>;
 
+/// So many coefficients are few.
+const FEW: usize = 5;
+
 /// Number of times that a piece is halved before its extrema are computed.
 const HALVED: u32 = 3;
 
@@ -72,7 +75,7 @@ const HALVED: u32 = 3;
 const COVERED: f64 = 16.0;
 const HALVED_MORE: u32 = 3;
 
-/// A polynomial with its error bounds, with room for so many coefficients: most have few, and little to be copied.
+/// A polynomial with its error bounds, with room for so many coefficients: most have few, and little is copied.
 #[derive(Debug, Clone)]
 pub struct Polynomial<const ROOM: usize = { MOST + 1 }> {
     values: [f64; ROOM],
@@ -81,10 +84,13 @@ pub struct Polynomial<const ROOM: usize = { MOST + 1 }> {
     degree: usize,
 }
 
-impl Polynomial {
+impl<const ROOM: usize> Polynomial<ROOM> {
     /// Returns the position of a parabola's vertex, if rounding decides whether it reaches 0 there.
     pub fn doubtful_vertex(&self) -> Option<f64> {
-        let ([c, b, a, ..], [slack_c, slack_b, slack_a, ..]) = (&self.values, &self.slack);
+        let ([c, b, a, ..], [slack_c, slack_b, slack_a, ..]) = (&self.values[..], &self.slack[..])
+        else {
+            return None;
+        };
         if self.degree != 2 || a.abs() <= 4.0 * slack_a {
             return None;
         }
@@ -94,9 +100,9 @@ impl Polynomial {
     }
 
     /// Builds a polynomial; `errors` are the error bounds of `values`.
-    pub fn new(values: Coefficients, errors: Coefficients) -> Self {
+    pub fn new(values: [f64; ROOM], errors: [f64; ROOM]) -> Self {
         let known = |k: &usize| values[*k] != 0.0 || errors[*k] != 0.0;
-        let degree = (0..=MOST).rev().find(known).unwrap_or(0);
+        let degree = (0..ROOM).rev().find(known).unwrap_or(0);
         let mut slack = errors;
         for (k, slack) in slack.iter_mut().enumerate() {
             // Horner's rule rounds the term of sᵏ 2k + 1 times; the rest is for the bound itself.
@@ -116,21 +122,17 @@ impl Polynomial {
             }
             return;
         }
-        match self.degree {
-            ..=4 => self.in_room::<5>().search(asked, show),
-            5..=8 => self.in_room::<9>().search(asked, show),
-            _ => self.search(asked, show),
-        }
+        self.search(asked, show);
     }
 
-    /// Returns the polynomial with room for no more than its coefficients.
-    fn in_room<const ROOM: usize>(&self) -> Polynomial<ROOM> {
-        let room = |list: &Coefficients| std::array::from_fn(|k| list[k]);
-        Polynomial { values: room(&self.values), slack: room(&self.slack), degree: self.degree }
+    /// Returns the coefficients, and their slack: all that there is room for where that is little, as loops over them
+    /// then have a length that is known; zeros above the degree change nothing.
+    #[inline(always)]
+    fn terms(&self) -> (&[f64], &[f64]) {
+        let count = if ROOM <= FEW { ROOM } else { self.degree + 1 };
+        (&self.values[..count], &self.slack[..count])
     }
-}
 
-impl<const ROOM: usize> Polynomial<ROOM> {
     /// [`Polynomial::roots`] by bounds of pieces.
     fn search(&self, asked: &Asked, show: &mut impl FnMut(Root) -> bool) {
         let Asked { size, end, tolerance, between: (from, to) } = *asked;
@@ -202,8 +204,9 @@ impl<const ROOM: usize> Polynomial<ROOM> {
 
     /// The sign at s; 0 unless the value certainly exceeds `least` in magnitude.
     fn sign_beyond(&self, least: f64, s: f64) -> i8 {
-        let value = value(&self.values[..=self.degree], s);
-        let slack = value_of_positive(&self.slack[..=self.degree], s.abs()) + least;
+        let (values, slack) = self.terms();
+        let value = value(values, s);
+        let slack = value_of_positive(slack, s.abs()) + least;
         match () {
             () if value > slack && value.is_finite() => 1,
             () if value < -slack && value.is_finite() => -1,
@@ -294,14 +297,14 @@ impl<const ROOM: usize> Polynomial<ROOM> {
     /// Returns the root at a change of sign, starting at `guess` if that is in range, with the smallest
     /// interval around it whose ends have certain signs, or within `tolerance` on each side.
     fn near(&self, guess: f64, change: Change, tolerance: f64) -> Bracket {
-        let values = &self.values[..=self.degree];
+        let (values, slack) = self.terms();
         // That of a parabola is no guess.
         let is_exact = self.degree == 2 && !guess.is_nan();
         let s = if is_exact { guess } else { root_near(values, guess, change, tolerance, U) };
         let tolerance = if is_exact { 0.0 } else { tolerance };
         let Change { low, high, rising } = change;
         let (_, slope) = value_and_slope(values, s);
-        let slack = value_of_positive(&self.slack[..=self.degree], s.abs());
+        let slack = value_of_positive(slack, s.abs());
         let after = if rising { 1 } else { -1 };
         // Where the slope is as good as 0, this is far too much: it grows as it has to.
         let most = (high - low) * f64::from(f32::EPSILON);
@@ -364,6 +367,7 @@ impl Bracket {
 /// Returns the root between two positions with opposite signs, to about `tolerance` or, relative to itself,
 /// `finest`, starting at `guess` if that is in range: by Newton's method while each step is at most half as long as the previous one and stays
 /// in the bracket, else by bisection.
+#[inline(always)]
 fn root_near(values: &[f64], guess: f64, change: Change, tolerance: f64, finest: f64) -> f64 {
     let Change { mut low, mut high, rising } = change;
     let mut s = if low < guess && guess < high { guess } else { 0.5 * (low + high) };
@@ -401,14 +405,17 @@ pub fn root_between_ends(values: &[f64], (low, high): (f64, f64)) -> Option<f64>
     (below * above < 0.0).then(|| root_near(values, f64::NAN, change, 0.0, U))
 }
 
+#[inline(always)]
 fn value(values: &[f64], s: f64) -> f64 {
     values.iter().rev().fold(0.0, |sum, c| sum * s + c)
 }
 
+#[inline(always)]
 fn value_of_positive(values: &[f64], s: f64) -> f64 {
     value(values, s) * (1.0 + 64.0 * U)
 }
 
+#[inline(always)]
 fn value_and_slope(values: &[f64], s: f64) -> (f64, f64) {
     let step = |(value, slope), c: &f64| (value * s + c, slope * s + value);
     values.iter().rev().fold((0.0, 0.0), step)

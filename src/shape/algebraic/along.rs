@@ -7,7 +7,6 @@
 
 use super::Algebraic;
 use crate::math::Vector;
-use crate::math::roots::polynomial::{Coefficients, MOST};
 
 /// Three lines: start + s · step.
 pub struct Line {
@@ -31,18 +30,9 @@ pub fn zeros(degree: usize, terms: &[f64]) -> Vec<u8> {
 }
 
 impl Algebraic {
-    pub(super) fn along(&self, line: &Line) -> [Coefficients; 3] {
-        // Most have few terms: there is little to be cleared.
-        match self.degree {
-            2 => self.along_in::<3>(line),
-            3 => self.along_in::<4>(line),
-            4 => self.along_in::<5>(line),
-            _ => self.along_in::<{ MOST + 1 }>(line),
-        }
-    }
-
+    /// Computes them with room for so many coefficients: one more than the degree, or more.
     #[inline(never)]
-    fn along_in<const ROOM: usize>(&self, line: &Line) -> [Coefficients; 3] {
+    pub(super) fn along<const ROOM: usize>(&self, line: &Line) -> [[f64; ROOM]; 3] {
         let axis = |of: [Vector; 3], axis: usize| [of[0][axis], of[1][axis], of[2][axis], 0.0];
         let ways = [0, 1, 2].map(|i| (axis(line.starts, i), axis(line.steps, i)));
         let mut terms = self.terms.as_slice();
@@ -68,7 +58,7 @@ impl Algebraic {
             all.add(&plane);
         }
         [0, 1, 2].map(|which| {
-            let mut coefficients = [0.0; MOST + 1];
+            let mut coefficients = [0.0; ROOM];
             for (coefficient, side) in coefficients.iter_mut().zip(&all.values) {
                 *coefficient = side[which];
             }

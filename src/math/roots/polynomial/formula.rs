@@ -12,7 +12,7 @@ use crate::math::elementary::cbrt;
 /// The approximate position of each change, and the positions that it lies between.
 pub type Guesses = SmallVec<[(f64, Change); 3]>;
 
-impl Polynomial {
+impl<const ROOM: usize> Polynomial<ROOM> {
     /// Returns the changes of sign; `None` if the degree is not 2 or 3, or if the signs at the ends or the
     /// extrema are inconclusive.
     pub(super) fn by_formula(&self) -> Option<Guesses> {
@@ -24,7 +24,7 @@ impl Polynomial {
     }
 
     fn of_parabola(&self) -> Option<Guesses> {
-        let [c, b, a, ..] = self.values;
+        let [c, b, a, ..] = self.values[..] else { return None };
         let opens_up = a > 0.0;
         let outside = if opens_up { 1 } else { -1 };
         let middle = -0.5 * b / a;
@@ -56,7 +56,7 @@ impl Polynomial {
     /// **Source:** W. Press and others, *Numerical Recipes in C* (1992), § 5.6 (Cardano's formula); the three
     /// roots by their distance from where two of them would coincide.
     fn of_cubic(&self) -> Option<Guesses> {
-        let [_, c, b, a, ..] = self.values;
+        let [_, c, b, a, ..] = self.values[..] else { return None };
         let middle = -b / (3.0 * a);
         let turn = middle * middle - c / (3.0 * a);
         let width = turn.abs().sqrt();

@@ -6,7 +6,7 @@ use super::turning::order_without_roots;
 use super::*;
 use crate::math::random::{Random, tries_in};
 
-impl Polynomial {
+impl<const ROOM: usize> Polynomial<ROOM> {
     fn all_roots(&self, size: f64, tolerance: f64) -> Roots {
         let between = (f64::NEG_INFINITY, f64::INFINITY);
         let mut all = Roots::new();
@@ -163,4 +163,24 @@ fn a_polynomial_turns_where_its_derivative_is_zero_whichever_orders_are_left_out
         even += usize::from(order_without_roots(&values, -0.75, 0.75) == 1);
     }
     assert!(turned > 1000 && even > 100, "{turned} {even}");
+}
+
+#[test]
+fn a_polynomial_has_the_same_roots_with_room_for_more_terms() {
+    let mut random = Random(87);
+    let mut found = 0;
+    for _ in 0..tries_in(4) {
+        let roots: Vec<f64> = (0..random.below(5)).map(|_| random.number(-1.0, 1.0)).collect();
+        let wide = product(&roots, &[]);
+        let values: [f64; 5] = std::array::from_fn(|k| wide.values[k]);
+        let narrow = Polynomial {
+            values,
+            slack: std::array::from_fn(|k| wide.slack[k]),
+            degree: wide.degree,
+        };
+        let size = random.size(-1.0, 1.0);
+        assert_eq!(narrow.all_roots(size, 0.0), wide.all_roots(size, 0.0), "{wide:?}");
+        found += wide.all_roots(size, 0.0).len();
+    }
+    assert!(found > tries_in(4), "{found}");
 }
