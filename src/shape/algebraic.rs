@@ -80,13 +80,17 @@ impl Algebraic {
     /// Returns the value and the gradient of the polynomial with these terms at a point.
     fn at(&self, terms: &[f64], point: Vector) -> (f64, Vector) {
         let Vector { x, y, z } = point;
-        let mut terms = terms.iter();
+        let mut terms = terms;
+        let mut zeros = self.zeros.iter();
         let (mut all, mut slope) = (0.0, Vector::ZERO);
         for i in 0..=self.degree {
             let (mut plane, mut plane_slope) = (0.0, Vector::ZERO);
             for j in 0..=i {
+                let (row_terms, rest) = terms.split_at(j + 1);
+                terms = rest;
+                let zeros = zeros.next().map_or(0, |zeros| usize::from(*zeros));
                 let (mut row, mut row_slope) = (0.0, 0.0);
-                for term in terms.by_ref().take(j + 1) {
+                for term in &row_terms[zeros..] {
                     row_slope = row_slope * z + row;
                     row = row * z + term;
                 }
