@@ -85,6 +85,12 @@ impl Text {
 
 impl Local for Text {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        self.first_crossings(ray, (f64::NEG_INFINITY, f64::INFINITY), found);
+    }
+
+    /// Adds the crossings of the letters that the line passes through in the range; beyond its ends, a letter may be
+    /// missing that hides a crossing.
+    fn first_crossings(&self, ray: &LocalRay, between: (f64, f64), found: &mut Crossings) {
         if self.is_flat {
             found.extend(self.met_flat(ray));
             return;
@@ -95,7 +101,7 @@ impl Local for Text {
         self.tree.along(ray, ray.blur_at(2.0) + 16.0 * U + meant(ray), |run| {
             for letter in &self.letters[run] {
                 own.clear();
-                letter.prism.crossings(ray, &mut own);
+                letter.prism.first_crossings(ray, between, &mut own);
                 let named = |met: Met| Met { part: met.part + letter.first_part, ..met };
                 spans.extend(own.chunks_exact(2).map(|pair| (named(pair[0]), named(pair[1]))));
             }

@@ -2,8 +2,8 @@
 
 use super::outline::{any_outline, is_clear, planar};
 use super::placed::{
-    assert_crossed_where_it_is, assert_left_into_the_open, blur, greater, local_at, placed,
-    ray_at_placed,
+    assert_crossed_where_it_is, assert_first_found_up_to_a_limit, assert_left_into_the_open, blur,
+    greater, local_at, placed, ray_at_placed,
 };
 use super::*;
 use crate::math::random::tries_in;
@@ -65,6 +65,7 @@ fn a_text_is_crossed_where_exact_arithmetic_is_inside_of_any_letter() {
             let count = assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
             crossed += count;
             again += usize::from(count > 2);
+            assert_first_found_up_to_a_limit(&mut random, &placed, &ray);
             // Where letters overlap, the surface of one may lie within another.
             if are_apart && is_clear(&placed, &ray, false) {
                 assert_left_into_the_open(&mut random, &placed, &ray, inside);
