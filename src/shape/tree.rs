@@ -81,20 +81,30 @@ impl Tree {
         let reciprocal = direction.recip().clamp(-steepest, steepest);
         let (past_low, past_high) = (nearest + slack, nearest - slack);
         let meets = |Bounds { low, high }: &Bounds| {
-            let (a, b) = ((*low - past_low) * reciprocal, (*high - past_high) * reciprocal);
-            a.min(b).max_element() <= a.max(b).min_element()
+            let a = ((*low - past_low) * reciprocal).to_array();
+            let b = ((*high - past_high) * reciprocal).to_array();
+            // All are numbers: a comparison is less than `min` does.
+            let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
+            for (a, b) in a.into_iter().zip(b) {
+                let (near, far) = if a < b { (a, b) } else { (b, a) };
+                enter = if near > enter { near } else { enter };
+                leave = if far < leave { far } else { leave };
+            }
+            enter <= leave
         };
         let mut stack: SmallVec<[u32; 64]> = SmallVec::new();
-        stack.push(0);
-        while let Some(index) = stack.pop() {
+        let mut next = Some(0);
+        while let Some(index) = next {
             let Node { bounds, first, count } = &self.nodes[index as usize];
-            if !meets(bounds) {
-                continue;
+            if meets(bounds) {
+                if *count == 0 {
+                    stack.push(first + 1);
+                    next = Some(*first);
+                    continue;
+                }
+                leaf(*first as usize..(first + count) as usize);
             }
-            match count {
-                0 => stack.extend([first + 1, *first]),
-                _ => leaf(*first as usize..(first + count) as usize),
-            }
+            next = stack.pop();
         }
     }
 
