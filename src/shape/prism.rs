@@ -6,8 +6,11 @@
 //! polynomial changes along the outline.
 
 mod ends;
+mod isolated;
 mod ruled;
 mod wall;
+
+use std::ops::Range;
 
 use smallvec::SmallVec;
 
@@ -17,7 +20,7 @@ use super::cylinder::{BASE, CAP, between};
 use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 use ends::{after, before, entered, high, low, reversed};
-use ruled::{Ruled, WALLS, Wall, part_of};
+use ruled::{Ruled, WALLS, Wall, Walls, part_of};
 use wall::{aside, beside, tip};
 
 #[derive(Debug, Clone, PartialEq)]
@@ -42,36 +45,34 @@ const GRAZING: f64 = 1e-6;
 
 impl Prism {
     /// Returns the parts of the line between walls, in order, and, if it lies in a wall within rounding, its
-    /// minimum displacement.
-    fn spans(&self, ray: &LocalRay) -> (Spans, Option<f64>) {
+    /// minimum displacement; and whether each part is certainly within its walls, between their bounds.
+    /// Crossings that are certainly not in a range have wide bounds.
+    fn spans(&self, ray: &LocalRay, range: (f64, f64)) -> (Spans, Option<f64>, bool) {
         let tilt = (ray.direction.x * ray.direction.x + ray.direction.y * ray.direction.y).sqrt();
         if !self.conic
             && tilt < STEEP
-            && let Some(upright) = self.upright(ray, tilt)
+            && let Some((spans, in_wall)) = self.upright(ray, tilt)
         {
-            return upright;
+            return (spans, in_wall, false);
         }
         if self.conic && ray.nearest.length() <= tip(ray) {
-            return self.through_apex(ray);
+            let (spans, in_wall) = self.through_apex(ray);
+            return (spans, in_wall, false);
         }
         let ruled = Ruled::new(ray, self.conic);
-        let mut walls: SmallVec<[Wall; 6]> = SmallVec::new();
-        // Straight walls are met where a step takes one; others are iterated.
-        let tolerance = if self.is_iterated() { ray.tolerance } else { 0.0 };
-        for run in &self.outline.runs {
-            let path = Path::whole(&self.outline, run, None);
-            walk(path, &ruled, tolerance, |change| walls.push(ruled.wall(&change)));
-        }
+        let isolated = self.isolated(&ruled, ray.tolerance, range);
+        // Walls that a line only touches, within rounding, are not among those that are walked to.
+        let is_told = isolated.is_some();
+        let mut walls = isolated.unwrap_or_else(|| self.walked(&ruled, ray.tolerance));
         walls.sort_by(|a, b| a.s.total_cmp(&b.s));
         let mut spans = Spans::new();
         if !self.conic {
             pair(&walls, &mut spans);
-            return (spans, ruled.beside.get());
+            return (spans, ruled.beside.get(), is_told);
         }
         // The body is in two parts, one to each side of the origin's plane; in it nothing is.
         let speed = ray.direction.z;
-        let (above, below): (SmallVec<[Wall; 6]>, SmallVec<[Wall; 6]>) =
-            walls.into_iter().partition(|wall| wall.above);
+        let (above, below): (Walls, Walls) = walls.into_iter().partition(|wall| wall.above);
         let mut parts = [(above, speed >= 0.0), (below, speed < 0.0)];
         if speed >= 0.0 {
             parts.reverse();
@@ -84,7 +85,20 @@ impl Prism {
             }
             pair(&walls, &mut spans);
         }
-        (spans, ruled.beside.get())
+        (spans, ruled.beside.get(), is_told)
+    }
+
+    /// Returns the crossings with the walls.
+    #[cold]
+    fn walked(&self, ruled: &Ruled, tolerance: f64) -> Walls {
+        // Straight walls are met where a step takes one; others are iterated.
+        let tolerance = if self.is_iterated() { tolerance } else { 0.0 };
+        let mut walls = Walls::new();
+        for run in &self.outline.runs {
+            let path = Path::whole(&self.outline, run, None);
+            walk(path, ruled, tolerance, |change| walls.push(ruled.wall(&change)));
+        }
+        walls
     }
 
     /// Returns the normal of a wall, given that of the outline.
@@ -163,6 +177,14 @@ fn pair(walls: &[Wall], spans: &mut Spans) {
     }
 }
 
+/// Returns where a line is within the walls of a part, also if rounding has swapped crossings.
+fn surely_within(spans: &[(Met, Met)], number: usize) -> Range<f64> {
+    let (enter, leave) = &spans[number];
+    let from = spans[..number].iter().map(|(_, leave)| high(leave)).fold(high(enter), f64::max);
+    let to = spans[number + 1..].iter().map(|(enter, _)| low(enter)).fold(low(leave), f64::min);
+    from..to
+}
+
 impl Prism {
     /// Returns whether a point on the line lies within the walls; `None` if rounding decides.
     fn is_within(&self, ray: &LocalRay, s: f64) -> Option<bool> {
@@ -183,16 +205,23 @@ impl Prism {
         (error > 0.0).then_some((place, error))
     }
 
-    /// Clips the part of the line between two walls to the two ends. What rounding cannot separate from a
-    /// miss is dropped.
-    fn cut(&self, ray: &LocalRay, [first, last]: [Met; 2], walls: (Met, Met)) -> Option<[Met; 2]> {
-        let (enter, leave) = walls;
+    /// Clips the part of the line between two walls to the two ends; it is certainly within the walls where `told` says
+    /// so. What rounding cannot separate from a miss is dropped.
+    fn cut(
+        &self,
+        ray: &LocalRay,
+        [first, last]: [Met; 2],
+        (enter, leave): (Met, Met),
+        told: Range<f64>,
+    ) -> Option<[Met; 2]> {
         let is_within = |s: f64| self.is_within(ray, s);
         let limit = high(&leave).min(low(&last));
-        let (mut enter_at, by_first) = entered(enter, first, limit, is_within)?;
+        let (mut enter_at, by_first) = entered(enter, first, &told, limit, is_within)?;
         let limit = high(&reversed(enter)).min(low(&reversed(first)));
         let is_within = |s: f64| self.is_within(ray, -s);
-        let (leave_at, by_last) = entered(reversed(leave), reversed(last), limit, is_within)?;
+        let told = -told.end..-told.start;
+        let (leave, last) = (reversed(leave), reversed(last));
+        let (leave_at, by_last) = entered(leave, last, &told, limit, is_within)?;
         let mut leave_at = reversed(leave_at);
         // Where an end is passed, it is certainly inside.
         if by_first && high(&enter_at) < high(&leave_at) {
@@ -240,14 +269,14 @@ impl Local for Prism {
             _ => met,
         };
         let mut before: Option<f64> = None;
-        let (mut spans, in_wall) = self.spans(ray);
+        let (mut spans, in_wall, mut is_told) = self.spans(ray, (begin, end));
         let mut line = *ray;
         if let Some(least) = in_wall
             && ray.in_world.is_some()
         {
             // Of two that share the wall, the one on whose side the line is taken to be has it.
             line = beside(ray, self.conic, least);
-            (spans, _) = self.spans(&line);
+            (spans, _, is_told) = self.spans(&line, (f64::NEG_INFINITY, f64::INFINITY));
         }
         let off = (line.nearest - ray.nearest).length();
         let moved = |met: Met| {
@@ -257,11 +286,13 @@ impl Local for Prism {
             let slope = self.height(met.part, ray.at(met.t)).gradient.dot(ray.direction).abs();
             Met { error: met.error + 2.0 * off / slope, ..met }
         };
-        for walls in spans {
+        for (number, walls) in spans.iter().enumerate() {
             if off == 0.0 && (low(&walls.0) > end || high(&walls.1) < begin) {
                 continue;
             }
-            let Some([enter, leave]) = self.cut(&line, [first, last], walls) else { continue };
+            let told = if is_told { surely_within(&spans, number) } else { 0.0..0.0 };
+            let cut = self.cut(&line, [first, last], *walls, told);
+            let Some([enter, leave]) = cut else { continue };
             let [enter, leave] = [enter, leave].map(moved);
             // What is not told from a part before is one with it.
             if before.is_some_and(|end| enter.t <= end) {

@@ -4,16 +4,19 @@
 //! with two ends. **Invariant:** adjacent pieces share their joint exactly.
 
 mod boxes;
+mod isolate;
 mod outline;
 mod walk;
 
 pub(super) use boxes::Hull;
+pub(super) use isolate::{Isolated, isolate};
 pub use outline::{Outline, Run};
-pub(super) use walk::{Change, Course, Path, Side, walk};
+pub(super) use walk::{Change, Course, Path, Side, WIDE, on_line, walk};
 
 use smallvec::SmallVec;
 
 use super::U;
+use boxes::union;
 
 /// A point in the plane.
 pub type Point = [f64; 2];
@@ -31,6 +34,7 @@ pub struct Piece {
 /// Fraction of a piece's size, or of its parameter range, whose square is negligible.
 const NEAR: f64 = 1e-9;
 
+#[inline(always)]
 fn mix(a: Point, b: Point, u: f64) -> Point {
     [(1.0 - u) * a[0] + u * b[0], (1.0 - u) * a[1] + u * b[1]]
 }
@@ -118,7 +122,14 @@ impl Piece {
 
     /// Returns one coordinate as a cubic, in Bézier coefficients.
     pub fn cubic(&self, axis: usize) -> [f64; 4] {
-        let [a, b, c, d] = self.points.map(|point| point[axis]);
+        self.cubic_of(|point| point[axis])
+    }
+
+    /// Returns a linear function of its points as a cubic, in Bézier coefficients.
+    #[inline(always)]
+    pub fn cubic_of(&self, value: impl Fn(Point) -> f64) -> [f64; 4] {
+        let [a, b, c, d] = self.points;
+        let (a, b, c, d) = (value(a), value(b), value(c), value(d));
         match self.degree {
             1 => [a, (2.0 * a + b) / 3.0, (a + 2.0 * b) / 3.0, b],
             2 => [a, (a + 2.0 * b) / 3.0, (2.0 * b + c) / 3.0, c],
@@ -270,10 +281,19 @@ impl Piece {
 
     /// Returns the bounding box of its Bézier points, which contains it.
     pub fn hull(&self) -> Hull {
-        let least = |axis: usize| self.points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-        let most =
-            |axis: usize| self.points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
-        [[least(0), least(1)], [most(0), most(1)]]
+        let [first, rest @ ..] = self.points;
+        rest.into_iter().map(|point| [point, point]).fold([first, first], union)
+    }
+
+    /// Returns the longer side of its box.
+    pub fn size(&self) -> f64 {
+        let [low, high] = self.hull();
+        (high[0] - low[0]).max(high[1] - low[1])
+    }
+
+    /// Returns a length as a part of it; at most a quarter.
+    pub fn share(&self, length: f64) -> f64 {
+        if length > 0.0 { (length / self.size()).min(0.25) } else { 0.0 }
     }
 
     /// Returns the maximum of `a`·x + `b`·y.

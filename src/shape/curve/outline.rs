@@ -3,6 +3,8 @@
 //! **Invariant:** pieces are monotone along both axes; a point is tested only against pieces whose boxes are
 //! near it.
 
+use std::ops::Range;
+
 use smallvec::SmallVec;
 
 use super::boxes::{Boxes, Hull, union};
@@ -48,6 +50,13 @@ impl Outline {
             self.hull = if self.runs.is_empty() { hull } else { union(self.hull, hull) };
             self.runs.push(Run { from, to: self.pieces.len(), closed, root });
         }
+    }
+
+    /// Calls `look` with the boxes of a run, each with the range of its pieces, in order; descends into both halves
+    /// where it returns `true`.
+    #[inline(always)]
+    pub fn descend(&self, run: &Run, look: impl FnMut(&Hull, Range<usize>) -> bool) {
+        self.boxes.descend(run.root, look);
     }
 
     /// Returns the maximum of `a`·x + `b`·y over visible pieces; −∞ if there are none.

@@ -174,14 +174,14 @@ impl Certain {
 
 /// Returns the root of a linear function, with the error of [`root`]: at twice the error from the root, the
 /// side is certain.
-fn on_line(v: f64, Sample { slope, error, .. }: Sample) -> Root {
+pub fn on_line(v: f64, Sample { slope, error, .. }: Sample) -> Root {
     let least = (2.0 * error / slope.abs()).max(4.0 * U * v);
     Root { t: v, error: least + 2.0 * U * v }
 }
 
 /// Error, as a fraction of a piece, above which the bounds of a change are refined, as it may span all of the
 /// next piece if that is of another size. Affects only the running time.
-const WIDE: f64 = 1.0 / 64.0;
+pub const WIDE: f64 = 1.0 / 64.0;
 
 /// Bisects from a position with a certain side toward another; returns about the last position with a certain
 /// side.
@@ -235,10 +235,8 @@ pub fn walk<'a, S: Side>(
     let change = |before: Certain, after: Certain| {
         let (outside, inside) =
             if before.outside { (before.v, after.v) } else { (after.v, before.v) };
-        // Lengths along the piece in the middle, as parts of it.
-        let [low, high] = path.pieces[path.locate(0.5 * (outside + inside)).0].hull();
-        let size = (high[0] - low[0]).max(high[1] - low[1]);
-        let tolerance = if tolerance > 0.0 { (tolerance / size).min(0.25) } else { 0.0 };
+        // As a part of the piece in the middle.
+        let tolerance = path.pieces[path.locate(0.5 * (outside + inside)).0].share(tolerance);
         // As if it were straight between them.
         let share = before.value / (before.value - after.value);
         let start = before.v + share * (after.v - before.v);

@@ -2,6 +2,8 @@
 //!
 //! **Invariant:** where rounding hides the order of two crossings, a point with a certain result decides it.
 
+use std::ops::Range;
+
 use crate::shape::U;
 use crate::shape::local::Met;
 
@@ -32,11 +34,13 @@ pub(super) fn before(place: f64, met: Met) -> Met {
 }
 
 /// Returns where a line that enters the walls at `wall` enters a body that begins at `end`, and whether that
-/// is at the end; `None` if this is not certainly before `limit`. If rounding hides the order, points after
+/// is at the end; `None` if this is not certainly before `limit`. It is certainly within the
+/// walls where `told` says so. If rounding hides the order, points after
 /// the end decide it: one of them is certainly within the walls, or still outside.
 pub(super) fn entered(
     wall: Met,
     end: Met,
+    told: &Range<f64>,
     limit: f64,
     is_within: impl Fn(f64) -> Option<bool>,
 ) -> Option<(Met, bool)> {
@@ -46,7 +50,8 @@ pub(super) fn entered(
     let mut end = end;
     while high(&end) < limit {
         let place = high(&end);
-        match is_within(place) {
+        let is_within = if told.contains(&place) { Some(true) } else { is_within(place) };
+        match is_within {
             Some(true) => return Some((end, true)),
             Some(false) if place < high(&wall) => return Some((after(place, wall), false)),
             _ => end.error = 2.0 * end.error + f64::MIN_POSITIVE,

@@ -10,9 +10,9 @@ use std::cell::Cell;
 use smallvec::SmallVec;
 
 use crate::math::Vector;
-use crate::math::roots::bracket::Sample;
+use crate::math::roots::bracket::{Root, Sample};
 use crate::shape::U;
-use crate::shape::curve::{Change, Course, Hull, Piece, Point, Side};
+use crate::shape::curve::{Change, Course, Hull, Isolated, Piece, Point, Side};
 use crate::shape::local::{LocalRay, Met};
 
 use super::GRAZING;
@@ -25,6 +25,12 @@ pub(super) const WALLS: u32 = 3;
 pub(super) fn part_of(piece: usize, is_outside: bool) -> u32 {
     WALLS + 2 * piece as u32 + u32::from(!is_outside)
 }
+
+/// Sine of an angle between the ray and a wall's line from which on the ray's turn is nothing beside it.
+const APART: f64 = 1.0 / 1024.0;
+
+/// All crossings with walls.
+pub(super) type Walls = SmallVec<[Wall; 6]>;
 
 /// A crossing with a wall.
 #[derive(Clone, Copy)]
@@ -92,9 +98,15 @@ impl<'a> Ruled<'a> {
     }
 
     /// Returns the side, like [`Self::value`], to within `error`.
-    fn roughly(&self, [x, y]: Point) -> f64 {
+    #[inline(always)]
+    pub fn roughly(&self, [x, y]: Point) -> f64 {
         let [a, b, c] = self.side;
         a * x + b * y + c
+    }
+
+    /// Returns the error of the side anywhere in the outline.
+    pub fn error(&self) -> f64 {
+        self.error
     }
 
     /// **Error:** no line within the ray's blur intersects the wall's line if the two are farther apart than
@@ -150,6 +162,65 @@ impl<'a> Ruled<'a> {
         let off = 2.0 * self.ray.blur_at(2.0) + 32.0 * U;
         let near = 4.0 * direction.cross(way).length() + 2.0 * off * way.length();
         self.conic && near < nearest.length() * way.length()
+    }
+
+    /// Returns whether the ray is certainly apart from the direction of the walls' lines, if that is the same for all.
+    pub fn is_apart(&self) -> bool {
+        let is_apart = self.conic || self.ray.turn.max(APART * APART) <= APART * self.sine;
+        is_apart && self.error.is_finite()
+    }
+
+    /// As [`Self::wall`] for a change within a piece, `None` where the ray is nearly parallel to the wall's line.
+    #[inline]
+    pub fn wall_at(&self, number: usize, piece: &Piece, root: Root, rising: bool) -> Option<Wall> {
+        let Root { t: u, error } = root;
+        let (point, speed) = piece.at(u);
+        let sine = if self.conic {
+            let way = self.way(point);
+            let sine = self.ray.direction.cross(way).length() / way.length();
+            if self.is_along(point) || self.ray.turn > APART * sine {
+                return None;
+            }
+            sine
+        } else {
+            self.sine
+        };
+        let s = self.place(point);
+        let reach = if piece.is_straight() && !self.conic {
+            let LocalRay { direction, .. } = *self.ray;
+            error * (speed[0] * direction.x + speed[1] * direction.y).abs() / (sine * sine)
+        } else {
+            let gap = |u: f64| (self.place(piece.at(u.clamp(0.0, 1.0)).0) - s).abs();
+            gap(u - error).max(gap(u + error))
+        };
+        let off = self.ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
+        let above = !self.conic || self.ray.at(s).dot(self.way(point)) > 0.0;
+        let along = rising == above;
+        Some(Wall { s, error: 1.25 * reach + 1.5 * off / sine, piece: number, above, along })
+    }
+
+    /// Returns about where the ray crosses a part of a piece, if that is certainly not in a range.
+    pub fn wall_beyond(
+        &self,
+        number: usize,
+        piece: &Piece,
+        part: &Isolated<4>,
+        range: (f64, f64),
+    ) -> Option<Wall> {
+        if self.conic {
+            return None;
+        }
+        let LocalRay { nearest: n, direction: d, .. } = *self.ray;
+        let axis = usize::from(d.y.abs() > d.x.abs());
+        let place = |u: f64| (piece.at(u).0[axis] - n[axis]) / d[axis];
+        let (first, last) = (place(part.from), place(part.to));
+        let (low, high) = (first.min(last), first.max(last));
+        let far = low.abs().max(high.abs());
+        let off = 2.0 * (self.ray.blur_at(far) + 8.0 * U * (1.0 + far)) / d[axis].abs();
+        let (low, high) = (low - off, high + off);
+        let (s, error) = (0.5 * (low + high), 0.5 * (high - low));
+        let wall = Wall { s, error, piece: number, above: true, along: part.rises() };
+        (high < range.0 || low > range.1).then_some(wall)
     }
 
     /// Returns the crossing. **Error:** the extent of the change, and the distance along the ray over which

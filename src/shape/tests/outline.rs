@@ -274,3 +274,17 @@ fn a_place_is_inside_of_an_outline_where_twice_the_digits_have_it() {
         }
     }
 }
+
+/// Asserts that crossings which are isolated are those which are walked to, given positions and errors.
+pub(super) fn assert_same_both_ways([isolated, walked]: &[Option<Vec<(f64, f64)>>; 2]) -> usize {
+    let (Some(isolated), Some(walked)) = (isolated, walked) else { return 0 };
+    // What is beyond any body may be there or at infinity.
+    let is_near = |found: &&(f64, f64)| found.0.abs() < 2.0;
+    let [isolated, walked] =
+        [isolated, walked].map(|all| all.iter().filter(is_near).collect::<Vec<_>>());
+    assert_eq!(isolated.len(), walked.len(), "{isolated:?} {walked:?}");
+    for ((one, error), (other, room)) in isolated.iter().zip(&walked) {
+        assert!((one - other).abs() <= error + room, "{isolated:?} {walked:?}");
+    }
+    1
+}

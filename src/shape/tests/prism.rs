@@ -1,10 +1,13 @@
 //! Prisms against twice the digits.
 
 use super::lathe::any_lathe;
-use super::outline::{along_outline, any_outline, goes_along, is_clear, one, planar, ray_through};
+use super::outline::{
+    along_outline, any_outline, assert_same_both_ways, goes_along, is_clear, one, planar,
+    ray_through,
+};
 use super::placed::{
-    assert_crossed_where_it_is, assert_inside_where_it_says, assert_left_into_the_open, blur,
-    greater, placed, ray_at_placed, stand,
+    assert_crossed_where_it_is, assert_first_found_up_to_a_limit, assert_inside_where_it_says,
+    assert_left_into_the_open, blur, greater, placed, ray_at_placed, stand,
 };
 use super::sor::any_sor;
 use super::*;
@@ -13,6 +16,7 @@ use crate::shape::Superellipsoid;
 use crate::shape::curve::{Outline, Piece};
 use crate::shape::exact::Triple;
 use crate::shape::local::{Crossings, Height, Local, Met};
+use crate::shape::seen::Seen;
 use crate::shape::slab::NUDGE;
 
 fn inside(body: &Body, [x, y, z]: Triple) -> Double {
@@ -225,4 +229,21 @@ fn whatever_number_a_part_has_it_has_a_height() {
             assert!(value.is_finite() && gradient.is_finite(), "{part} {body:?}");
         }
     }
+}
+
+#[test]
+fn crossings_with_a_prism_that_are_isolated_are_those_that_are_walked_to() {
+    let mut random = Random(98);
+    let mut told = 0;
+    for _ in 0..tries_in(10) {
+        let prism = any_prism(&mut random);
+        let placed = placed(&mut random, Body::Prism(prism.clone()));
+        for _ in 0..4 {
+            let ray = ray_at_placed(&mut random, &placed);
+            let seen = Seen::new(&placed, &ray, 0.0);
+            told += assert_same_both_ways(&prism.both_ways(&seen.line));
+            assert_first_found_up_to_a_limit(&mut random, &placed, &ray);
+        }
+    }
+    assert!(told > 2 * tries_in(10), "{told}");
 }
