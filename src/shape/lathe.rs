@@ -6,15 +6,17 @@
 //! intersected separately. The outline is cut where the arms begin, at ρ = m, so that both have the same
 //! ends.
 
+mod isolated;
 mod level;
 mod line;
 
 use smallvec::SmallVec;
 
-use super::U;
 use super::curve::{Change, Outline, Path, Piece, Point, walk};
 use super::local::{Crossings, Height, Local, LocalRay, Met};
+use super::{Memory, U};
 use crate::math::Vector;
+use isolated::Squares;
 use level::{Beside, Passage, beside, moved};
 use line::{Arm, Line, STEEP, Steep};
 
@@ -26,6 +28,8 @@ const GRAZING: f64 = 1e-6;
 pub struct Lathe {
     /// Its runs are closed, or begin and end on the axis; ρ is not negative.
     outline: Outline,
+    /// Of each piece.
+    squares: Memory<Vec<Squares>>,
 }
 
 /// A crossing with a piece of the outline.
@@ -76,11 +80,21 @@ impl Lathe {
             }
             outline.add(run);
         }
-        (!outline.pieces.is_empty()).then_some(Self { outline })
+        let squares = Memory(outline.pieces.iter().map(Squares::new).collect());
+        (!outline.pieces.is_empty()).then_some(Self { outline, squares })
     }
 
-    fn walls(&self, ray: &LocalRay) -> Walls {
+    fn walls(&self, ray: &LocalRay, range: (f64, f64)) -> Walls {
         let line = Line::new(ray);
+        let mut walls = self.isolated(&line, ray, range).unwrap_or_else(|| self.walked(line, ray));
+        walls.sort_by(|a, b| a.s.total_cmp(&b.s));
+        drop_touches(&mut walls);
+        walls
+    }
+
+    /// Returns the crossings, in any order.
+    #[cold]
+    fn walked(&self, line: Line, ray: &LocalRay) -> Walls {
         let mut walls = Walls::new();
         if line.speed.abs() >= STEEP {
             for run in &self.outline.runs {
@@ -115,8 +129,6 @@ impl Lathe {
                 }
             }
         }
-        walls.sort_by(|a, b| a.s.total_cmp(&b.s));
-        drop_touches(&mut walls);
         walls
     }
 
@@ -210,7 +222,11 @@ fn part_of(piece: usize, is_outside: bool) -> u32 {
 
 impl Local for Lathe {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
-        for (number, wall) in self.walls(ray).into_iter().enumerate() {
+        self.first_crossings(ray, (f64::NEG_INFINITY, f64::INFINITY), found);
+    }
+
+    fn first_crossings(&self, ray: &LocalRay, range: (f64, f64), found: &mut Crossings) {
+        for (number, wall) in self.walls(ray, range).into_iter().enumerate() {
             let leaving = number % 2 == 1;
             let piece = &self.outline.pieces[wall.piece];
             let part = match piece.seen {

@@ -24,6 +24,13 @@ impl<const N: usize> Isolated<N> {
     pub fn ends(&self) -> (f64, f64) {
         if self.rises() { (self.to, self.from) } else { (self.from, self.to) }
     }
+
+    /// Returns where the root would be if the polynomial were linear.
+    #[inline]
+    pub fn on_chord(&self) -> f64 {
+        let (first, last) = (self.coefficients[0], self.coefficients[N - 1]);
+        self.from + (self.to - self.from) * (first / (first - last))
+    }
 }
 
 impl Isolated<4> {

@@ -12,6 +12,8 @@ use crate::shape::U;
 use crate::shape::curve::{Change, Course, Hull, Outline, Path, Piece, Point, Run, Side};
 use crate::shape::local::LocalRay;
 
+use super::isolated::Squares;
+
 /// Minimum vertical speed of a steep line.
 pub(super) const STEEP: f64 = 0.125;
 
@@ -56,6 +58,32 @@ impl Line {
         let ([n, m], [d, e]) = (self.nearest, self.direction);
         let up = z - self.start;
         [d * up + n * self.speed, e * up + m * self.speed]
+    }
+
+    /// Returns where the line crosses a place, between two others, and the error: by the height, or by the distance
+    /// to the axis if that is more accurate. **Error:** as of [`Arm::wall`].
+    pub fn crossing(&self, [x, height]: Point, places: [Point; 2]) -> (f64, f64) {
+        let Self { start, speed, across, off, .. } = *self;
+        let [low, high] = places;
+        let s = (height - start) / speed;
+        let rise = (low[1] - height).abs().max((high[1] - height).abs());
+        let error = (1.25 * rise + 1.5 * off) / speed.abs();
+        if speed.abs() >= STEEP {
+            return (s, error);
+        }
+        let [arm, _] = Arm::both(self);
+        let (least, most) = (low[0].min(high[0]) - off, low[0].max(high[0]) + off);
+        // It is on one arm only.
+        if least <= arm.miss || (s - arm.middle).abs() <= error {
+            return (s, error);
+        }
+        let here = arm.reach(x);
+        let extent = (here - arm.reach(least)).max(arm.reach(most) - here);
+        let by_reach = extent + (2.0 * off + 8.0 * U * here) / across;
+        match error < by_reach {
+            true => (s, error),
+            false => (arm.middle + here.copysign(s - arm.middle), by_reach),
+        }
     }
 
     /// Returns the Bézier coefficients of d²·(ρ² − x²) along a piece, and an upper bound on its terms.
@@ -176,6 +204,73 @@ impl Side for Steep<'_> {
 
     fn turns(&self, piece: &Piece) -> SmallVec<[f64; 8]> {
         self.0.turns(piece)
+    }
+}
+
+/// d²·(ρ² − x²) as a polynomial in x and y, the height.
+pub(super) struct Hyperbola {
+    /// The coefficients of y², y, 1 and −x².
+    up: f64,
+    linear: f64,
+    constant: f64,
+    out: f64,
+    /// Height of its vertex, and the value there where x is 0.
+    vertex: f64,
+    least: f64,
+    /// Error of Bézier coefficients, of values, and of what [`Steep`] takes from them.
+    pub error: f64,
+}
+
+impl Hyperbola {
+    /// Builds it for an outline that extends to `reach` from the origin. **Error:** as in [`Steep::course`], and the
+    /// rounding of the terms.
+    pub fn new(line: &Line, reach: f64) -> Self {
+        let start = line.reached(0.0);
+        let (up, out) = (line.across * line.across, line.speed * line.speed);
+        let (linear, constant) = (2.0 * dot(line.direction, start), dot(start, start));
+        let vertex = -0.5 * linear / up;
+        let least = constant + 0.5 * linear * vertex;
+        let terms = (up + out) * reach * reach + linear.abs() * reach + constant;
+        let size = 1.5 * (line.across * reach + length(start)) + reach;
+        let error = (2.0 * line.off + 64.0 * U * size) * size + 1024.0 * U * terms;
+        Self { up, linear, constant, out, vertex, least, error }
+    }
+
+    /// Returns the square of the distance to the axis at a height, times d².
+    fn square(&self, y: f64) -> f64 {
+        (self.up * y + self.linear) * y + self.constant
+    }
+
+    /// Whether a box is certainly on one side.
+    #[inline(always)]
+    pub fn is_apart(&self, [low, high]: &Hull) -> bool {
+        let (first, last) = (self.square(low[1]), self.square(high[1]));
+        let has_vertex = low[1] < self.vertex && self.vertex < high[1];
+        let least = if has_vertex { self.least } else { first.min(last) };
+        let (inner, outer) = (self.out * low[0] * low[0], self.out * high[0] * high[0]);
+        least - outer > self.error || inner - first.max(last) > self.error
+    }
+
+    /// Returns the Bézier coefficients along a piece.
+    #[inline(always)]
+    pub fn coefficients(&self, squares: &Squares) -> [f64; 7] {
+        let mut all = [0.0; 7];
+        for (k, value) in all.iter_mut().enumerate() {
+            let square = self.up * squares.up[k] + self.linear * squares.height[k] + self.constant;
+            *value = square - self.out * squares.out[k];
+        }
+        all
+    }
+
+    /// Returns the value on a piece and its slope by u.
+    #[inline(always)]
+    pub fn at(&self, squares: &Squares, u: f64) -> (f64, f64) {
+        let value = |[a, b, c, d]: [f64; 4]| a + u * (b + u * (c + u * d));
+        let slope = |[_, b, c, d]: [f64; 4]| b + u * (2.0 * c + u * (3.0 * d));
+        let [x, y] = squares.powers;
+        let (out, up) = (value(x), value(y));
+        let along = (2.0 * self.up * up + self.linear) * slope(y);
+        (self.square(up) - self.out * out * out, along - 2.0 * self.out * out * slope(x))
     }
 }
 

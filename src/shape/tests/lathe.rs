@@ -1,17 +1,19 @@
 //! Lathes against twice the digits.
 
 use super::outline::{
-    along_outline, goes_along, in_a_line, is_clear, loop_of, number, planar, ray_through,
+    along_outline, assert_same_both_ways, goes_along, in_a_line, is_clear, loop_of, number, planar,
+    ray_through,
 };
 use super::placed::{
-    assert_crossed_where_it_is, assert_inside_where_it_says, assert_left_into_the_open, placed,
-    ray_at_placed,
+    assert_crossed_where_it_is, assert_first_found_up_to_a_limit, assert_inside_where_it_says,
+    assert_left_into_the_open, placed, ray_at_placed,
 };
 use super::*;
 use crate::math::random::tries_in;
 use crate::shape::curve::{Piece, Point};
 use crate::shape::exact::Triple;
 use crate::shape::local::{Crossings, Local, LocalRay, Met};
+use crate::shape::seen::Seen;
 
 fn inside(body: &Body, [x, y, z]: Triple) -> Double {
     let Body::Lathe(lathe) = body else { panic!("{body:?}") };
@@ -176,4 +178,21 @@ fn a_level_end_of_a_lathe_is_crossed_where_a_flat_line_is_nearest_to_the_axis() 
             }
         }
     }
+}
+
+#[test]
+fn crossings_with_a_lathe_that_are_isolated_are_those_that_are_walked_to() {
+    let mut random = Random(97);
+    let mut told = 0;
+    for _ in 0..tries_in(10) {
+        let lathe = any_lathe(&mut random);
+        let placed = placed(&mut random, Body::Lathe(lathe.clone()));
+        for _ in 0..4 {
+            let ray = ray_at_placed(&mut random, &placed);
+            let seen = Seen::new(&placed, &ray, 0.0);
+            told += assert_same_both_ways(&lathe.both_ways(&seen.line));
+            assert_first_found_up_to_a_limit(&mut random, &placed, &ray);
+        }
+    }
+    assert!(told > 2 * tries_in(10), "{told}");
 }
