@@ -3,6 +3,7 @@
 //!
 //! **Source:** manual, section 3.4.5.1.15 ("Surface of Revolution").
 
+mod isolated;
 mod walk;
 
 use super::U;
@@ -39,11 +40,25 @@ struct Bounded {
     greatest: f64,
     /// Upper bound on |F′|.
     steepness: f64,
+    /// Coefficients of 1, t, t² and t³, with t from 0 to 1.
+    powers: [f64; 4],
 }
 
 impl Bounded {
     fn new(segment: Segment) -> Self {
-        Self { segment, greatest: segment.greatest_point(), steepness: segment.steepness() }
+        let [a, b, c, d] = segment.squares;
+        Self {
+            segment,
+            greatest: segment.greatest_point(),
+            steepness: segment.steepness(),
+            powers: [a, 3.0 * (b - a), 3.0 * ((c - b) - (b - a)), (d - a) - 3.0 * (c - b)],
+        }
+    }
+
+    /// Returns F and its slope by t.
+    fn by_powers(&self, t: f64) -> (f64, f64) {
+        let [a, b, c, d] = self.powers;
+        (a + t * (b + t * (c + t * d)), b + t * (2.0 * c + t * (3.0 * d)))
     }
 
     fn at(&self, z: f64) -> Square {
@@ -95,6 +110,10 @@ pub struct Sor {
     pub open: bool,
     /// Upper bound on |F″|.
     bend: f64,
+    /// Upper bound on |F|.
+    widest: f64,
+    /// Upper bound on |F′|.
+    steepest: f64,
 }
 
 impl Sor {
@@ -103,7 +122,9 @@ impl Sor {
     pub fn new(segments: Vec<Segment>, open: bool) -> Option<Self> {
         let bend = segments.iter().map(Segment::bend).fold(0.0, f64::max);
         let segments: Vec<Bounded> = segments.into_iter().map(Bounded::new).collect();
-        (!segments.is_empty()).then_some(Self { segments, open, bend })
+        let widest = segments.iter().map(|one| one.greatest).fold(0.0, f64::max);
+        let steepest = segments.iter().map(|one| one.steepness).fold(0.0, f64::max);
+        (!segments.is_empty()).then_some(Self { segments, open, bend, widest, steepest })
     }
 
     fn heights(&self) -> [f64; 2] {
@@ -127,16 +148,25 @@ impl Sor {
     /// ρ² − F along the line. **Error:** with B the error of the point, B·(2ρ + |F′|), plus the change of
     /// that within B.
     fn sample(&self, ray: &LocalRay, s: f64) -> Sample {
+        let z = ray.at(s).z;
+        let [low, high] = self.heights();
+        let Square { value, slope, error } = self.square(z);
+        // Beyond the ends it is as wide as there.
+        let along = if low < z && z < high { slope } else { 0.0 };
+        self.sample_of(ray, s, Square { value, slope, error }, along)
+    }
+
+    /// [`Self::sample`], given F at the point's height, and its slope along the line.
+    #[inline(always)]
+    fn sample_of(&self, ray: &LocalRay, s: f64, square: Square, along: f64) -> Sample {
         let (point, d) = (ray.at(s), ray.direction);
         let off = ray.blur_at(s) + 8.0 * U * (1.0 + s.abs());
-        let Square { value, slope, error } = self.square(point.z);
+        let Square { value, slope, error } = square;
         let square = point.x * point.x + point.y * point.y;
         let steepness = 2.0 * square.sqrt() + slope.abs();
-        let [low, high] = self.heights();
-        let inside = low < point.z && point.z < high;
         Sample {
             value: square - value,
-            slope: 2.0 * (point.x * d.x + point.y * d.y) - if inside { slope * d.z } else { 0.0 },
+            slope: 2.0 * (point.x * d.x + point.y * d.y) - along * d.z,
             error: error + 4.0 * U * square + off * (steepness + off * (1.0 + self.bend)),
         }
     }
@@ -144,14 +174,30 @@ impl Sor {
 
 impl Local for Sor {
     fn crossings(&self, ray: &LocalRay, found: &mut Crossings) {
+        self.first_crossings(ray, (f64::NEG_INFINITY, f64::INFINITY), found);
+    }
+
+    fn first_crossings(&self, ray: &LocalRay, (from, to): (f64, f64), found: &mut Crossings) {
         let Some((first, last)) = between(ray, self.heights()) else { return };
         let seen = |met: Met| match met.part {
             CAP | BASE if self.open && self.is_tip(met.part) => Met { part: SIDE, ..met },
             CAP | BASE if self.open => Met { part: Met::UNSEEN, ..met },
             _ => met,
         };
-        for pair in self.round(ray).chunks_exact(2) {
-            let (mut enter, mut leave) = (pair[0].later(first), pair[1].earlier(last));
+        let range = (from.max(first.t - first.error), to.min(last.t + last.error));
+        let (ahead, begin, end) = (ray.ahead_of(from), first.t + first.error, last.t - last.error);
+        let is_enough = |met: &Met| {
+            let low = met.t - met.error;
+            low > ahead && low > begin && met.t + met.error < end
+        };
+        let round = self.isolated(ray, range, is_enough).unwrap_or_else(|| self.stepped(ray));
+        for pair in round.chunks(2) {
+            let [enter, leave] = *pair else {
+                // Beyond it nothing was looked for.
+                found.extend(pair.iter().copied());
+                return;
+            };
+            let (mut enter, mut leave) = (enter.later(first), leave.earlier(last));
             if enter.t >= leave.t {
                 continue;
             }
@@ -164,7 +210,8 @@ impl Local for Sor {
             }
             // What rounding cannot tell from a miss is missed.
             if enter.t + enter.error < leave.t - leave.error {
-                found.extend([seen(enter), seen(leave)]);
+                found.push(seen(enter));
+                found.push(seen(leave));
             }
         }
     }

@@ -12,6 +12,7 @@ use super::super::local::{LocalRay, Met};
 use super::{Bounded, FAR, Segment, Sor};
 use crate::math::Vector;
 use crate::math::roots::bracket::{Root, root};
+use crate::shape::curve::Isolated;
 
 /// Whether it is certainly outside; `None` if rounding decides.
 type Side = Option<bool>;
@@ -26,25 +27,12 @@ struct Course {
     root: f64,
 }
 
-/// Returns the approximate root of a cubic with one root in 0 … 1, from its Bézier points. **Method:** three
-/// Newton steps from the root of the chord.
-fn near_root([a, b, c, d]: [f64; 4]) -> f64 {
-    let (linear, quadratic, cubic) =
-        (3.0 * (b - a), 3.0 * ((c - b) - (b - a)), (d - a) - 3.0 * (c - b));
-    let step = |t: f64| {
-        let value = a + t * (linear + t * (quadratic + t * cubic));
-        let slope = linear + t * (2.0 * quadratic + t * 3.0 * cubic);
-        (t - value / slope).clamp(0.0, 1.0)
-    };
-    step(step(step(a / (a - d))))
-}
-
 impl Sor {
     /// Returns the course through a segment, between the positions of its ends. **Method:** along the line,
     /// ρ² − F is a cubic; it is bounded by its Bézier points and has at most as many roots as these have sign
     /// changes.
     fn course(&self, ray: &LocalRay, bounded: &Bounded, ends: [f64; 2]) -> Course {
-        let Bounded { segment, greatest: greatest_square, steepness } = bounded;
+        let Bounded { segment, greatest: greatest_square, steepness, .. } = bounded;
         if !ends.iter().all(|s| s.abs() < FAR) {
             return Course { sides: [None; 2], tells_all: false, root: f64::NAN };
         }
@@ -66,7 +54,7 @@ impl Sor {
         let turned = sides.windows(2).filter(|pair| pair[0] != pair[1]).count();
         let tells_all = sides.iter().all(Option::is_some) && turned <= 1;
         let root = match tells_all && turned == 1 {
-            true => ends[0] + (ends[1] - ends[0]) * near_root(values),
+            true => Isolated { from: ends[0], to: ends[1], coefficients: values }.near_root(),
             false => f64::NAN,
         };
         Course { sides: [sides[0], sides[3]], tells_all, root }
@@ -99,7 +87,8 @@ impl Sor {
 
     /// Returns the crossings with the side, without the ends: steps between the extrema of ρ² − F and the
     /// ends of segments, between which it is monotone.
-    pub(super) fn round(&self, ray: &LocalRay) -> SmallVec<[Met; 6]> {
+    #[cold]
+    pub(super) fn stepped(&self, ray: &LocalRay) -> SmallVec<[Met; 6]> {
         let mut walk = Walk::new(self, ray);
         let (n, d) = (ray.nearest, ray.direction);
         let nearest = -(n.x * d.x + n.y * d.y) / (d.x * d.x + d.y * d.y);
