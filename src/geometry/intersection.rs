@@ -9,12 +9,12 @@
 //! **Source:** M. Cyrus, J. Beck, "Generalized two- and three-dimensional clipping", Computers & Graphics 3 (1978).
 
 use super::span::{Around, Span};
-use super::whole::Whole;
 use super::whole::together::{Line, Near};
+use super::whole::{Whole, ends_of_chord};
 use super::{Geometry, Solid};
-use crate::shape::{Chord, Crossing};
 use crate::shape::csg::{Event, Events};
 use crate::shape::local::{Crossings, Met};
+use crate::shape::{Chord, Crossing};
 use smallvec::SmallVec;
 
 /// The last of some places along a line.
@@ -186,9 +186,8 @@ impl Geometry {
             return self.add_holes_of_body(leaf, solid, line, stretch, holes);
         }
         match self.chord_of_leaf(leaf, solid, line) {
-            Some(Chord { enter, leave }) => {
-                let hole = [Met::of(enter, false), Met::of(leave, true)];
-                add_hole(hole.map(|met| End { met, leaf }), stretch, holes)
+            Some(chord) => {
+                add_hole(ends_of_chord(chord).map(|met| End { met, leaf }), stretch, holes)
             }
             None => Some(()),
         }

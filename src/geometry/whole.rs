@@ -380,7 +380,7 @@ const FROM_INSIDE: Met =
     Met { t: f64::NEG_INFINITY, error: 0.0, leaving: false, part: Met::UNSEEN };
 
 /// Where a line enters and leaves; at ∞ where it does not.
-fn ends_of_chord(Chord { enter, leave }: Chord) -> [Met; 2] {
+pub(super) fn ends_of_chord(Chord { enter, leave }: Chord) -> [Met; 2] {
     let met = |Crossing { t, error }, leaving| Met { t, error, leaving, part: 0 };
     let enter = if enter.t.is_finite() { met(enter, false) } else { FROM_INSIDE };
     [enter, met(leave, true)]

@@ -7,8 +7,8 @@ use std::ops::Range;
 
 use super::super::U;
 use super::super::local::{LocalRay, Met};
-use super::pierce::{self, View};
 use super::Mesh;
+use super::pierce::{self, View};
 use crate::bvh::packet::PacketSeeker;
 use crate::math::Vector;
 use crate::math::ray::Ray;
