@@ -3,8 +3,8 @@
 //! A line is in all solids that it enters once and leaves once from the last that it enters to the first that it
 //! leaves. From this stretch the inverse ones cut holes, which are passed in order.
 //!
-//! **Invariant:** what is told is what the algebra of `shape/csg.rs` keeps, but for what is seen of nobody: where
-//! error bounds do not tell a crossing that is kept from all others, nothing is.
+//! **Invariant:** reports the visible crossings that the algebra of `shape/csg.rs` keeps, or none at all if error bounds
+//! cannot separate a kept crossing from the others.
 //!
 //! **Source:** M. Cyrus, J. Beck, "Generalized two- and three-dimensional clipping", Computers & Graphics 3 (1978).
 
@@ -38,12 +38,14 @@ impl Last {
 
     #[inline(always)]
     fn add(&mut self, place: f64, met: &Met, leaf: u32) {
+        // `max` would drop what is no number.
+        let error = if met.error.is_nan() { f64::INFINITY } else { met.error };
         if place > self.place {
             self.others = self.others.max(self.place + self.error);
-            (self.place, self.error, self.leaf) = (place, met.error, leaf);
+            (self.place, self.error, self.leaf) = (place, error, leaf);
             (self.part, self.leaving) = (met.part, met.leaving);
         } else {
-            self.others = self.others.max(place + met.error);
+            self.others = self.others.max(place + error);
         }
     }
 
@@ -52,7 +54,7 @@ impl Last {
         self.place == f64::NEG_INFINITY || self.others < self.place - self.error
     }
 
-    /// At so many times its place.
+    /// Returns it as a crossing; `side` is 1 where the line enters, −1 where it leaves.
     fn end(&self, side: f64) -> End {
         let Self { place, error, leaf, part, leaving, .. } = *self;
         End { met: Met { t: side * place, error, leaving, part }, leaf }
@@ -75,7 +77,7 @@ impl End {
         (is_before || b.t + b.error < a.t - a.error).then_some(is_before)
     }
 
-    /// As a crossing with the whole, which shares its position with no other; `None` of what is at no place.
+    /// Returns it as a crossing with the whole that shares its position with no other; `None` at ±∞.
     fn event(self) -> Option<Event> {
         let Self { met, leaf } = self;
         // 0 and −0 are one place.
@@ -88,21 +90,21 @@ impl End {
 /// A part of the line, from where it begins to where it ends.
 type Stretch = [End; 2];
 
-/// The stretches that inverse solids cut out.
+/// The stretches that inverse solids cut out, and the gaps between those in which the line is in another.
 type Holes = SmallVec<[Stretch; 4]>;
 
 /// Where a line is in a solid, or outside of it.
 enum Inside {
     Nowhere,
-    /// From one place to another; `None` where that is at no end.
-    Once([Option<Met>; 2]),
-    /// In several stretches.
-    Often,
+    /// From the first place to the last, apart from gaps; `None` where there is no end.
+    Between([Option<Met>; 2]),
+    /// Not known.
+    Untold,
 }
 
 impl Geometry {
-    /// Adds the crossings with an intersection of solids, in order, of which none that lies `between` is missing;
-    /// `near` are those leaves that the line may meet. `false` where the crossings are not told so.
+    /// Adds, in order, the crossings with an intersection of solids, at least those that lie `between` two positions;
+    /// `near` are the leaves that the line may meet. Returns `false` if error bounds cannot separate the crossings.
     pub(super) fn gather_intersection(
         &self,
         whole: &Whole,
@@ -112,12 +114,13 @@ impl Geometry {
         events: &mut Events,
     ) -> bool {
         let (mut enter, mut leave) = (Last::new(), Last::new());
+        let mut holes = Holes::new();
         for around in &whole.around {
             let solid = &whole.leaves[around.leaf as usize].solid;
-            let [first, last] = match self.inside(solid, around, line) {
+            let [first, last] = match self.inside(solid, around, line, &mut holes) {
                 Inside::Nowhere => return true,
-                Inside::Once(ends) => ends,
-                Inside::Often => return false,
+                Inside::Between(ends) => ends,
+                Inside::Untold => return false,
             };
             if let Some(met) = first {
                 enter.add(met.t, &met, around.leaf);
@@ -139,11 +142,10 @@ impl Geometry {
             return true;
         }
         let stretch = [enter.end(1.0), leave.end(-1.0)];
-        if whole.is_convex {
+        if whole.is_convex && holes.is_empty() {
             events.extend(stretch.into_iter().filter_map(End::event));
             return true;
         }
-        let mut holes = Holes::new();
         let is_told = self.add_all_holes(whole, line, near, &stretch, &mut holes)
             && cut(stretch, &mut holes, events).is_some();
         if !is_told {
@@ -152,7 +154,7 @@ impl Geometry {
         is_told
     }
 
-    /// Adds where a line is in the inverse leaves, if that is in a stretch; `false` where that is not told.
+    /// Adds where a line is in the inverse leaves within a stretch; `false` if error bounds cannot tell.
     #[inline(always)]
     fn add_all_holes(
         &self,
@@ -220,45 +222,53 @@ impl Geometry {
     }
 
     #[inline(always)]
-    fn inside(&self, solid: &Solid, around: &Around, line: &Line) -> Inside {
+    fn inside(&self, solid: &Solid, around: &Around, line: &Line, gaps: &mut Holes) -> Inside {
         if let Solid::Placed(_) = solid {
-            return self.inside_body(around.leaf, solid, line);
+            return self.inside_body(around.leaf, solid, line, gaps);
         }
         let met =
             |t: f64, error, leaving| t.is_finite().then_some(Met { t, error, leaving, part: 0 });
         match (self.chord_of_leaf(around.leaf, solid, line), around.inverse) {
             (None, false) => Inside::Nowhere,
-            (None, true) => Inside::Once([None, None]),
+            (None, true) => Inside::Between([None, None]),
             (Some(Chord { enter, leave }), inverse) => {
                 let ends = [met(enter.t, enter.error, false), met(leave.t, leave.error, true)];
                 match (inverse, ends) {
-                    (false, ends) => Inside::Once(ends),
+                    (false, ends) => Inside::Between(ends),
                     (true, [None, None]) => Inside::Nowhere,
-                    (true, [Some(enter), None]) => Inside::Once([None, Some(enter)]),
-                    (true, [None, Some(leave)]) => Inside::Once([Some(leave), None]),
-                    (true, [Some(_), Some(_)]) => Inside::Often,
+                    (true, [Some(enter), None]) => Inside::Between([None, Some(enter)]),
+                    (true, [None, Some(leave)]) => Inside::Between([Some(leave), None]),
+                    (true, [Some(_), Some(_)]) => Inside::Untold,
                 }
             }
         }
     }
 
     #[inline(never)]
-    fn inside_body(&self, leaf: u32, solid: &Solid, line: &Line) -> Inside {
-        let finite = |met: &Met| met.t.is_finite().then_some(*met);
+    fn inside_body(&self, leaf: u32, solid: &Solid, line: &Line, gaps: &mut Holes) -> Inside {
         let mut all = Crossings::new();
         self.add_crossings_of_leaf(leaf, solid, line, &mut all);
-        match all.as_slice() {
-            [] => Inside::Nowhere,
-            [enter] if !enter.leaving => Inside::Once([finite(enter), None]),
-            [enter, leave] if !enter.leaving && leave.leaving => {
-                Inside::Once([finite(enter), finite(leave)])
-            }
-            _ => Inside::Often,
+        let [first, .., last] = all.as_slice() else {
+            return match all.first() {
+                None => Inside::Nowhere,
+                Some(only) if !only.leaving => Inside::Between([finite(only), None]),
+                Some(_) => Inside::Untold,
+            };
+        };
+        if all.iter().enumerate().any(|(nth, met)| met.leaving != (nth % 2 == 1)) {
+            return Inside::Untold;
         }
+        let pairs = all[1..].chunks_exact(2);
+        gaps.extend(pairs.map(|gap| [gap[0], gap[1]].map(|met| End { met, leaf })));
+        Inside::Between([finite(first), if last.leaving { finite(last) } else { None }])
     }
 }
 
-/// Adds a hole, unless it is certainly beside the stretch; `None` where it is not told from nothing.
+fn finite(met: &Met) -> Option<Met> {
+    met.t.is_finite().then_some(*met)
+}
+
+/// Adds a hole, unless it is certainly beside the stretch; `None` if error bounds cannot tell whether it is there.
 #[inline(always)]
 fn add_hole(hole: Stretch, stretch: &Stretch, holes: &mut Holes) -> Option<()> {
     let is_before = |a: &End, b: &End| a.is_before(b) == Some(true);

@@ -169,7 +169,9 @@ pub(super) trait RowSeeker<'a> {
                 geometry.bring_to_leaves(simd, whole, self.rays(), near, &mut known);
                 numbers(near).for_each(|number| self.look_at_whole(place, *i, number, &known));
             }
-            Solid::Sphere(_) | Solid::Plane(_) | Solid::Placed(_) => {}
+            Solid::Sphere(_) | Solid::Plane(_) | Solid::Placed(_) => {
+                numbers(mask).for_each(|number| self.look_alone(place, number));
+            }
         }
     }
 

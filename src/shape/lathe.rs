@@ -28,7 +28,7 @@ const GRAZING: f64 = 1e-6;
 pub struct Lathe {
     /// Its runs are closed, or begin and end on the axis; ρ is not negative.
     outline: Outline,
-    /// Of each piece.
+    /// One for each piece.
     squares: Memory<Vec<Squares>>,
 }
 

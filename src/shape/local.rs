@@ -22,7 +22,8 @@ pub trait Local {
     }
 
     /// Adds, in order, the crossings that may lie in the range `between`; where there are further crossings,
-    /// at least up to the first visible one that is certainly behind the start of the range. May add others.
+    /// at least up to the first visible one that is certainly behind the start of the range. May add others, which
+    /// are certainly outside the range: their bounds may be wide.
     fn first_crossings(&self, ray: &LocalRay, _between: (f64, f64), found: &mut Crossings) {
         self.crossings(ray, found);
     }
@@ -206,8 +207,11 @@ impl LocalRay<'_> {
 
     /// Returns the position from which a crossing is certainly ahead of the ray's start, where `from` is the
     /// start passed to `first_crossings`: `Seen::place` puts that as far before the start as the start may be
-    /// off.
+    /// off. If all crossings are asked for, as from −∞, none is ahead.
     pub fn ahead_of(&self, from: f64) -> f64 {
+        if !from.is_finite() {
+            return f64::INFINITY;
+        }
         from + 4.0 * (self.blur + self.turn * self.nearest.length() + 8.0 * U * from.abs())
     }
 

@@ -180,8 +180,11 @@ fn pair(walls: &[Wall], spans: &mut Spans) {
 /// Returns where a line is within the walls of a part, also if rounding has swapped crossings.
 fn surely_within(spans: &[(Met, Met)], number: usize) -> Range<f64> {
     let (enter, leave) = &spans[number];
-    let from = spans[..number].iter().map(|(_, leave)| high(leave)).fold(high(enter), f64::max);
-    let to = spans[number + 1..].iter().map(|(enter, _)| low(enter)).fold(low(leave), f64::min);
+    let ends = |spans: &[(Met, Met)], end: fn(&Met) -> f64| -> SmallVec<[f64; 6]> {
+        spans.iter().flat_map(|(enter, leave)| [end(enter), end(leave)]).collect()
+    };
+    let from = ends(&spans[..number], high).into_iter().fold(high(enter), f64::max);
+    let to = ends(&spans[number + 1..], low).into_iter().fold(low(leave), f64::min);
     from..to
 }
 

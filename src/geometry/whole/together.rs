@@ -107,14 +107,10 @@ impl Geometry {
         mask: u32,
         known: &mut Known,
     ) {
-        if whole.tree.is_some() {
-            known.near = [u32::MAX; ROW];
-            return;
-        }
         for (leaf, entry) in whole.leaves.iter().enumerate().take(MOST_BALLS as usize) {
             let near = whole.near_leaf(simd, leaf, rays, mask);
             numbers(near).for_each(|number| known.near[number] |= 1 << leaf);
-            if near.count_ones() < 2 {
+            if near.count_ones() < 2 || whole.tree.is_some() {
                 continue;
             }
             match entry.solid {

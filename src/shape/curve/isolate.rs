@@ -1,7 +1,7 @@
 //! Isolates the roots of a polynomial that is given by its Bézier coefficients.
 //!
 //! **In:** the coefficients, for u from 0 to 1, and an error bound of each. **Out:** intervals with one root.
-//! **Invariant:** the signs at both ends of an interval are certain.
+//! **Invariant:** the signs at both ends of an interval are certain, and there is exactly one root between them.
 
 /// An interval in which a polynomial has one root.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +53,7 @@ impl Isolated<4> {
 const HALVINGS: u32 = 7;
 
 /// Calls `found` with an interval for each root, in order. Returns `false` where the coefficients leave doubt, as
-/// beside a double root; what was found until then is to be dropped. `error` includes 64 roundings of the greatest
+/// beside a double root; what was found until then is to be dropped. `error` must include 64 roundings of the greatest
 /// coefficient, for halving.
 ///
 /// **Method:** a polynomial has at most as many roots as its Bézier coefficients have changes of sign, and one if

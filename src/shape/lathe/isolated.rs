@@ -61,7 +61,7 @@ fn product(a: [f64; 4], b: [f64; 4]) -> [f64; 7] {
 /// An interval of a piece with one crossing.
 struct Candidate {
     number: usize,
-    /// Its ends, first that on the positive side.
+    /// Its ends, first that where the value is positive.
     ends: (f64, f64),
     /// About where the crossing is.
     near: f64,

@@ -247,7 +247,9 @@ impl Hyperbola {
         let (first, last) = (self.square(low[1]), self.square(high[1]));
         let has_vertex = low[1] < self.vertex && self.vertex < high[1];
         let least = if has_vertex { self.least } else { first.min(last) };
-        let (inner, outer) = (self.out * low[0] * low[0], self.out * high[0] * high[0]);
+        // No piece is beyond the axis, but its control points may be.
+        let near = low[0].max(0.0);
+        let (inner, outer) = (self.out * near * near, self.out * high[0] * high[0]);
         least - outer > self.error || inner - first.max(last) > self.error
     }
 

@@ -22,7 +22,7 @@ const FLAT: f64 = 1e-6;
 
 /// Square of the speed across the axis below which a line is not held against that cylinder. Affects only the
 /// running time.
-const STEEP: f64 = 1e-6;
+const UPRIGHT_SQUARED: f64 = 1e-6;
 
 fn dot(a: Vector, b: Vector) -> f64 {
     a.x * b.x + a.y * b.y
@@ -85,11 +85,11 @@ impl Sor {
                 found.push(met);
                 is_done = is_enough(&met);
             });
-            if !is_told {
-                return None;
-            }
             if is_done {
                 return Some(found);
+            }
+            if !is_told {
+                return None;
             }
             last = Some((end, coefficients[3] > 0.0));
         }
@@ -110,14 +110,14 @@ impl Sor {
         if !is_told {
             return None;
         }
-        let speed = dot(ray.direction, ray.direction);
-        if speed < STEEP {
+        let speed_squared = dot(ray.direction, ray.direction);
+        if speed_squared < UPRIGHT_SQUARED {
             return Some(Some((-FAR, FAR)));
         }
-        let nearest = -dot(ray.nearest, ray.direction) / speed;
+        let nearest = -dot(ray.nearest, ray.direction) / speed_squared;
         let point = ray.at(nearest);
         let room = around - dot(point, point);
-        let half = (room / speed).sqrt();
+        let half = (room / speed_squared).sqrt();
         Some((room > 0.0).then_some(((nearest - half).max(-FAR), (nearest + half).min(FAR))))
     }
 
@@ -150,5 +150,21 @@ impl Sor {
         let error = 512.0 * U * (greatest + bounded.greatest)
             + 2.0 * off * (steepness + off * (1.0 + self.bend));
         (coefficients, error)
+    }
+}
+
+#[cfg(test)]
+impl Sor {
+    /// Returns the crossings with the side, as isolated and as stepped to: positions and errors in order. `None` where
+    /// one is not between the ends: only steps go on beyond them.
+    pub(in crate::shape) fn both_ways(&self, ray: &LocalRay) -> [Option<Vec<(f64, f64)>>; 2] {
+        let isolated = self.isolated(ray, (f64::NEG_INFINITY, f64::INFINITY), |_| false);
+        let (stepped, [low, high]) = (self.stepped(ray), self.heights());
+        let is_between = |met: &Met| (low..high).contains(&ray.at(met.t).z);
+        if !stepped.iter().all(is_between) {
+            return [None, None];
+        }
+        [isolated, Some(stepped)]
+            .map(|all| Some(all?.iter().map(|met| (met.t, met.error)).collect()))
     }
 }

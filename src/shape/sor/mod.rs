@@ -193,8 +193,8 @@ impl Local for Sor {
         let round = self.isolated(ray, range, is_enough).unwrap_or_else(|| self.stepped(ray));
         for pair in round.chunks(2) {
             let [enter, leave] = *pair else {
-                // Beyond it nothing was looked for.
-                found.extend(pair.iter().copied());
+                // Beyond what is enough nothing was looked for.
+                found.extend(pair.iter().copied().filter(is_enough));
                 return;
             };
             let (mut enter, mut leave) = (enter.later(first), leave.earlier(last));

@@ -196,3 +196,22 @@ fn crossings_with_a_lathe_that_are_isolated_are_those_that_are_walked_to() {
     }
     assert!(told > 2 * tries_in(10), "{told}");
 }
+
+/// The control points of a piece that bends away from the axis may lie beyond the axis.
+#[test]
+fn a_piece_is_met_near_the_axis_though_a_control_point_lies_beyond() {
+    let mut random = Random(99);
+    let points = [[0.0, -0.7], [0.3, -0.2], [-0.15, 0.2], [0.75, 0.7]];
+    let lathe = Lathe::new([vec![Piece::bezier(&points).expect("a cubic")]]).expect("a lathe");
+    let placed = placed(&mut random, Body::Lathe(lathe.clone()));
+    let (mut told, mut crossed) = (0, 0);
+    for _ in 0..tries_in(10) {
+        let around = random.direction().get().with_z(0.0).normalize_or(Vector::X);
+        let through = around * random.number(0.0, 0.15) + Vector::Z * random.number(-0.7, 0.7);
+        let way = Vector::Z + random.point(1.0) * random.size(-6.0, 0.0);
+        let Some((ray, _)) = ray_through(&mut random, &placed, through, way) else { continue };
+        crossed += assert_crossed_where_it_is(&mut random, &placed, &ray, inside);
+        told += assert_same_both_ways(&lathe.both_ways(&Seen::new(&placed, &ray, 0.0).line));
+    }
+    assert!(told > tries_in(20) && crossed > tries_in(20), "{told} {crossed}");
+}

@@ -1,6 +1,6 @@
 //! Surfaces of revolution against twice the digits.
 
-use super::outline::{goes_along, number, one, ray_through};
+use super::outline::{assert_same_both_ways, goes_along, number, one, ray_through};
 use super::placed::{
     assert_crossed_where_it_is, assert_first_found_up_to_a_limit, assert_left_into_the_open,
     greater, placed, ray_at_placed,
@@ -9,6 +9,7 @@ use super::*;
 use crate::math::random::tries_in;
 use crate::shape::exact::Triple;
 use crate::shape::local::Local;
+use crate::shape::seen::Seen;
 use crate::shape::sor::Segment;
 
 fn inside(body: &Body, [x, y, z]: Triple) -> Double {
@@ -95,4 +96,33 @@ fn a_sor_is_crossed_where_a_ray_is_level_upright_grazes_it_or_meets_its_axis() {
         }
     }
     assert!(crossed > tries_in(100), "{crossed}");
+}
+
+/// Some lines are nearly level, and some pass right beside the widest place.
+#[test]
+fn crossings_with_a_sor_that_are_isolated_are_those_that_are_stepped_to() {
+    let mut random = Random(98);
+    let mut told = 0;
+    for turn in 0..tries_in(40) {
+        let sor = any_sor(&mut random);
+        let body = sor.clone();
+        let widest = sor.segments().iter().map(|one| one.low).fold(-1.0, |widest: f64, z| {
+            if sor.radius(z) > sor.radius(widest) { z } else { widest }
+        });
+        let placed = placed(&mut random, Body::Sor(body));
+        let around = random.direction().get().with_z(0.0).normalize_or(Vector::X);
+        let beside = 1.0 + random.size(-6.0, -1.0);
+        let place = around * sor.radius(widest) * beside + Vector::Z * widest;
+        let level = around.cross(Vector::Z) + Vector::Z * random.size(-8.0, -2.0);
+        let ray = match turn % 2 {
+            0 => ray_at_placed(&mut random, &placed),
+            _ => match ray_through(&mut random, &placed, place, level) {
+                Some((ray, _)) => ray,
+                None => continue,
+            },
+        };
+        let seen = Seen::new(&placed, &ray, 0.0);
+        told += assert_same_both_ways(&sor.both_ways(&seen.line));
+    }
+    assert!(told > tries_in(80), "{told}");
 }
