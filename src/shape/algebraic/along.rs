@@ -67,6 +67,9 @@ impl Algebraic {
     }
 }
 
+/// With room for no more terms, zeros are multiplied and added, too: loops of a known length keep all in registers.
+const FEW_TERMS: usize = 3;
+
 /// Three polynomials in s.
 struct Sum<const ROOM: usize> {
     /// All are 0 from `length` on.
@@ -83,7 +86,8 @@ impl<const ROOM: usize> Sum<ROOM> {
         if self.length == 0 {
             return;
         }
-        for k in (1..=self.length).rev() {
+        let last = if ROOM <= FEW_TERMS { ROOM - 1 } else { self.length };
+        for k in (1..=last).rev() {
             let before = self.values[k - 1];
             for (i, value) in self.values[k].iter_mut().enumerate() {
                 *value = *value * start[i] + before[i] * step[i];
@@ -106,7 +110,8 @@ impl<const ROOM: usize> Sum<ROOM> {
 
     #[inline(always)]
     fn add(&mut self, more: &Self) {
-        for (value, more) in self.values.iter_mut().zip(&more.values[..more.length]) {
+        let count = if ROOM <= FEW_TERMS { ROOM } else { more.length };
+        for (value, more) in self.values.iter_mut().zip(&more.values[..count]) {
             for (value, more) in value.iter_mut().zip(more) {
                 *value += more;
             }
