@@ -38,7 +38,7 @@ impl Last {
 
     #[inline(always)]
     fn add(&mut self, place: f64, met: &Met, leaf: u32) {
-        // `max` would drop what is no number.
+        // `max` would drop a NaN.
         let error = if met.error.is_nan() { f64::INFINITY } else { met.error };
         if place > self.place {
             self.others = self.others.max(self.place + self.error);
@@ -49,7 +49,7 @@ impl Last {
         }
     }
 
-    /// Whether it is told from the others.
+    /// Returns whether error bounds separate it from the others.
     fn is_told(&self) -> bool {
         self.place == f64::NEG_INFINITY || self.others < self.place - self.error
     }
@@ -279,11 +279,11 @@ fn add_hole(hole: Stretch, stretch: &Stretch, holes: &mut Holes) -> Option<()> {
     is_before(enter, leave).then(|| holes.push(hole))
 }
 
-/// Adds the ends of what holes leave of a stretch; `None` where error bounds do not tell them from all others.
+/// Adds the ends of the parts of a stretch outside all holes; `None` if error bounds cannot separate them from others.
 #[inline(always)]
 fn cut([enter, leave]: Stretch, holes: &mut Holes, events: &mut Events) -> Option<()> {
     holes.sort_unstable_by(|a, b| a[0].met.t.total_cmp(&b[0].met.t));
-    // Up to here all is told; the line was last in the whole until `left`.
+    // The line up to `at` is decided; it last left the whole at `left`.
     let (mut at, mut left) = (enter, None::<End>);
     for &mut [begin, end] in holes {
         if at.is_before(&begin)? {

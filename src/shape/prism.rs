@@ -180,11 +180,10 @@ fn pair(walls: &[Wall], spans: &mut Spans) {
 /// Returns where a line is within the walls of a part, also if rounding has swapped crossings.
 fn surely_within(spans: &[(Met, Met)], number: usize) -> Range<f64> {
     let (enter, leave) = &spans[number];
-    let ends = |spans: &[(Met, Met)], end: fn(&Met) -> f64| -> SmallVec<[f64; 6]> {
-        spans.iter().flat_map(|(enter, leave)| [end(enter), end(leave)]).collect()
-    };
-    let from = ends(&spans[..number], high).into_iter().fold(high(enter), f64::max);
-    let to = ends(&spans[number + 1..], low).into_iter().fold(low(leave), f64::min);
+    let before = spans[..number].iter().flat_map(|(enter, leave)| [high(enter), high(leave)]);
+    let behind = spans[number + 1..].iter().flat_map(|(enter, leave)| [low(enter), low(leave)]);
+    let from = before.fold(high(enter), f64::max);
+    let to = behind.fold(low(leave), f64::min);
     from..to
 }
 

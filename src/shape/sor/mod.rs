@@ -193,7 +193,7 @@ impl Local for Sor {
         let round = self.isolated(ray, range, is_enough).unwrap_or_else(|| self.stepped(ray));
         for pair in round.chunks(2) {
             let [enter, leave] = *pair else {
-                // Beyond what is enough nothing was looked for.
+                // The search ended at a crossing that is enough.
                 found.extend(pair.iter().copied().filter(is_enough));
                 return;
             };
