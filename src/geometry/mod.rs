@@ -26,7 +26,6 @@ mod through;
 mod whole;
 mod work;
 
-pub use crate::bvh::packet::MOST as TOGETHER;
 pub use crate::bvh::shaft::Shaft;
 pub use between::Between;
 pub use nearest::Hit;

@@ -8,7 +8,7 @@ use super::search::{Each, Seeker};
 use super::work::{Tally, Uncounted};
 use super::{EASY, Geometry, TIGHT, Work};
 use crate::bvh::packet;
-use crate::math::wide::{Rays, numbers};
+use crate::math::wide::{ROW, Rays, numbers};
 use crate::shape::Ray;
 use crate::shape::local::Met;
 
@@ -66,12 +66,13 @@ impl Geometry {
         self.nearest_with(ray, Uncounted)
     }
 
-    /// As [`Geometry::nearest_counted`] for rays side by side: adds a hit for each to `hits`.
+    /// As [`Geometry::nearest_counted`] for rays side by side.
     #[inline(never)]
-    pub fn nearest_together(&self, rays: &Rays, hits: &mut Vec<Hit>, work: &mut Work) {
+    pub fn nearest_together(&self, rays: &Rays, hits: &mut [Hit; ROW], work: &mut Work) {
         if !self.counts && rays.mask.count_ones() < packet::LEAST {
-            let alone = |number| self.nearest_with(&rays.at(number), Uncounted);
-            hits.extend(numbers(rays.mask).map(alone));
+            for number in numbers(rays.mask) {
+                hits[number] = self.nearest_with(&rays.at(number), Uncounted);
+            }
             return;
         }
         let mut races = Races::new(self, rays, self.counts.then_some(work));

@@ -45,12 +45,11 @@ impl<'a> Races<'a> {
         }
     }
 
-    /// Adds the first surface that each ray meets.
+    /// Tells the first surface that each ray meets.
     #[inline(always)]
-    pub fn finish(mut self, hits: &mut Vec<Hit>) {
-        let first = hits.len();
-        hits.resize(first + self.rays.mask.count_ones() as usize, Hit::NOTHING);
-        for (number, hit) in numbers(self.rays.mask).zip(&mut hits[first..]) {
+    pub fn finish(mut self, hits: &mut [Hit; ROW]) {
+        for number in numbers(self.rays.mask) {
+            let hit = &mut hits[number];
             let (t, limit) = (self.t[number], self.limits[number]);
             let may_differ = self.rival_t[number] <= limit || self.is_contested >> number & 1 == 1;
             if may_differ && t != f64::INFINITY {
@@ -63,6 +62,7 @@ impl<'a> Races<'a> {
             hit.error = (limit - t) / 2.0;
             hit.leaving = self.leaving >> number & 1 == 1;
             hit.part = self.part[number];
+            hit.contested = false;
         }
     }
 

@@ -77,6 +77,7 @@ impl Rows {
 }
 
 /// Up to [`ROW`] rays side by side.
+#[derive(Debug)]
 pub struct Rays {
     pub origins: Rows,
     pub directions: Rows,

@@ -178,7 +178,7 @@ impl<'a> Tracer<'a> {
                 && ground.is_lit_by(number)
                 && let Some(lit) = shade::before(self, walk, &ground, (number, light))
             {
-                batch.answers.add_to(of, lit);
+                batch.add(of, lit);
             }
         }
     }

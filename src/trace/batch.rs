@@ -11,11 +11,11 @@ use std::ops::ControlFlow;
 
 use super::Walk;
 use super::fog::Veil;
+use super::packet::{Packet, Packets};
 use super::reflection;
 use super::tracer::Tracer;
 use super::way::Way;
 use crate::color::Rgb;
-use crate::geometry::{Hit, TOGETHER};
 use crate::math::wide::{ROW, Rays, numbers};
 
 /// The camera's rays that are traced together, and about the most of a generation.
@@ -89,16 +89,10 @@ struct Return {
     seen: Rgb,
     /// The seed's clamp applies.
     clamped: bool,
-    back: Back,
 }
 
 impl Return {
-    /// Of a ray of the camera.
-    const NOTHING: Self = Self {
-        seen: Rgb::BLACK,
-        clamped: false,
-        back: Back { to: 0, factor: Rgb::WHITE, exponent: 1.0 },
-    };
+    const NOTHING: Self = Self { seen: Rgb::BLACK, clamped: false };
 }
 
 /// Rays that left the surfaces of the generation before.
@@ -109,8 +103,8 @@ struct Generation {
     count: usize,
     /// Rays whose surfaces are shaded.
     shaded: usize,
-    /// Where its rays are kept until they are shaded.
-    rays: usize,
+    /// The first of its packets, which are kept until all are shaded.
+    packets: usize,
     /// The solids that are known of rays before it.
     solids: usize,
 }
@@ -119,18 +113,20 @@ struct Generation {
 #[derive(Debug, Default)]
 pub(super) struct Batch {
     returns: Vec<Return>,
+    /// Where they go, but for those of the camera's rays.
+    backs: Vec<Back>,
     /// What fog does to each; empty without fog.
     veils: Vec<Veil>,
-    ways: Vec<Way>,
-    hits: Vec<Hit>,
+    packets: Packets,
     generations: Vec<Generation>,
 }
 
 /// Surfaces of a generation, side by side, and what they send back.
 pub(super) struct Surfaces<'a> {
-    pub ways: &'a [Way],
-    pub hits: &'a [Hit],
-    /// The number of the first among those of its generation.
+    pub packet: &'a Packet,
+    /// A bit for each.
+    pub mask: u32,
+    /// The number of the packet's first ray among those of its generation.
     pub first: u32,
     seen: &'a mut [Return],
 }
@@ -139,8 +135,7 @@ impl Surfaces<'_> {
     /// What the surface of a ray shows by itself; `clamped` as the seed's.
     #[inline(always)]
     pub fn show(&mut self, number: usize, local: Rgb, clamped: bool) {
-        let Return { seen, clamped: is_clamped, .. } = &mut self.seen[number];
-        (*seen, *is_clamped) = (local, clamped);
+        self.seen[number] = Return { seen: local, clamped };
     }
 }
 
@@ -151,51 +146,54 @@ impl Batch {
         self.returns.capacity()
     }
 
-    /// Makes the first generation of the rays that are there.
-    fn begin(&mut self) {
+    /// Makes the first generation of the camera's rays that are there.
+    fn begin(&mut self, count: usize) {
         self.returns.clear();
+        self.backs.clear();
         self.veils.clear();
-        self.hits.clear();
         self.generations.clear();
-        self.add(self.ways.len(), std::iter::empty(), 0);
+        self.add(count, 0, 0);
     }
 
-    /// Adds a generation whose rays are the last of the list.
-    fn add(&mut self, count: usize, backs: impl Iterator<Item = Back>, solids: usize) {
-        let (first, rays) = (self.returns.len(), self.ways.len() - count);
+    /// Adds a generation of the rays that go on before surfaces and behind them.
+    fn go_on(&mut self, [onward, behind]: [&Onwards; 2], solids: usize) {
+        let packets = self.packets.len();
+        self.packets.extend(onward.ways.iter().chain(&behind.ways));
+        self.backs.extend_from_slice(&onward.backs);
+        self.backs.extend_from_slice(&behind.backs);
+        self.add(onward.len() + behind.len(), packets, solids);
+    }
+
+    fn add(&mut self, count: usize, packets: usize, solids: usize) {
+        let first = self.returns.len();
         self.returns.resize(first + count, Return::NOTHING);
-        self.returns[first..].iter_mut().zip(backs).for_each(|(one, back)| {
-            one.back.to = back.to;
-            one.back.factor = back.factor;
-            one.back.exponent = back.exponent;
-        });
-        self.generations.push(Generation { first, count, shaded: 0, rays, solids });
+        self.generations.push(Generation { first, count, shaded: 0, packets, solids });
     }
 
-    /// The surfaces that are shaded next, at most `slice`.
+    /// The surfaces that are shaded next, at most `slice`, of one packet.
     fn next(&mut self, slice: usize) -> Option<Surfaces<'_>> {
-        let Generation { first, count, shaded, rays, .. } = *self.generations.last()?;
-        let next = shaded..count.min(shaded + slice);
-        if next.is_empty() {
+        let Generation { first, count, shaded, packets, .. } = *self.generations.last()?;
+        let start = shaded / ROW * ROW;
+        let end = count.min(shaded + slice).min(start + ROW);
+        if end == shaded {
             return None;
         }
-        self.generations.last_mut()?.shaded = next.end;
-        let kept = rays + next.start..rays + next.end;
+        self.generations.last_mut()?.shaded = end;
+        let bits = |to: usize| (1 << (to - start)) - 1;
         Some(Surfaces {
-            ways: &self.ways[kept.clone()],
-            hits: &self.hits[kept],
-            first: next.start as u32,
-            seen: &mut self.returns[first + next.start..first + next.end],
+            packet: self.packets.at(packets + start / ROW),
+            mask: bits(end) & !bits(shaded),
+            first: start as u32,
+            seen: &mut self.returns[first + start..first + end],
         })
     }
 
     /// Forgets the rays of the last generation if they are all shaded.
     fn forget_shaded(&mut self) {
-        if let Some(&Generation { count, shaded, rays, .. }) = self.generations.last()
+        if let Some(&Generation { count, shaded, packets, .. }) = self.generations.last()
             && shaded == count
         {
-            self.ways.truncate(rays);
-            self.hits.truncate(rays);
+            self.packets.truncate(packets);
         }
     }
 
@@ -212,18 +210,21 @@ impl Batch {
             self.veils.truncate(first);
         }
         let to = self.generations.last()?.first;
-        for Return { seen, back: Back { to: place, factor, exponent }, .. } in last {
-            let adapted = reflection::adapted(*seen, *exponent);
-            before[to + *place as usize].seen += reflection::passed_on(*factor, adapted);
+        let backs = self.backs.len() - last.len();
+        for (Return { seen, .. }, back) in last.iter().zip(&self.backs[backs..]) {
+            let adapted = reflection::adapted(*seen, back.exponent);
+            before[to + back.to as usize].seen += reflection::passed_on(back.factor, adapted);
         }
         self.returns.truncate(first);
+        self.backs.truncate(backs);
         Some(solids)
     }
 }
 
 impl<'a> Tracer<'a> {
     /// Shows `look` the radiance seen along each of the camera's rays, in their order; stops early where the watch
-    /// wants no more. `fill` puts the next rays into a row, until there are none.
+    /// wants no more. `fill` puts the next rays into a row, from its first place on and as many as there is room for,
+    /// until there are none.
     pub fn each_seen(
         &self,
         walk: &mut Walk,
@@ -231,24 +232,24 @@ impl<'a> Tracer<'a> {
         mut look: impl FnMut(Rgb),
     ) {
         let mut batch = std::mem::take(&mut walk.batch);
-        let mut rays = Rays::NONE;
+        let mut count = 0;
         loop {
-            fill(&mut rays);
-            for number in numbers(rays.mask) {
-                batch.ways.push(Way::from_camera(rays.at(number), batch.ways.len() as u32));
-            }
-            let (is_last, is_full) = (rays.mask == 0, batch.ways.len() + ROW > MOST);
-            if is_full || is_last && !batch.ways.is_empty() {
-                let goes_on = self.gather(walk, &mut batch, &mut look);
+            let Packet { rays, .. } = batch.packets.of_camera();
+            fill(rays);
+            let more = rays.mask.count_ones() as usize;
+            count += more;
+            if count + ROW > MOST || more == 0 && count > 0 {
+                let goes_on = self.gather(walk, &mut batch, count, &mut look);
+                count = 0;
                 if goes_on.is_break() {
                     break;
                 }
             }
-            if is_last {
+            if more == 0 {
                 break;
             }
         }
-        batch.ways.clear();
+        batch.packets.clear();
         walk.batch = batch;
     }
 
@@ -257,13 +258,13 @@ impl<'a> Tracer<'a> {
         &self,
         walk: &mut Walk,
         batch: &mut Batch,
+        count: usize,
         look: &mut impl FnMut(Rgb),
     ) -> ControlFlow<()> {
-        let count = batch.ways.len();
         walk.counters.camera += count as u64;
-        batch.begin();
+        batch.begin(count);
         self.follow(walk, batch);
-        batch.ways.clear();
+        batch.packets.clear();
         if walk.patience.is_over_after(count as u32, self.watch) {
             return ControlFlow::Break(());
         }
@@ -275,7 +276,7 @@ impl<'a> Tracer<'a> {
     #[inline(never)]
     fn follow(&self, walk: &mut Walk, batch: &mut Batch) {
         if self.follows_media {
-            walk.media.start(&batch.ways);
+            walk.media.start(batch.packets.from(0));
         }
         self.advance(walk, batch);
         loop {
@@ -294,13 +295,9 @@ impl<'a> Tracer<'a> {
                 walk.behind.clear();
                 return;
             }
-            let count = walk.pending();
-            if count > 0 {
+            if walk.pending() > 0 {
                 batch.forget_shaded();
-                batch.ways.extend_from_slice(&walk.onward.ways);
-                batch.ways.extend_from_slice(&walk.behind.ways);
-                let backs = walk.onward.backs.iter().chain(&walk.behind.backs).copied();
-                batch.add(count, backs, walk.media.known());
+                batch.go_on([&walk.onward, &walk.behind], walk.media.known());
                 walk.onward.clear();
                 walk.behind.clear();
                 self.advance(walk, batch);
@@ -315,43 +312,42 @@ impl<'a> Tracer<'a> {
 
     /// Takes the rays of the last generation to what they meet, through what lies between.
     fn advance(&self, walk: &mut Walk, batch: &mut Batch) {
-        self.intersect(walk, batch);
-        if self.world.camera.meshes.is_some() && batch.generations.len() == 1 {
-            self.see_near(&mut batch.hits);
-        }
-        if self.has_fog {
-            let Some(&Generation { rays: first, .. }) = batch.generations.last() else { return };
-            let rays = batch.ways[first..].iter().zip(&batch.hits[first..]);
-            batch.veils.extend(rays.map(|(way, hit)| self.veil(walk, way, hit)));
+        let Some(&Generation { packets: first, .. }) = batch.generations.last() else { return };
+        let sees_near = self.world.camera.meshes.is_some() && batch.generations.len() == 1;
+        for packet in batch.packets.from(first) {
+            self.intersect(walk, packet);
+            if sees_near {
+                self.see_near(&mut packet.hits);
+            }
+            if self.has_fog {
+                let veil = |number| self.veil(walk, &packet.way(number), &packet.hits[number]);
+                batch.veils.extend(numbers(packet.rays.mask).map(veil));
+            }
         }
     }
 
-    /// Finds what the rays of the last generation meet.
-    fn intersect(&self, walk: &mut Walk, batch: &mut Batch) {
-        let Batch { ways, hits, .. } = batch;
+    /// Finds what rays meet.
+    fn intersect(&self, walk: &mut Walk, packet: &mut Packet) {
         let work = &mut walk.counters.work;
-        while hits.len() < ways.len() {
-            let next = &ways[hits.len()..];
-            let met_by = self.met_by(&next[0]);
-            let next = &next[..next.len().min(TOGETHER)];
-            let other = next.iter().position(|way| !std::ptr::eq(self.met_by(way), met_by));
-            let together = next[..other.unwrap_or(next.len())].iter().map(|way| &way.ray);
-            met_by.nearest_together(&Rays::new(together), hits, work);
+        let [directly, mirrored] = self.met();
+        let mask = packet.rays.mask;
+        let apart = if std::ptr::eq(directly, mirrored) { 0 } else { packet.mirrored() };
+        for (met, mask) in [(directly, mask & !apart), (mirrored, apart)] {
+            if mask != 0 {
+                packet.rays.mask = mask;
+                met.nearest_together(&packet.rays, &mut packet.hits, work);
+            }
         }
+        packet.rays.mask = mask;
         // A ray that starts inside of an object leaves that first, even where it starts in an edge, too near to the
         // other face to tell.
         if self.bends {
-            let Some(&Generation { rays: first, .. }) = batch.generations.last() else { return };
-            for (way, hit) in batch.ways[first..].iter().zip(&mut batch.hits[first..]) {
+            for number in numbers(mask) {
+                let (way, hit) = (packet.way(number), packet.hits[number]);
                 let Some(inside) = way.inside.filter(|_| !hit.leaving) else { continue };
-                let left = self.met_by(way).left_at_start(
-                    &way.ray,
-                    inside.object,
-                    inside.off,
-                    hit.t,
-                    work,
-                );
-                *hit = left.unwrap_or(*hit);
+                let met = self.met_by(&way);
+                let left = met.left_at_start(&way.ray, inside.object, inside.off, hit.t, work);
+                packet.hits[number] = left.unwrap_or(hit);
             }
         }
     }

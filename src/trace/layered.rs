@@ -12,12 +12,12 @@ use smallvec::SmallVec;
 
 use super::Walk;
 use super::batch::{SLICE, Surfaces};
+use super::packet::Packet;
 use super::surface_batch::SurfaceBatch;
 use super::texture::ObjectSide;
 use super::tracer::Tracer;
-use super::way::Way;
+use super::traits::{Masks, Traits};
 use crate::color::{Clearness, Color, Rgb};
-use crate::geometry::Hit;
 use crate::math::Vector;
 use crate::math::wide::numbers;
 use crate::world::{Plain, Texture};
@@ -73,19 +73,19 @@ impl<'a> Tracer<'a> {
         let object = &self.world.objects[side.hit.object as usize];
         let texture = self.world.coat(object, side.hit.leaving).texture as usize;
         let Texture::Layers(textures) = &self.world.textures[texture] else { return };
-        let (ways, hits) = (surfaces.ways, surfaces.hits);
+        let packet = surfaces.packet;
         let mut layers = PaintedLayers::new();
         if !side.is_single() {
-            self.paint_layers(textures, (ways, hits), side, &mut layers);
+            self.paint_layers(textures, packet, side, &mut layers);
         }
         let mut alone = side.mask;
         if !layers.batches.is_empty() && !object.double_illuminate && self.only_scatter(textures) {
             let clear = self.secondary && self.clear && self.clear_composites[texture];
             let mut open = 0;
             for number in numbers(side.mask) {
-                let is_seen_through = hits[number].contested
+                let is_seen_through = packet.hits[number].contested
                     || layers.through[number].brightness().abs() >= self.adc_bailout;
-                let goes_on = clear && ways[number].level < self.max_trace_level;
+                let goes_on = clear && packet.level(number) < self.max_trace_level;
                 open |= if goes_on && is_seen_through { 1 << number } else { 0 };
             }
             let together = side.mask & !open;
@@ -97,7 +97,7 @@ impl<'a> Tracer<'a> {
                 let mut local = Rgb::BLACK;
                 for (layer, above) in layers.batches.iter().zip(&layers.above) {
                     if layer.mask >> number & 1 == 1 {
-                        local += layer.local[number] * above[number];
+                        local += layer.local(number) * above[number];
                     }
                 }
                 surfaces.show(number, local, false);
@@ -106,9 +106,9 @@ impl<'a> Tracer<'a> {
             alone = open;
         }
         for number in numbers(alone) {
-            let (way, to) = (&ways[number], surfaces.first + number as u32);
+            let (way, to) = (packet.way(number), surfaces.first + number as u32);
             let known = Known { layers: &layers.batches, number };
-            let local = self.composite(walk, way, &hits[number], to, known);
+            let local = self.composite(walk, &way, &packet.hits[number], to, known);
             surfaces.show(number, local, false);
             count(walk);
         }
@@ -132,7 +132,7 @@ impl<'a> Tracer<'a> {
     fn paint_layers<'b, 'c>(
         &self,
         textures: &'a [Arc<Texture>],
-        (ways, hits): (&'b [Way], &'b [Hit]),
+        packet: &'b Packet,
         side: ObjectSide<'c>,
         layers: &mut PaintedLayers<'a, 'b, 'c>,
     ) {
@@ -152,9 +152,15 @@ impl<'a> Tracer<'a> {
             let tints = place == 0 || !settings.untinted_layers;
             let clearness = if tints { settings.clearness } else { Clearness::Current };
             layers.above.push(layers.through);
+            let traits = (mask, Masks::alike(mask, Traits::of(plain, self.bends)));
             // Built where it stays: it is large.
-            let rays = (ways, hits);
-            layers.batches.push(SurfaceBatch::new(rays, plains, mask, side.surfaces, clearness));
+            layers.batches.push(SurfaceBatch::new(
+                packet,
+                plains,
+                traits,
+                side.surfaces,
+                clearness,
+            ));
             let Some(batch) = layers.batches.last_mut() else { return };
             self.paint(batch);
             // What a finish reflects by itself is not known here.

@@ -5,8 +5,9 @@
 use super::Walk;
 use super::shade::{self, Toward};
 use super::shadow::{self, Aim};
-use super::surface_batch::{ShadedSurface, SurfaceBatch};
+use super::surface_batch::{ShadedSurface, SurfaceBatch, vector};
 use super::tracer::Tracer;
+use super::traits::{ANSWERS, ANSWERS_BY_MORE, SEED};
 use crate::color::Rgb;
 use crate::math::Vector;
 use crate::math::wide::*;
@@ -38,16 +39,13 @@ impl<'a> Grounds<'a> {
         let (mut answers, mut seed, mut together) = (0, 0, SmallVec::new());
         let mut objects: SmallVec<[u32; ROW]> = SmallVec::new();
         for layer in layers {
-            for number in numbers(layer.mask) {
-                let Some(finish) = layer.finish(number) else { continue };
-                let bit = if shade::answers(finish) { 1 << number } else { 0 };
-                answers |= bit;
-                seed |= if finish.seed { bit } else { 0 };
-            }
+            let answer = layer.mask & layer.traits.of(ANSWERS);
+            answers |= answer;
+            seed |= answer & layer.traits.of(SEED);
         }
         for number in numbers(if by_object { answers } else { 0 }) {
             let bit = 1 << number;
-            let object = first.hits[number].object;
+            let object = first.packet.hits[number].object;
             match objects.iter().position(|known| *known == object) {
                 Some(place) => together[place] |= bit,
                 None => {
@@ -141,62 +139,20 @@ impl Aims {
     }
 }
 
-/// What surfaces send to the viewer of lights.
-pub(super) struct Answers {
-    /// A bit for each that answers lights.
-    mask: u32,
-    /// The colour of each body, and its `diffuse`.
-    bodies: Rows,
-    diffuse: Row,
-    /// A bit for each that answers by more than these.
-    more: u32,
-    sums: Rows,
-}
-
-impl Answers {
-    pub const NONE: Self =
-        Self { mask: 0, bodies: Rows::ZERO, diffuse: [0.0; ROW], more: 0, sums: Rows::ZERO };
-
-    /// Prepares the answers of surfaces: at first each shows what it shows by itself.
-    #[inline(always)]
-    fn begin(batch: &mut SurfaceBatch) {
-        for number in numbers(batch.mask) {
-            let Some(finish) = batch.finish(number) else { continue };
-            let SurfaceBatch { answers, local, bodies, .. } = batch;
-            answers.mask |= if shade::answers(finish) { 1 << number } else { 0 };
-            answers.sums.set(number, vector(local[number]));
-            answers.bodies.set(number, vector(bodies[number]));
-            answers.diffuse[number] = finish.diffuse;
-            let answers_by_more =
-                finish.extras.is_some() || finish.brilliance != 1.0 || !finish.lobes.is_empty();
-            answers.more |= if answers_by_more { 1 << number } else { 0 };
+/// Adds the light that bodies scatter to what surfaces show.
+#[inline(always)]
+fn scatter<S: Simd>(simd: S, batch: &mut SurfaceBatch, lit: u32, colors: &Rows, cosines: &Row) {
+    for group in 0..GROUPS {
+        if !has(lit, group) {
+            continue;
         }
+        let part = four(simd, &batch.diffuse, group) * four(simd, cosines, group).abs();
+        let body = WideVector::of(simd, &batch.bodies, group) * part;
+        let ([a, b, c], [x, y, z]) = (WideVector::of(simd, colors, group).0, body.0);
+        let sum = WideVector::of(simd, &batch.local, group);
+        let new = sum + WideVector([a * x, b * y, c * z]);
+        new.or(mask(simd, lit, group), sum).store(&mut batch.local, group);
     }
-
-    /// Adds the light that bodies scatter.
-    #[inline(always)]
-    fn add<S: Simd>(&mut self, simd: S, lit: u32, colors: &Rows, cosines: &Row) {
-        for group in 0..GROUPS {
-            if !has(lit, group) {
-                continue;
-            }
-            let part = four(simd, &self.diffuse, group) * four(simd, cosines, group).abs();
-            let body = WideVector::of(simd, &self.bodies, group) * part;
-            let ([a, b, c], [x, y, z]) = (WideVector::of(simd, colors, group).0, body.0);
-            let sum = WideVector::of(simd, &self.sums, group);
-            let new = sum + WideVector([a * x, b * y, c * z]);
-            new.or(mask(simd, lit, group), sum).store(&mut self.sums, group);
-        }
-    }
-
-    #[inline(always)]
-    pub fn add_to(&mut self, number: usize, light: Rgb) {
-        self.sums.set(number, self.sums.at(number) + vector(light));
-    }
-}
-
-fn vector(Rgb { red, green, blue }: Rgb) -> Vector {
-    Vector::new(red, green, blue)
 }
 
 impl Tracer<'_> {
@@ -209,7 +165,6 @@ impl Tracer<'_> {
             let mask = layer.mask;
             mask & !layers[0].mask == 0 && layer.shaped & mask == layers[0].shaped & mask
         }));
-        layers.iter_mut().for_each(Answers::begin);
         for (number, light) in self.world.lights.iter().enumerate() {
             if !light.is_plain() || !self.world.light_sets.is_empty() {
                 for batch in layers.iter_mut() {
@@ -217,12 +172,6 @@ impl Tracer<'_> {
                 }
             } else if grounds.answers != 0 {
                 self.light_together(walk, layers, &grounds, (number, light));
-            }
-        }
-        for batch in layers {
-            for number in numbers(batch.mask) {
-                let Vector { x: red, y: green, z: blue } = batch.answers.sums.at(number);
-                batch.local[number] = Rgb { red, green, blue };
             }
         }
     }
@@ -280,21 +229,20 @@ impl Tracer<'_> {
             }
         }
         for batch in layers {
-            let lit = lit & batch.mask & batch.answers.mask;
+            let lit = lit & batch.mask & batch.traits.of(ANSWERS);
             if self.counts {
                 let finishes = numbers(lit).filter_map(|surface| batch.finish(surface));
                 finishes.for_each(|finish| shade::count(walk, finish, light));
             }
-            let (more, cosines) = (lit & batch.answers.more, &aims.cosines);
-            let answers = &mut batch.answers;
-            dispatch!(level, simd => answers.add(simd, lit & !more, &colors, cosines));
+            let (more, cosines) = (lit & batch.traits.of(ANSWERS_BY_MORE), &aims.cosines);
+            dispatch!(level, simd => scatter(simd, batch, lit & !more, &colors, cosines));
             for surface in numbers(more) {
                 let Some(ShadedSurface { place, .. }) = batch.at(surface) else { continue };
                 let to_light = aims.rays.directions.at(surface);
                 let light = (number, light);
                 let answer = shade::answered(&place, light, to_light, cosines[surface], 0);
                 let Vector { x: red, y: green, z: blue } = colors.at(surface);
-                batch.answers.add_to(surface, Rgb { red, green, blue } * answer);
+                batch.add(surface, Rgb { red, green, blue } * answer);
             }
         }
     }

@@ -8,11 +8,13 @@
 //! the camera inside.
 
 use super::dispersion;
+use super::packet::Packet;
 use super::way::Way;
 use crate::color::Rgb;
 use crate::geometry::{self, Hit};
 use crate::math::Vector;
 use crate::math::bounds::Bounds;
+use crate::math::wide::numbers;
 use crate::world::{Dispersion, Interior, World};
 
 /// The index of refraction of the air.
@@ -124,10 +126,12 @@ impl Border {
 
 impl Media {
     /// A batch of camera's rays starts; what one starts in is only asked for when a border is.
-    pub fn start(&mut self, ways: &[Way]) {
+    pub fn start(&mut self, packets: &[Packet]) {
         self.lists.clear();
         self.starts.clear();
-        self.starts.extend(ways.iter().map(|way| way.ray.origin));
+        for Packet { rays, .. } in packets {
+            self.starts.extend(numbers(rays.mask).map(|number| rays.origins.at(number)));
+        }
     }
 
     /// The room that lists take.

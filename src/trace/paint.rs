@@ -3,9 +3,10 @@
 //! **In:** surfaces with their plain textures. **Out:** the colour of each, and the normal by which it is lit.
 
 use super::shade::Flat;
-use super::surface_batch::{ShadingNormal, SurfaceBatch};
+use super::surface_batch::{ShadingNormal, SurfaceBatch, vector};
 use super::texture::{self, ObjectSide};
 use super::tracer::Tracer;
+use super::traits::{BUMPY, PATTERNED};
 use crate::geometry::{self, Hit, SurfacePoints};
 use crate::math::wide::{Rows, numbers};
 use crate::shape::{Ray, Shape};
@@ -15,29 +16,30 @@ impl<'a> Tracer<'a> {
     /// Finds the colours and normals of surfaces.
     #[inline(always)]
     pub(super) fn paint(&self, batch: &mut SurfaceBatch<'a, '_, '_>) {
-        let (mut patterned, mut bumpy) = (0, 0);
-        for number in numbers(batch.mask) {
-            match batch.plains[number].map(|plain| &plain.pigment) {
-                Some(Pigment::Color(color)) => batch.paints[number] = *color,
-                _ => patterned |= 1 << number,
-            }
-        }
+        let [patterned, bumpy] = [PATTERNED, BUMPY].map(|place| batch.traits.of(place));
         if patterned != 0 {
             self.paint_patterns(batch, patterned);
         }
+        let mut smooth = 0;
         for number in numbers(batch.mask) {
-            let Some(plain) = batch.plains[number] else { continue };
-            let (ray, hit) = (&batch.ways[number].ray, &batch.hits[number]);
+            let Some(Plain { pigment, finish, .. }) = batch.plains[number] else { continue };
+            if let Pigment::Color(color) = pigment {
+                batch.paints[number] = *color;
+            }
             let body = batch.paints[number].body(batch.clearness);
-            batch.bodies[number] = body;
-            batch.local[number] = body * plain.finish.emission;
-            let shape = self.world.objects[hit.object as usize].shape;
-            if (matches!(shape, Shape::Placed(_)) || plain.normal.is_some())
-                && let Some(shaped) = self.shaped(plain, (ray, hit), batch.surfaces, number)
-            {
+            batch.bodies.set(number, vector(body));
+            batch.local.set(number, vector(body * finish.emission));
+            batch.diffuse[number] = finish.diffuse;
+            let object = batch.packet.hits[number].object as usize;
+            let may_be_smooth = matches!(self.world.objects[object].shape, Shape::Placed(_));
+            smooth |= u32::from(may_be_smooth) << number;
+        }
+        for number in numbers(smooth | bumpy) {
+            let Some(plain) = batch.plains[number] else { continue };
+            let (ray, hit) = (&batch.packet.rays.at(number), &batch.packet.hits[number]);
+            if let Some(shaped) = self.shaped(plain, (ray, hit), batch.surfaces, number) {
                 batch.shaped |= 1 << number;
                 batch.shapes.push(shaped);
-                bumpy |= if plain.normal.is_some() { 1 << number } else { 0 };
             }
         }
         if bumpy != 0 {
@@ -50,7 +52,7 @@ impl<'a> Tracer<'a> {
     fn paint_patterns(&self, batch: &mut SurfaceBatch<'a, '_, '_>, patterned: u32) {
         let mut rest = patterned;
         while rest != 0 {
-            let side = ObjectSide::first(batch.hits, rest, batch.surfaces);
+            let side = ObjectSide::first(&batch.packet.hits, rest, batch.surfaces);
             rest &= !side.mask;
             let first = side.first_number();
             let Some(plain) = batch.plains[first] else { return };
@@ -60,7 +62,8 @@ impl<'a> Tracer<'a> {
                 }
                 _ => {
                     for number in numbers(side.mask) {
-                        let (ray, hit) = (&batch.ways[number].ray, &batch.hits[number]);
+                        let (ray, hit) =
+                            (&batch.packet.rays.at(number), &batch.packet.hits[number]);
                         let surface = batch.surfaces.at(number);
                         batch.paints[number] = texture::color(self, plain, ray, hit, &surface);
                     }
@@ -74,7 +77,7 @@ impl<'a> Tracer<'a> {
     fn perturb(&self, batch: &mut SurfaceBatch<'a, '_, '_>, bumpy: u32) {
         let mut rest = bumpy;
         while rest != 0 {
-            let side = ObjectSide::first(batch.hits, rest, batch.surfaces);
+            let side = ObjectSide::first(&batch.packet.hits, rest, batch.surfaces);
             rest &= !side.mask;
             let plain = batch.plains[side.first_number()];
             let Some(bumps) = plain.and_then(|plain| plain.normal.as_deref()) else { return };
@@ -88,7 +91,8 @@ impl<'a> Tracer<'a> {
                 }
                 _ => {
                     for number in numbers(side.mask) {
-                        let (ray, hit) = (&batch.ways[number].ray, &batch.hits[number]);
+                        let (ray, hit) =
+                            (&batch.packet.rays.at(number), &batch.packet.hits[number]);
                         let at = (ray, hit, &batch.surfaces.at(number));
                         let normal = texture::perturbed(self, bumps, normals.at(number), at);
                         normals.set(number, normal);

@@ -59,7 +59,7 @@ impl Tracer<'_> {
                     let level = if from == after { way.level } else { way.level + 1 };
                     let inside = (from != after && !hit.leaving).then(|| Inside::of(hit));
                     let within = within_behind;
-                    let way = Way { ray, weight, level, inside, spectrum, within, ..*way };
+                    let way = Way { ray, weight, level, inside, spectrum, within, ..way };
                     walk.behind.push(Onward { way, back });
                 }
                 // It is of all colours again: the total reflections are one ray.

@@ -9,11 +9,12 @@ use super::shade::Flat;
 use super::surface_batch::{ShadedSurface, SurfaceBatch};
 use super::texture::ObjectSide;
 use super::tracer::Tracer;
+use super::traits::{DOES_MORE, MIRRORS, Masks, SEED};
 use super::way::Way;
 use super::{Walk, behind, reflection, sky};
 use crate::color::Rgb;
 use crate::geometry::SurfacePoints;
-use crate::math::wide::{Rays, Rows, dispatch, numbers};
+use crate::math::wide::{Rows, dispatch, numbers};
 use crate::shape::Ray;
 use crate::world::{Finish, Texture};
 
@@ -21,34 +22,42 @@ impl<'a> Tracer<'a> {
     /// Shades surfaces side by side: tells what each shows by itself, and adds the rays that go on to the walk's.
     #[inline(never)]
     pub fn shade(&self, walk: &mut Walk, mut surfaces: Surfaces) {
-        let (ways, hits) = (surfaces.ways, surfaces.hits);
+        let packet = surfaces.packet;
+        let hits = &packet.hits;
         let mut plains = [None; SLICE];
-        let mut mask = 0;
-        let mut layered = 0;
+        let (mut mask, mut traits) = (0, Masks::default());
+        let (mut layered, mut double) = (0, 0);
         // Surfaces that rays go on from.
         let (mut steps, mut pending) = (0, walk.pending());
         let mut count = |walk: &Walk| {
             steps += u32::from(walk.pending() > pending);
             pending = walk.pending();
         };
-        for (number, (way, hit)) in ways.iter().zip(hits).enumerate() {
+        for number in numbers(surfaces.mask) {
+            let hit = &hits[number];
             if self.counts {
-                let hidden = !std::ptr::eq(self.met_by(way), self.geometry);
+                let hidden = !std::ptr::eq(self.met_by(&packet.way(number)), self.geometry);
                 walk.counters.evaluations.count(self.world, hit.found().as_ref(), hidden);
             }
             if hit.found().is_none() {
-                let sky = sky::seen(self.world, &self.sharpness, way.ray.direction);
+                let sky = sky::seen(self.world, &self.sharpness, packet.rays.directions.at(number));
                 surfaces.show(number, sky, false);
                 continue;
             }
             let object = &self.world.objects[hit.object as usize];
             let texture = self.world.coat(object, hit.leaving).texture;
             match &self.world.textures[texture as usize] {
-                Texture::Plain(plain) => (plains[number], mask) = (Some(plain), mask | 1 << number),
+                Texture::Plain(plain) => {
+                    plains[number] = Some(plain);
+                    mask |= 1 << number;
+                    traits.add(number, self.traits[texture as usize]);
+                    double |= u32::from(object.double_illuminate) << number;
+                }
                 Texture::Layers(_) => layered |= 1 << number,
                 _ => {
                     let to = surfaces.first + number as u32;
-                    let local = self.composite(walk, way, hit, to, Known::NOTHING);
+                    let way = packet.way(number);
+                    let local = self.composite(walk, &way, hit, to, Known::NOTHING);
                     surfaces.show(number, local, false);
                     count(walk);
                 }
@@ -58,21 +67,28 @@ impl<'a> Tracer<'a> {
             walk.patience.is_over_after(steps, self.watch);
             return;
         }
-        let rays = Rays::new(ways.iter().map(|way| &way.ray));
+        let rays = &packet.rays;
         let mut points = SurfacePoints::NONE;
-        points.find(self.world, self.geometry.instructions(), (&rays, mask | layered), hits);
+        points.find(self.world, self.geometry.instructions(), (rays, mask | layered), hits);
         while layered != 0 {
             let side = ObjectSide::first(hits, layered, &points);
             self.shade_layered(walk, &mut surfaces, side, &mut count);
             layered &= !side.mask;
         }
         let clearness = self.world.settings.clearness;
-        let mut batch = SurfaceBatch::new((ways, hits), plains, mask, &points, clearness);
+        let mut batch = SurfaceBatch::new(packet, plains, (mask, traits), &points, clearness);
         self.paint(&mut batch);
         if self.lights {
             self.light(walk, std::slice::from_mut(&mut batch));
         }
-        let mirrors = if self.secondary { self.mirrors(&batch) } else { 0 };
+        let mut clear = if self.clear { mask } else { 0 };
+        for number in numbers(clear) {
+            clear &= !(u32::from(!batch.paints[number].is_clear()) << number);
+        }
+        let does_more = traits.of(DOES_MORE) | double | clear;
+        let simple = traits.of(MIRRORS) & !does_more & !batch.shaped;
+        let does_more = does_more | traits.of(MIRRORS) & !simple;
+        let mirrors = if self.secondary { simple } else { 0 };
         let mut mirrored = Rows::ZERO;
         if mirrors != 0 {
             let (directions, normals) = (&rays.directions, &points.facing);
@@ -80,29 +96,22 @@ impl<'a> Tracer<'a> {
                 reflection::mirrored_together(simd, directions, normals, mirrors, &mut mirrored);
             });
         }
-        for number in numbers(mask) {
-            let Some(finish) = batch.finish(number) else { continue };
-            let (way, to) = (&ways[number], surfaces.first + number as u32);
-            let object = &self.world.objects[hits[number].object as usize];
-            let mut local = batch.local[number];
-            let goes_on = self.secondary && way.level < self.max_trace_level;
-            // Of those that are neither, no ray goes on, and no light from behind is seen.
-            if mirrors >> number & 1 == 1 {
-                if goes_on {
-                    let origin = points.origins.at(number);
-                    let ray = Ray { origin, direction: mirrored.at(number) };
-                    self.mirror(walk, way, finish, ray, to);
-                }
-            } else if finish.reflection.is_some()
-                || finish.extras.is_some()
-                || object.double_illuminate
-                || (self.clear && batch.paints[number].is_clear())
-            {
-                local += self.rest(walk, &batch, number, goes_on, to);
+        // Of others, no ray goes on, and no light from behind is seen.
+        for number in numbers(mirrors | does_more) {
+            let to = surfaces.first + number as u32;
+            let goes_on = self.secondary && packet.level(number) < self.max_trace_level;
+            if does_more >> number & 1 == 1 {
+                let rest = self.rest(walk, &batch, number, goes_on, to);
+                batch.add(number, rest);
+            } else if let Some(finish) = batch.finish(number).filter(|_| goes_on) {
+                let origin = points.origins.at(number);
+                let ray = Ray { origin, direction: mirrored.at(number) };
+                self.mirror(walk, packet.way(number), finish, ray, to);
             }
-            surfaces.show(number, local, finish.seed);
             count(walk);
         }
+        let seed = traits.of(SEED);
+        numbers(mask).for_each(|n| surfaces.show(n, batch.local(n), seed >> n & 1 == 1));
         walk.patience.is_over_after(steps, self.watch);
     }
 
@@ -128,40 +137,18 @@ impl<'a> Tracer<'a> {
         local
     }
 
-    /// Returns a bit for each surface that does nothing but show what it is like and mirror rays.
-    #[inline(always)]
-    fn mirrors(&self, batch: &SurfaceBatch) -> u32 {
-        let mut mirrors = 0;
-        for number in numbers(batch.mask & !batch.shaped) {
-            let Some(finish) = batch.finish(number) else { continue };
-            let Some(reflection) = &finish.reflection else { continue };
-            let object = &self.world.objects[batch.hits[number].object as usize];
-            let parts =
-                self.bends && reflection.fresnel || self.clear && batch.paints[number].is_clear();
-            let is_plain = !parts
-                && finish.extras.is_none()
-                && !object.double_illuminate
-                && reflection.minimum == reflection.maximum
-                && reflection.metallic == 0.0;
-            mirrors |= if is_plain { 1 << number } else { 0 };
-        }
-        mirrors
-    }
-
     /// Adds the mirrored ray of a surface that mirrors the same at all angles to the walk's.
     #[inline(always)]
-    fn mirror(&self, walk: &mut Walk, way: &Way, finish: &Finish, ray: Ray, to: u32) {
+    fn mirror(&self, walk: &mut Walk, way: Way, finish: &Finish, ray: Ray, to: u32) {
         let Some(reflection) = &finish.reflection else { return };
-        let most = || reflection::most(reflection, 0.0);
-        let Some(weight) = self.weight(way.weight, finish, most) else { return };
         let factor = reflection.maximum;
+        let Some(weight) = self.weight(way.weight, finish, || factor.largest()) else { return };
         if factor.is_black() {
             return;
         }
         walk.counters.reflection += 1;
-        let (level, mirrored, inside) = (way.level + 1, true, None);
-        let (spectrum, within) = (way.spectrum, way.within);
-        let way = Way { ray, weight, level, mirrored, inside, spectrum, within };
+        let level = way.level + 1;
+        let way = Way { ray, weight, level, mirrored: true, inside: None, ..way };
         walk.onward.push(Onward { way, back: Back { to, factor, exponent: reflection.exponent } });
     }
 

@@ -1,21 +1,22 @@
 //! Surfaces that are shaded together, with their textures as far as these are evaluated.
 
 use super::batch::SLICE;
-use super::light::Answers;
 use super::media::Within;
+use super::packet::Packet;
 use super::shade::{Flat, Place};
+use super::traits::Masks;
 use super::way::Way;
 use crate::color::{Clearness, Color, Rgb};
 use crate::geometry::{Hit, SurfacePoints};
 use crate::math::Vector;
-use crate::math::wide::Rows;
+use crate::math::wide::{ROW, Row, Rows};
 use crate::shape::SurfacePoint;
 use crate::world::{Finish, Plain};
 use smallvec::SmallVec;
 
 /// A surface with a plain texture, at the hit of a ray.
 pub(super) struct ShadedSurface<'a, 'b> {
-    pub way: &'b Way,
+    pub way: Way,
     pub hit: &'b Hit,
     pub surface: SurfacePoint,
     pub paint: Color,
@@ -25,22 +26,23 @@ pub(super) struct ShadedSurface<'a, 'b> {
 /// Surfaces of plain textures among those that are shaded together, by their number among these; or one layer of
 /// textures at them.
 pub(super) struct SurfaceBatch<'a, 'b, 'c> {
-    pub ways: &'b [Way],
-    pub hits: &'b [Hit],
+    pub packet: &'b Packet,
     /// A bit for each.
     pub mask: u32,
     pub plains: [Option<&'a Plain>; SLICE],
     pub surfaces: &'c SurfacePoints,
+    pub traits: Masks,
     /// How clear paints are for bodies.
     pub clearness: Clearness,
     pub paints: [Color; SLICE],
-    pub bodies: [Rgb; SLICE],
+    /// As much of each paint as is not clear, and the finish's `diffuse`.
+    pub bodies: Rows,
+    pub diffuse: Row,
     /// Those that are lit by another normal than they lie by.
     pub shaped: u32,
     pub shapes: SmallVec<[ShadingNormal; SLICE]>,
     /// What each shows by itself.
-    pub local: [Rgb; SLICE],
-    pub answers: Answers,
+    pub local: Rows,
 }
 
 /// The normal by which a smooth or bumpy surface is lit.
@@ -55,26 +57,38 @@ impl<'a, 'b, 'c> SurfaceBatch<'a, 'b, 'c> {
     /// Returns surfaces whose textures are not evaluated yet.
     #[inline(always)]
     pub fn new(
-        (ways, hits): (&'b [Way], &'b [Hit]),
+        packet: &'b Packet,
         plains: [Option<&'a Plain>; SLICE],
-        mask: u32,
+        (mask, traits): (u32, Masks),
         surfaces: &'c SurfacePoints,
         clearness: Clearness,
     ) -> Self {
         Self {
-            ways,
-            hits,
+            packet,
             mask,
             plains,
             surfaces,
+            traits,
             clearness,
             paints: [Color::default(); SLICE],
-            bodies: [Rgb::BLACK; SLICE],
+            bodies: Rows::ZERO,
+            diffuse: [0.0; ROW],
             shaped: 0,
             shapes: SmallVec::new(),
-            local: [Rgb::BLACK; SLICE],
-            answers: Answers::NONE,
+            local: Rows::ZERO,
         }
+    }
+
+    /// Returns what the surface of this number shows by itself.
+    #[inline(always)]
+    pub fn local(&self, number: usize) -> Rgb {
+        color(self.local.at(number))
+    }
+
+    /// Adds to what the surface of this number shows by itself.
+    #[inline(always)]
+    pub fn add(&mut self, number: usize, light: Rgb) {
+        self.local.set(number, self.local.at(number) + vector(light));
     }
 
     /// Returns the normal by which the surface of this number is lit.
@@ -94,7 +108,7 @@ impl<'a, 'b, 'c> SurfaceBatch<'a, 'b, 'c> {
     /// Returns the solids that the ray of this number is in.
     #[inline(always)]
     pub fn within(&self, number: usize) -> Within {
-        self.ways[number].within
+        self.packet.within(number)
     }
 
     /// Returns the points of surfaces, where rays start that leave them, and the normals that they lie by.
@@ -113,12 +127,12 @@ impl<'a, 'b, 'c> SurfaceBatch<'a, 'b, 'c> {
     #[inline(always)]
     pub fn at(&self, number: usize) -> Option<ShadedSurface<'a, 'b>> {
         let finish = self.finish(number)?;
-        let (way, hit) = (&self.ways[number], &self.hits[number]);
+        let (way, hit) = (self.packet.way(number), &self.packet.hits[number]);
         let (surface, paint) = (self.surfaces.at(number), self.paints[number]);
         let mut place = Place {
             finish,
             color: paint.rgb,
-            body: self.bodies[number],
+            body: color(self.bodies.at(number)),
             point: surface.point,
             origin: self.surfaces.origins.at(number),
             normal: self.surfaces.facing.at(number),
@@ -133,4 +147,14 @@ impl<'a, 'b, 'c> SurfaceBatch<'a, 'b, 'c> {
         }
         Some(ShadedSurface { way, hit, surface, paint, place })
     }
+}
+
+#[inline(always)]
+pub(super) fn vector(Rgb { red, green, blue }: Rgb) -> Vector {
+    Vector::new(red, green, blue)
+}
+
+#[inline(always)]
+fn color(Vector { x: red, y: green, z: blue }: Vector) -> Rgb {
+    Rgb { red, green, blue }
 }

@@ -16,7 +16,7 @@ use crate::plan::Region;
 /// Pixels along a tile's side: small enough to share a picture evenly, large enough that handing
 /// out costs nothing.
 const SIDE: u32 = 32;
-/// Pixels along the side of a block, whose rays go together: `BLOCK`² are at most `geometry::TOGETHER`.
+/// Pixels along the side of a block, whose rays go together: `BLOCK`² are at most those of a packet.
 const BLOCK: usize = 4;
 /// Rows of blocks that are computed at once: as many pixels as a batch has rays, in a tile of [`SIDE`].
 const BLOCKS: usize = 2;

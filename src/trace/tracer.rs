@@ -5,6 +5,7 @@ use super::area::Panel;
 use super::batch::SLICE;
 use super::media::Around;
 use super::sharpness::Sharpness;
+use super::traits::Traits;
 use super::way::Way;
 use crate::geometry::Geometry;
 use crate::plan::{Effect, Plan, Stage};
@@ -34,6 +35,8 @@ pub(super) struct Tracer<'a> {
     pub clear: bool,
     /// Of each texture with parts, whether light passes through it anywhere.
     pub clear_composites: Vec<bool>,
+    /// Of each plain texture.
+    pub traits: Vec<Traits>,
     /// Rays change in interiors: they are bent, split or dimmed.
     pub bends: bool,
     /// What rays are in is followed: interiors change them, or fog and rainbows do not fill all solids.
@@ -88,6 +91,14 @@ impl<'a> Tracer<'a> {
                 .iter()
                 .map(|texture| !matches!(texture, Texture::Plain(_)) && texture.is_clear())
                 .collect(),
+            traits: world
+                .textures
+                .iter()
+                .map(|texture| match texture {
+                    Texture::Plain(plain) => Traits::of(plain, bends),
+                    _ => Traits::default(),
+                })
+                .collect(),
             bends,
             follows_media,
             around: if follows_media { Around::of(world) } else { Around::default() },
@@ -105,6 +116,11 @@ impl<'a> Tracer<'a> {
     /// The World, and what the camera may be in.
     pub fn solids(&self) -> (&'a World, &Around) {
         (self.world, &self.around)
+    }
+
+    /// What the camera's rays and what mirrored rays can meet.
+    pub fn met(&self) -> [&'a Geometry; 2] {
+        [self.in_image, self.in_reflections]
     }
 
     /// What a ray under way can meet.

@@ -83,13 +83,13 @@ impl Tracer<'_> {
             let straight = Ray { origin: behind, direction: way.ray.direction };
             let Walk { coinciding, counters, .. } = walk;
             let work = &mut counters.work;
-            self.met_by(way).coinciding(&way.ray, hit, &straight, coinciding, work);
+            self.met_by(&way).coinciding(&way.ray, hit, &straight, coinciding, work);
         }
         if self.counts {
             walk.counters.evaluations.refraction += u64::from(self.bends);
         }
         let border = match self.follows_media {
-            true => walk.media.border(self.solids(), way, hit, &walk.coinciding),
+            true => walk.media.border(self.solids(), &way, hit, &walk.coinciding),
             false => Border::none(way.within),
         };
         let Border { from, to: after, .. } = border;
@@ -140,7 +140,7 @@ impl Tracer<'_> {
                 let ray = Ray { origin: behind, direction: bent.direction };
                 let level = if from == after { way.level } else { way.level + 1 };
                 let inside = (from != after && !hit.leaving).then(|| Inside::of(hit));
-                let way = Way { ray, weight, level, inside, within: within_behind, ..*way };
+                let way = Way { ray, weight, level, inside, within: within_behind, ..way };
                 let back = Back { to, factor: factor * left, exponent: 1.0 };
                 walk.behind.push(Onward { way, back });
             }

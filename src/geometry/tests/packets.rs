@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::bvh::packet;
-use crate::math::wide::{Instructions, Rays, Row};
+use crate::math::wide::{Instructions, ROW, Rays, Row};
 use std::array::from_fn;
 
 /// Compares rays in rows with each of them alone; returns how many meet something, and how many are shadowed.
@@ -21,7 +21,7 @@ fn assert_alike(world: &World, random: &mut Random, reach: f64, count: usize) ->
                 direction: (first.direction + random.point(spread)).normalize(),
             })
             .collect();
-        let mut together = Vec::new();
+        let mut together = [Hit::NOTHING; ROW];
         let row = Rays::new(rays.iter());
         geometry.nearest_together(&row, &mut together, &mut Work::default());
         for (ray, hit) in rays.iter().zip(together) {
