@@ -5,6 +5,9 @@
 //! own report, runs alternating, the rays a second, and how far the two pictures are apart. Ratios of one run can
 //! be compared, seconds of two cannot: the machine may have been busy.
 
+#[allow(dead_code, reason = "each benchmark uses a part")]
+#[path = "programs.rs"]
+mod programs;
 #[path = "render/scenes.rs"]
 mod scenes;
 
@@ -13,6 +16,7 @@ use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Instant;
 
+use programs::Cost;
 use scenes::Row;
 
 const SIZE: (u32, u32) = (1920, 1080);
@@ -22,7 +26,7 @@ const STARTS: usize = 20;
 fn main() -> ExitCode {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();
-    let povray = povray_version();
+    let povray = programs::povray_version();
     match &povray {
         Some(version) => println!("{version}"),
         None => println!("POV-Ray is not installed (`povray`): nothing to compare with"),
@@ -44,16 +48,6 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// CPU seconds of the stages both programs have.
-#[derive(Debug, Clone, Copy)]
-struct Cost {
-    /// Reading and building what rays search.
-    prepare: f64,
-    trace: f64,
-    /// Of all kinds; 0 where it is not known.
-    rays: f64,
-}
-
 /// Both programs on one scene, taking turns.
 fn pair(folder: &Path, row: &Row, with_povray: bool) {
     let source = folder.join("scene.pov");
@@ -61,19 +55,12 @@ fn pair(folder: &Path, row: &Row, with_povray: bool) {
     let (ours, theirs) = (folder.join("ours.png"), folder.join("theirs.png"));
     let mut runs = Vec::new();
     for _ in 0..PAIRS {
-        let lucarne = lucarne(&source, &ours);
-        runs.push((lucarne, with_povray.then(|| povray(&source, &theirs))));
+        let here = programs::lucarne(&source, &ours, SIZE, &[]).expect("lucarne's times");
+        let there = || programs::povray(&source, &theirs, SIZE, &[]).expect("POV-Ray's times");
+        runs.push((here, with_povray.then(there)));
     }
-    let least = |costs: &mut dyn Iterator<Item = Cost>| {
-        let none = Cost { prepare: f64::INFINITY, trace: f64::INFINITY, rays: 0.0 };
-        costs.fold(none, |least, cost| Cost {
-            prepare: least.prepare.min(cost.prepare),
-            trace: least.trace.min(cost.trace),
-            rays: cost.rays,
-        })
-    };
-    let here = least(&mut runs.iter().map(|(here, _)| *here));
-    let there = least(&mut runs.iter().filter_map(|(_, there)| *there));
+    let here = Cost::least(runs.iter().map(|(here, _)| *here));
+    let there = Cost::least(runs.iter().filter_map(|(_, there)| *there));
     let (trace, prepare) = (here.trace, here.prepare);
     let rays = here.rays / trace / 1e6;
     let Row { title, goal, .. } = row;
@@ -94,57 +81,6 @@ fn pair(folder: &Path, row: &Row, with_povray: bool) {
         "| {title} | {their_trace:.3} | {trace:.3} | {ratio:.2} | {goal} | {before} | \
          {rays:.1} | {apart:.3} % |"
     );
-}
-
-/// One render by ours.
-fn lucarne(source: &Path, picture: &Path) -> Cost {
-    let output = Command::new(env!("CARGO_BIN_EXE_lucarne"))
-        .args(["render", "--antialias", "off", "--threads", "1", "--stats=json"])
-        .arg(format!("--size={}x{}", SIZE.0, SIZE.1))
-        .arg("-o")
-        .args([picture, source])
-        .output()
-        .expect("lucarne starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let stats: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    let seconds = |key: &str| stats[key].as_f64().expect("seconds");
-    let parts = ["parse_cpu_s", "evaluate_cpu_s", "lower_cpu_s", "build_cpu_s"];
-    let rays = stats["rays"].as_object().expect("rays by kind");
-    Cost {
-        prepare: parts.into_iter().map(seconds).sum(),
-        trace: seconds("trace_cpu_s"),
-        rays: rays.values().filter_map(serde_json::Value::as_f64).sum(),
-    }
-}
-
-fn povray_version() -> Option<String> {
-    let output = Command::new("povray").arg("--version").output().ok()?;
-    let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    text.lines().find(|line| line.contains("POV-Ray")).map(str::to_owned)
-}
-
-/// One render by POV-Ray, its times as it reports them.
-fn povray(source: &Path, picture: &Path) -> Cost {
-    let output = Command::new("povray")
-        .args(["+WT1", "-A", "-D", "+FN", "-V"])
-        .arg(format!("+W{}", SIZE.0))
-        .arg(format!("+H{}", SIZE.1))
-        .arg(format!("+I{}", source.display()))
-        .arg(format!("+O{}", picture.display()))
-        .output()
-        .expect("povray starts");
-    let report = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{report}");
-    let seconds = |heading: &str| -> f64 {
-        let part = report.split(heading).nth(1).expect("a time");
-        let number = part.split("with ").nth(1).and_then(|rest| rest.split(' ').next());
-        number.and_then(|number| number.parse().ok()).expect("CPU seconds")
-    };
-    Cost {
-        prepare: seconds("Parse Time:") + seconds("Bounding Time:"),
-        trace: seconds("Trace Time:"),
-        rays: 0.0,
-    }
 }
 
 /// Of how many pixels of two pictures, and of how many in all, a component differs by more than 2 of 255.

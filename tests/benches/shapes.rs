@@ -5,10 +5,12 @@
 //! 640×480 without antialiasing on one thread; seconds are those of the processor for tracing, without reading
 //! and without what prepares the scene, as each program counts them, the least of three runs, or one that takes [`LONG`].
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Output};
+#[allow(dead_code, reason = "each benchmark uses a part")]
+#[path = "programs.rs"]
+mod programs;
 
-use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 const SIZE: (u32, u32) = (640, 480);
 const RUNS: usize = 3;
@@ -54,7 +56,8 @@ fn main() -> ExitCode {
             Some(least)
         };
         let fonts = root.join("src/font");
-        match (least(&|| theirs(&scene, &fonts)), least(&|| ours(&scene, &fonts))) {
+        let [theirs, ours] = [true, false].map(|there| least(&|| seconds(&scene, &fonts, there)));
+        match (theirs, ours) {
             (Some(theirs), Some(ours)) => rows.push((ours / theirs, word, theirs, ours)),
             (theirs, ours) => {
                 eprintln!("{word}: no seconds of POV-Ray's {theirs:?}, or here {ours:?}")
@@ -68,38 +71,12 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn run(program: &str, arguments: &[String], place: &Path) -> Option<Output> {
-    Command::new(program).args(arguments).current_dir(place.parent()?).output().ok()
-}
-
-/// Of the line behind `Trace Time`: `using 1 thread(s) with 0.132 CPU-seconds total`.
-fn theirs(scene: &Path, fonts: &Path) -> Option<f64> {
-    let arguments = [
-        "-D".to_owned(),
-        "-A".to_owned(),
-        "+WT1".to_owned(),
-        format!("+I{}", scene.display()),
-        format!("+L{}", fonts.display()),
-        "+Otheirs.png".to_owned(),
-        format!("+W{}", SIZE.0),
-        format!("+H{}", SIZE.1),
-    ];
-    let told = run("povray", &arguments, scene)?;
-    let text = String::from_utf8_lossy(&told.stderr).into_owned();
-    let (_, rest) = text.split_once("Trace Time:")?;
-    rest.split_once(" with ")?.1.split(' ').next()?.parse().ok()
-}
-
-fn ours(scene: &Path, fonts: &Path) -> Option<f64> {
-    let (width, height) = SIZE;
-    let words = "-o ours.png --antialias off --threads 1 --stats json";
-    let arguments = ["render".to_owned(), scene.display().to_string()]
-        .into_iter()
-        .chain(["-I".to_owned(), fonts.display().to_string()])
-        .chain(["--size".to_owned(), format!("{width}x{height}")])
-        .chain(words.split(' ').map(str::to_owned));
-    let told = run(env!("CARGO_BIN_EXE_lucarne"), &arguments.collect::<Vec<_>>(), scene)?;
-    let text = String::from_utf8_lossy(&told.stderr) + String::from_utf8_lossy(&told.stdout);
-    let line = text.lines().find(|line| line.starts_with('{'))?;
-    serde_json::from_str::<Value>(line).ok()?["trace_cpu_s"].as_f64()
+/// CPU seconds of tracing by lucarne or, if `there`, by POV-Ray; `None` where that fails.
+fn seconds(scene: &Path, fonts: &Path, there: bool) -> Option<f64> {
+    let (picture, fonts) = (scene.with_extension("png"), fonts.display());
+    let cost = match there {
+        true => programs::povray(scene, &picture, SIZE, &[&format!("+L{fonts}")]),
+        false => programs::lucarne(scene, &picture, SIZE, &[&format!("-I{fonts}")]),
+    };
+    cost.map(|cost| cost.trace).ok()
 }

@@ -5,10 +5,11 @@
 //! scene the least CPU seconds of tracing of both, in alternating runs, as each program reports them. Compare
 //! ratios, not the seconds of two runs: the machine may have been busy.
 
-use std::path::Path;
-use std::process::{Command, ExitCode, Output};
+#[allow(dead_code, reason = "each benchmark uses a part")]
+#[path = "programs.rs"]
+mod programs;
 
-use serde_json::Value;
+use std::process::ExitCode;
 
 const SIZE: (u32, u32) = (1920, 1080);
 const PAIRS: usize = 5;
@@ -73,7 +74,7 @@ fn main() -> ExitCode {
     let asked: Vec<String> =
         std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let has_povray = Command::new("povray").arg("--version").output().is_ok();
+    let has_povray = programs::povray_version().is_some();
     if !has_povray {
         println!("POV-Ray is not installed (`povray`): nothing to compare with");
     }
@@ -83,13 +84,15 @@ fn main() -> ExitCode {
         if !asked.is_empty() && !asked.iter().any(|word| word == name) {
             continue;
         }
-        let scene = folder.path().join("scene.pov");
+        let (scene, picture) = (folder.path().join("scene.pov"), folder.path().join("picture.png"));
         std::fs::write(&scene, format!("{HEAD}plane {{ z, 0 {texture} }}\n")).expect("written");
         let (mut least_here, mut least_there) = (f64::INFINITY, f64::INFINITY);
         for _ in 0..PAIRS {
-            least_here = least_here.min(ours(&scene).expect("seconds of lucarne's"));
+            let here = programs::lucarne(&scene, &picture, SIZE, &[]).expect("lucarne's times");
+            least_here = least_here.min(here.trace);
             if has_povray {
-                least_there = least_there.min(theirs(&scene).expect("seconds of POV-Ray's"));
+                let there = programs::povray(&scene, &picture, SIZE, &[]).expect("POV-Ray's times");
+                least_there = least_there.min(there.trace);
             }
         }
         let pixels = f64::from(SIZE.0) * f64::from(SIZE.1);
@@ -104,32 +107,4 @@ fn main() -> ExitCode {
         }
     }
     ExitCode::SUCCESS
-}
-
-fn run(program: &str, arguments: &[String], place: &Path) -> Option<Output> {
-    Command::new(program).args(arguments).current_dir(place.parent()?).output().ok()
-}
-
-/// Of the line behind `Trace Time`: `using 1 thread(s) with 0.132 CPU-seconds total`.
-fn theirs(scene: &Path) -> Option<f64> {
-    let (width, height) = SIZE;
-    let words = format!("-D -A -F +WT1 +W{width} +H{height} +I{}", scene.display());
-    let words: Vec<String> = words.split(' ').map(str::to_owned).collect();
-    let told = run("povray", &words, scene)?;
-    let text = String::from_utf8_lossy(&told.stderr).into_owned();
-    let (_, rest) = text.split_once("Trace Time:")?;
-    rest.split_once(" with ")?.1.split(' ').next()?.parse().ok()
-}
-
-fn ours(scene: &Path) -> Option<f64> {
-    let (width, height) = SIZE;
-    let words = format!(
-        "render {} -o ours.png --size {width}x{height} --antialias off --threads 1 --stats json",
-        scene.display()
-    );
-    let words: Vec<String> = words.split(' ').map(str::to_owned).collect();
-    let told = run(env!("CARGO_BIN_EXE_lucarne"), &words, scene)?;
-    let text = String::from_utf8_lossy(&told.stderr) + String::from_utf8_lossy(&told.stdout);
-    let line = text.lines().find(|line| line.starts_with('{'))?;
-    serde_json::from_str::<Value>(line).ok()?["trace_cpu_s"].as_f64()
 }

@@ -22,9 +22,9 @@ pub fn rows() -> Vec<Row> {
         row("mesh of 1,000,000 triangles", mesh(500), 7.0),
         row("500 differences", differences(), 4.0),
         row("200 nested unions of 8", unions(), 5.0),
-        row("a box minus 100 spheres", drilled(), 5.0),
-        row("32 glass bodies, depth 10", glass(), 3.0),
-        row("20 spheres, 100 lights", lights(), 6.0),
+        row("a box minus 100 spheres", drilled(100), 5.0),
+        row("32 glass bodies, depth 10", glass(10), 3.0),
+        row("20 spheres, 100 lights", lights(100), 6.0),
     ]
 }
 
@@ -64,7 +64,7 @@ macro_rules! add {
     ($scene:ident, $($text:tt)*) => { write!($scene, $($text)*).expect("written") };
 }
 
-fn few() -> String {
+pub fn few() -> String {
     let gloss = "phong 0.4 phong_size 40";
     let mut scene = head("<0, 1.2, 6>", "<0, 0.9, 0>", 5) + LIGHT + SECOND_LIGHT;
     let mut body = |shape: &str, color: &str, gloss: &str, reflection: f64| {
@@ -84,7 +84,7 @@ fn few() -> String {
 }
 
 /// The more, the smaller.
-fn spheres(count: usize) -> String {
+pub fn spheres(count: usize) -> String {
     let mut scene = head("<0, 0, 30>", "<0, 0, 0>", 5) + LIGHT + DEFAULT;
     let mut random = Random(7);
     let size = (100_000.0 / count as f64).cbrt();
@@ -139,7 +139,7 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 }
 
 /// A ball with bumps, of 4·`rings`·(`rings` − 1) triangles.
-fn mesh(rings: usize) -> String {
+pub fn mesh(rings: usize) -> String {
     let mut scene = head("<0, 1.5, 3>", "<0, 0, 0>", 5) + LIGHT;
     scene += "plane { y, -1.1 pigment { rgb 0.8 } }\nmesh2 {\n";
     let around = 2 * rings;
@@ -203,19 +203,19 @@ fn unions() -> String {
     scene
 }
 
-fn drilled() -> String {
+pub fn drilled(count: usize) -> String {
     let mut scene = head("<4, 5, 9>", "<0, 0, 0>", 5) + LIGHT + DEFAULT;
     scene += "difference { box { -3, 3 }\n";
     let mut random = Random(10);
-    for _ in 0..100 {
+    for _ in 0..count {
         let (place, radius) = (random.place(3.0), random.number(0.3, 0.7));
         add!(scene, "sphere {{ {place}, {radius:.3} }}\n");
     }
     scene + "}\n"
 }
 
-fn glass() -> String {
-    let mut scene = head("<0, 3, 12>", "<0, 0, 0>", 10) + LIGHT + SECOND_LIGHT;
+pub fn glass(depth: u32) -> String {
+    let mut scene = head("<0, 3, 12>", "<0, 0, 0>", depth) + LIGHT + SECOND_LIGHT;
     scene += "plane { y, -3 pigment { checker rgb 1, rgb 0.3 } }\n";
     let mut random = Random(11);
     for number in 0..32 {
@@ -235,13 +235,14 @@ fn glass() -> String {
     scene
 }
 
-fn lights() -> String {
+pub fn lights(count: usize) -> String {
     let mut scene = head("<0, 2, 8>", "<0, 0.5, 0>", 5) + DEFAULT + "plane { y, 0 }\n";
     let mut random = Random(12);
-    for _ in 0..100 {
+    let each = 2.0 / count as f64;
+    for _ in 0..count {
         let [x, z] = [(); 2].map(|()| random.number(-20.0, 20.0));
         let y = random.number(5.0, 20.0);
-        add!(scene, "light_source {{ <{x:.3}, {y:.3}, {z:.3}>, rgb 0.02 }}\n");
+        add!(scene, "light_source {{ <{x:.3}, {y:.3}, {z:.3}>, rgb {each} }}\n");
     }
     for _ in 0..20 {
         let [x, z] = [(); 2].map(|()| random.number(-3.0, 3.0));
