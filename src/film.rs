@@ -7,30 +7,58 @@ use crate::color::{Gamma, Rgb, srgb_decode, srgb_encode};
 use crate::math::elementary::pow;
 use crate::plan::{Frame, Region};
 
-/// The traced region, row by row from its top left. Radiance is the mean of a pixel's samples.
+/// The traced region, row by row from its top left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
     pub frame: Frame,
     /// Transfer function from radiance to linear light.
     pub assumed_gamma: Gamma,
-    /// `region.width × region.height` values, in the scene's working space.
-    pub radiance: Vec<Rgb>,
-    /// Number of samples per pixel; 0 if not reached.
-    pub samples: Vec<u32>,
+    /// `region.width × region.height` pixels.
+    pub pixels: Vec<Pixel>,
+}
+
+/// A pixel of a film. Films are large, so radiance is rounded to `f32` once its samples are summed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Pixel {
+    radiance: [f32; 3],
+    samples: u16,
+    coverage: u16,
+}
+
+impl Pixel {
+    /// `radiance` is the mean of so many samples.
+    #[inline]
+    pub fn new(radiance: Rgb, samples: u32) -> Self {
+        // Finite light stays finite.
+        let rounded = |c: f64| (c as f32).clamp(f32::MIN, f32::MAX);
+        Self {
+            radiance: radiance.components().map(rounded),
+            samples: samples.try_into().unwrap_or(u16::MAX),
+            coverage: u16::MAX,
+        }
+    }
+
+    /// Returns the mean of the samples, in the scene's working space.
+    #[inline]
+    pub fn radiance(self) -> Rgb {
+        let [red, green, blue] = self.radiance.map(f64::from);
+        Rgb { red, green, blue }
+    }
+
+    /// Returns the number of samples: 0 if not reached, 65 535 if as many or more.
+    #[inline]
+    pub fn samples(self) -> u32 {
+        self.samples.into()
+    }
 }
 
 impl Film {
-    /// Peak memory per pixel between the tracer and the file: the film and the data for edge detection or,
-    /// later, the film, the image and two copies of it.
-    pub const BYTES_PER_PIXEL: u64 = {
-        let place = size_of::<Rgb>() + size_of::<u32>();
-        let (traced, encoded) = (size_of::<[f64; 3]>(), 3 * size_of::<[f32; 3]>());
-        (place + if traced > encoded { traced } else { encoded }) as u64
-    };
+    /// Peak memory per pixel while tracing: the film, and the marks of edges.
+    pub const BYTES_PER_PIXEL: u64 = (size_of::<Pixel>() + size_of::<bool>()) as u64;
 
     pub fn new(frame: Frame, assumed_gamma: Gamma) -> Self {
         let pixels = frame.region.width as usize * frame.region.height as usize;
-        Self { frame, assumed_gamma, radiance: vec![Rgb::BLACK; pixels], samples: vec![0; pixels] }
+        Self { frame, assumed_gamma, pixels: vec![Pixel::default(); pixels] }
     }
 
     /// Returns the index of pixel (`x`, `y`) of the full picture, which must be in the region.
@@ -38,6 +66,27 @@ impl Film {
     pub fn index(&self, x: u32, y: u32) -> usize {
         let region = self.frame.region;
         (y - region.y) as usize * region.width as usize + (x - region.x) as usize
+    }
+
+    /// Returns the radiance of the pixel with this index.
+    #[inline]
+    pub fn radiance(&self, index: usize) -> Rgb {
+        self.pixels[index].radiance()
+    }
+
+    /// Returns the radiance of each pixel.
+    pub fn radiances(&self) -> impl ExactSizeIterator<Item = Rgb> {
+        self.pixels.iter().map(|pixel| pixel.radiance())
+    }
+
+    /// Returns the number of samples of each pixel.
+    pub fn samples(&self) -> impl ExactSizeIterator<Item = u32> {
+        self.pixels.iter().map(|pixel| pixel.samples())
+    }
+
+    /// Returns the rows of pixels, from the top.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[Pixel]> {
+        self.pixels.chunks(self.frame.region.width.max(1) as usize)
     }
 
     /// Returns the part of the film in `region`, which must lie within its own.
@@ -51,12 +100,10 @@ impl Film {
         let mut to = 0;
         for y in region.y..region.y + region.height {
             let from = self.index(region.x, y);
-            self.radiance.copy_within(from..from + row, to);
-            self.samples.copy_within(from..from + row, to);
+            self.pixels.copy_within(from..from + row, to);
             to += row;
         }
-        self.radiance.truncate(to);
-        self.samples.truncate(to);
+        self.pixels.truncate(to);
         self.frame.region = region;
         self
     }
@@ -67,21 +114,21 @@ impl Film {
 pub struct Image {
     pub width: u32,
     pub height: u32,
-    pub pixels: Pixels,
+    pub components: Components,
 }
 
-/// Red, green and blue of each pixel.
+/// Red, green and blue of each pixel of a row or an image.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Pixels {
+pub enum Components {
     /// Display-referred, sRGB transfer function, 0 … 255.
-    Eight(Vec<[u8; 3]>),
+    Eight(Vec<u8>),
     /// Display-referred, sRGB transfer function, 0 … 65535.
-    Sixteen(Vec<[u16; 3]>),
+    Sixteen(Vec<u16>),
     /// Linear light, 0 … ∞; 1 is the display's white.
-    Linear(Vec<[f32; 3]>),
+    Linear(Vec<f32>),
 }
 
-/// Pixel format of an [`Image`].
+/// Type of the [`Components`] of an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Depth {
     #[default]
@@ -90,14 +137,28 @@ pub enum Depth {
     Linear,
 }
 
+impl Depth {
+    /// Returns the bytes of a component.
+    pub const fn bytes(self) -> usize {
+        match self {
+            Self::Eight => 1,
+            Self::Sixteen => 2,
+            Self::Linear => 4,
+        }
+    }
+}
+
 /// Converts a film to an image. Linear light is `assumed_gamma` applied to the radiance. Display-referred
 /// values are `255 · sRGB` (or `65535 · sRGB`) of that, rounded to nearest. Negative and undefined light is
 /// black.
 pub fn develop(film: &Film, depth: Depth) -> Image {
-    Developer::new(depth, film.assumed_gamma, film.radiance.len()).develop(film)
+    let Region { width, height, .. } = film.frame.region;
+    let developer = Developer::new(depth, film.assumed_gamma, film.pixels.len());
+    Image { width, height, components: developer.develop(&film.pixels) }
 }
 
-/// Converts films with the same `assumed_gamma` like [`develop`], building its lookup tables only once.
+/// Converts pixels of films with the same `assumed_gamma` like [`develop`], building its lookup tables only
+/// once.
 pub struct Developer(Tones);
 
 enum Tones {
@@ -117,20 +178,30 @@ impl Developer {
         })
     }
 
-    /// Converts a film or a part of one.
-    pub fn develop(&self, film: &Film) -> Image {
-        let (width, height) = (film.frame.region.width, film.frame.region.height);
-        let pixels = match &self.0 {
-            Tones::Eight(curve) => Pixels::Eight(each(film, |c| curve.code(c) as u8)),
-            Tones::Sixteen(curve) => Pixels::Sixteen(each(film, |c| curve.code(c) as u16)),
-            Tones::Linear(gamma) => Pixels::Linear(each(film, |c| gamma.linear(c) as f32)),
-        };
-        Image { width, height, pixels }
+    pub fn depth(&self) -> Depth {
+        match self.0 {
+            Tones::Eight(_) => Depth::Eight,
+            Tones::Sixteen(_) => Depth::Sixteen,
+            Tones::Linear(_) => Depth::Linear,
+        }
+    }
+
+    /// Converts some pixels, such as a row.
+    pub fn develop(&self, pixels: &[Pixel]) -> Components {
+        match &self.0 {
+            Tones::Eight(curve) => Components::Eight(each(pixels, |c| curve.code(c) as u8)),
+            Tones::Sixteen(curve) => Components::Sixteen(each(pixels, |c| curve.code(c) as u16)),
+            Tones::Linear(gamma) => Components::Linear(each(pixels, |c| gamma.linear(c) as f32)),
+        }
     }
 }
 
-fn each<T>(film: &Film, encode: impl Fn(f64) -> T) -> Vec<[T; 3]> {
-    film.radiance.iter().map(|c| [encode(c.red), encode(c.green), encode(c.blue)]).collect()
+fn each<T: Copy + Default>(pixels: &[Pixel], encode: impl Fn(f64) -> T) -> Vec<T> {
+    let mut all = vec![T::default(); 3 * pixels.len()];
+    for (place, pixel) in all.chunks_exact_mut(3).zip(pixels) {
+        place.copy_from_slice(&pixel.radiance.map(|c| encode(c.into())));
+    }
+    all
 }
 
 /// Returns the code of a component, 0 … `last`, by definition.
@@ -220,7 +291,8 @@ mod tests {
 
     fn film(radiance: Vec<Rgb>, assumed_gamma: Gamma) -> Film {
         let frame = Frame::whole(radiance.len() as u32, 1);
-        Film { frame, assumed_gamma, samples: vec![1; radiance.len()], radiance }
+        let pixels = radiance.into_iter().map(|radiance| Pixel::new(radiance, 1)).collect();
+        Film { frame, assumed_gamma, pixels }
     }
 
     #[test]
@@ -253,37 +325,67 @@ mod tests {
     fn small_and_large_films_are_shown_alike() {
         let colors: Vec<Rgb> = (0..100).map(|i| Rgb::gray(f64::from(i) / 99.0)).collect();
         let many: Vec<Rgb> = colors.iter().copied().cycle().take(100 * 300).collect();
-        let small = develop(&film(colors, Gamma::LINEAR), Depth::Eight);
-        let Pixels::Eight(small) = small.pixels else { panic!("not 8 bit") };
-        let Pixels::Eight(large) = develop(&film(many, Gamma::LINEAR), Depth::Eight).pixels else {
-            panic!("not 8 bit")
+        let eight = |colors| match develop(&film(colors, Gamma::LINEAR), Depth::Eight).components {
+            Components::Eight(eight) => eight,
+            other => panic!("not 8 bits: {other:?}"),
         };
-        assert_eq!(small, large[29_900..]);
+        assert_eq!(eight(colors), eight(many)[3 * 29_900..]);
     }
 
     #[test]
     fn gamma_turns_the_working_space_into_linear_light() {
-        let Pixels::Linear(pixels) =
-            develop(&film(vec![Rgb::new(0.5, -1.0, 4.0)], Gamma::Power(2.0)), Depth::Linear).pixels
-        else {
-            panic!("not linear")
-        };
-        assert_eq!(pixels, [[0.25, 0.0, 16.0]]);
+        let image =
+            develop(&film(vec![Rgb::new(0.5, -1.0, 4.0)], Gamma::Power(2.0)), Depth::Linear);
+        assert_eq!(image.components, Components::Linear(vec![0.25, 0.0, 16.0]));
     }
 
     #[test]
     fn known_colours_have_known_numbers() {
         let colors = vec![Rgb::new(0.0, 1.0, 0.5), Rgb::new(f64::NAN, 7.0, 0.215_860_5)];
-        let Pixels::Eight(eight) =
-            develop(&film(colors.clone(), Gamma::LINEAR), Depth::Eight).pixels
-        else {
-            panic!("not 8 bit")
+        let film = film(colors, Gamma::LINEAR);
+        let eight = develop(&film, Depth::Eight).components;
+        assert_eq!(eight, Components::Eight(vec![0, 255, 188, 0, 255, 128]));
+        let Components::Sixteen(sixteen) = develop(&film, Depth::Sixteen).components else {
+            panic!("not 16 bits")
         };
-        assert_eq!(eight, [[0, 255, 188], [0, 255, 128]]);
-        let Pixels::Sixteen(sixteen) = develop(&film(colors, Gamma::LINEAR), Depth::Sixteen).pixels
-        else {
-            panic!("not 16 bit")
-        };
-        assert_eq!(sixteen[0], [0, 65_535, 48_192]);
+        assert_eq!(sixteen[..3], [0, 65_535, 48_192]);
+    }
+
+    #[test]
+    fn a_pixel_takes_sixteen_bytes_and_keeps_what_it_holds_finite() {
+        assert_eq!(size_of::<Pixel>(), 16);
+        let pixel = Pixel::new(Rgb::new(0.1, 1e300, -1e300), 1 << 20);
+        let Rgb { red, green, blue } = pixel.radiance();
+        assert!((red - 0.1).abs() <= 0.1 * f64::from(f32::EPSILON) / 2.0, "{red}");
+        assert_eq!((green, blue), (f32::MAX.into(), f32::MIN.into()));
+        assert_eq!(pixel.samples(), 65_535);
+        assert_eq!(Pixel::new(pixel.radiance(), 9), Pixel { samples: 9, ..pixel });
+    }
+
+    #[test]
+    fn a_row_is_developed_like_the_whole() {
+        let colors: Vec<Rgb> = (0..60).map(|i| Rgb::new(0.0, 0.5, f64::from(i) / 40.0)).collect();
+        let mut film = film(colors, Gamma::Srgb);
+        film.frame = Frame::whole(12, 5);
+        for depth in [Depth::Eight, Depth::Sixteen, Depth::Linear] {
+            let developer = Developer::new(depth, film.assumed_gamma, film.pixels.len());
+            assert_eq!(developer.depth(), depth);
+            let rows: Vec<_> = film.rows().map(|row| developer.develop(row)).collect();
+            assert_eq!(rows.len(), 5);
+            let mut bits = Vec::new();
+            for row in rows {
+                match row {
+                    Components::Eight(row) => bits.extend(row.into_iter().map(u32::from)),
+                    Components::Sixteen(row) => bits.extend(row.into_iter().map(u32::from)),
+                    Components::Linear(row) => bits.extend(row.into_iter().map(f32::to_bits)),
+                }
+            }
+            let whole: Vec<u32> = match develop(&film, depth).components {
+                Components::Eight(whole) => whole.into_iter().map(u32::from).collect(),
+                Components::Sixteen(whole) => whole.into_iter().map(u32::from).collect(),
+                Components::Linear(whole) => whole.into_iter().map(f32::to_bits).collect(),
+            };
+            assert_eq!(bits, whole);
+        }
     }
 }

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use lucarne::diagnostic::render::{Style, human};
-use lucarne::film::{Depth, develop};
+use lucarne::film::Depth;
 use lucarne::picture::{Format, encode};
 use lucarne::pilot::pilot;
 use lucarne::plan::{Antialias, Effect, Frame, Kind, Plan, PlanOptions, Samples, Stage, plan};
@@ -203,7 +203,7 @@ fn all_stages_give_the_same_bytes_as_those_of_the_plan() {
         smaller += 1;
         let bytes = |plan: &Plan| {
             let film = traced(&world, plan).film;
-            encode(&develop(&film, Depth::Sixteen), Format::Png).expect("a picture")
+            encode(&film, Depth::Sixteen, Format::Png).expect("a picture")
         };
         assert_eq!(bytes(&plan), bytes(&full), "{name}");
     }

@@ -35,7 +35,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("plan", &["color", "math", "pattern", "shape", "source", "world"]),
     ("film", &["color", "math", "plan"]),
     // Pictures of textures have an encoding.
-    ("picture", &["color", "film", "texture"]),
+    ("picture", &["color", "film", "plan", "texture"]),
     // verbs
     ("mesh_file", &["color", "math", "scene"]),
     ("font", &["scene"]),

@@ -20,3 +20,4 @@ mod readme;
 mod seed;
 mod snapshots;
 mod standard;
+mod unrounded;

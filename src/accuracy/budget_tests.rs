@@ -46,11 +46,10 @@ fn work_is_stopped_within_a_pixel_and_the_pixel_is_left_undone() {
             let watch =
                 affordable_reference::Deadline { clock: &clock, until: 300.0, watch: &Unwatched };
             let Traced { film, counters, complete } = trace(&world, &plan, &ONE_THREAD, &watch);
-            assert!(!complete && film.samples.contains(&0), "{antialias:?}");
+            assert!(!complete && film.samples().any(|samples| samples == 0), "{antialias:?}");
             assert!(counters.rays() < 300 * 1000, "{counters:?}");
-            let undone = film.samples.iter().zip(&film.radiance);
-            let mut undone = undone.filter(|(samples, _)| **samples == 0);
-            assert!(undone.all(|(_, &radiance)| radiance == crate::color::Rgb::BLACK));
+            let mut undone = film.pixels.iter().filter(|pixel| pixel.samples() == 0);
+            assert!(undone.all(|pixel| pixel.radiance().is_black()));
         }
     }
 }
@@ -66,7 +65,7 @@ fn a_time_is_kept_where_paths_fork_and_the_error_is_told_against_what_could_be_l
         // As deep as the scene looks, where all the way takes too long.
         let audit = spent.audit.expect("told");
         assert_eq!((audit.depth, audit.adc_bailout), (Some(5), Some(1.0 / 255.0)));
-        assert!(!spent.is_less && spent.traced.film.samples.iter().any(|&samples| samples > 1));
+        assert!(!spent.is_less && spent.traced.film.samples().any(|samples| samples > 1));
     }
 }
 
@@ -130,8 +129,9 @@ fn pixels_that_turn_out_too_dear_are_made_with_the_cheapest_settings_and_hold_up
         assert!(begun.traced.complete && clock.wall() <= time, "{time} {}", clock.wall());
         assert!(!begun.is_less && begun.settings.antialias == Antialias::Off);
         let least = plan(&world, &origins, &begun.least);
-        let cheapest = trace(&world, &least, &ONE_THREAD, &Unwatched).film.radiance;
-        let as_cheap = begun.traced.film.radiance.iter().zip(&cheapest).filter(|(a, b)| a == b);
+        let cheapest = trace(&world, &least, &ONE_THREAD, &Unwatched).film;
+        let as_cheap =
+            begun.traced.film.radiances().zip(cheapest.radiances()).filter(|(a, b)| a == b);
         assert!(as_cheap.count() >= begun.rest);
         begun.rest
     };
@@ -146,7 +146,7 @@ fn a_picture_as_fine_as_it_gets_is_said_to_be_and_takes_no_more_time() {
     let clock = Ticking::new(1.0);
     let spent = spend(&world, &origins, &asked(16, 12), &|_| 2e5, &clock, &Unwatched);
     assert!(spent.is_finest && clock.wall() < 1.9e5, "{}", clock.wall());
-    assert!(spent.traced.film.samples.iter().all(|&samples| samples == 1024));
+    assert!(spent.traced.film.samples().all(|samples| samples == 1024));
 }
 
 #[test]
@@ -259,7 +259,7 @@ fn refined(until: f64) -> (Film, usize) {
     let watch = affordable_reference::Deadline { clock: &clock, until, watch: &Unwatched };
     let studio = Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &watch };
     let Traced { film, counters, .. } = studio.picture(&plan, &Unwatched);
-    let pace = Pace { seconds: 100.0, samples: film.samples.len() as f64 };
+    let pace = Pace { seconds: 100.0, samples: film.pixels.len() as f64 };
     let mut canvas = Canvas::new(film, counters, pace);
     let time = Until { clock: &clock, until };
     while let Some(worth) = canvas.worth(&studio) {
@@ -267,7 +267,7 @@ fn refined(until: f64) -> (Film, usize) {
             break;
         }
     }
-    let finer = canvas.film.samples.iter().filter(|&&samples| samples > 1).count();
+    let finer = canvas.film.samples().filter(|&samples| samples > 1).count();
     (canvas.film, finer)
 }
 
@@ -285,21 +285,21 @@ fn from_any_first_number_of_samples_the_most_is_reached_where_there_is_time() {
     for side in 2..=MOST_SIDE {
         let clock = Ticking::new(1.0);
         let Traced { film, counters, .. } = studio.picture(&plan, &Unwatched);
-        let pace = Pace { seconds: 1.0, samples: film.samples.len() as f64 };
+        let pace = Pace { seconds: 1.0, samples: film.pixels.len() as f64 };
         let mut canvas = Canvas::new(film, counters, pace);
         assert!(canvas.pilot(&studio, &plan, side, &clock));
         let time = Until { clock: &clock, until: 1e9 };
         while let Some(worth) = canvas.worth(&studio)
             && canvas.pass(&studio, &plan, &worth, time)
         {}
-        assert!(is_finest(&canvas.film), "{side}: {:?}", canvas.film.samples);
+        assert!(is_finest(&canvas.film), "{side}: {:?}", canvas.film.pixels);
     }
 }
 
 #[test]
 fn a_refined_pixel_has_the_bits_of_a_whole_picture_of_as_many_samples() {
     let (film, pixels) = refined(6000.0);
-    let counts: std::collections::BTreeSet<u32> = film.samples.iter().copied().collect();
+    let counts: std::collections::BTreeSet<u32> = film.samples().collect();
     assert!(counts.len() > 3 && pixels > 100, "{counts:?}");
     let (world, origins) = compiled(GLASS, 3.0);
     for samples in counts {
@@ -307,8 +307,8 @@ fn a_refined_pixel_has_the_bits_of_a_whole_picture_of_as_many_samples() {
         let antialias = Antialias::Grid(side);
         let options = PlanOptions { antialias, ..own(&world, film.frame) };
         let whole = trace(&world, &plan(&world, &origins, &options), &ONE_THREAD, &Unwatched).film;
-        for (i, &n) in film.samples.iter().enumerate() {
-            assert!(n != samples || film.radiance[i] == whole.radiance[i], "{side} {i}");
+        for (i, n) in film.samples().enumerate() {
+            assert!(n != samples || film.radiance(i) == whole.radiance(i), "{side} {i}");
         }
     }
 }
@@ -320,7 +320,7 @@ fn time_is_spent_over_the_whole_picture() {
     let (more, _) = refined(6000.0);
     let quarter = |film: &Film, top: usize, left: usize| {
         let inside = |i: &usize| i / 40 / 15 == top && i % 40 / 20 == left;
-        (0..1200).filter(inside).filter(|&i| film.samples[i] > 1).count()
+        (0..1200).filter(inside).filter(|&i| film.pixels[i].samples() > 1).count()
     };
     assert!(pixels > 0 && pixels < 600, "{pixels}");
     for (top, left) in [(0, 0), (0, 1), (1, 0), (1, 1)] {

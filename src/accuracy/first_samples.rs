@@ -11,7 +11,7 @@ use super::measure::Clock;
 use super::reference::Studio;
 use super::refine::{MOST_IN_PART, Spread, place};
 use super::render_settings::Easel;
-use crate::film::Film;
+use crate::film::{Film, Pixel};
 use crate::plan::{Antialias, Plan, PlanOptions, Samples, plan};
 use crate::trace::{Sampling, Traced, Watch};
 use crate::world::Origins;
@@ -107,10 +107,10 @@ fn complete(
     let film = &mut traced.film;
     let in_time = Deadline { clock, until, watch: studio.watch };
     let undone = |film: &Film| -> Vec<usize> {
-        let all = Spread::new(film.samples.len()).part(0, 1);
-        all.filter(|&i| film.samples[i] == 0).collect()
+        let all = Spread::new(film.pixels.len()).part(0, 1);
+        all.filter(|&i| film.pixels[i].samples() == 0).collect()
     };
-    let (mut list, mut size, mut shares) = (undone(film), film.samples.len(), UNEVEN);
+    let (mut list, mut size, mut shares) = (undone(film), film.pixels.len(), UNEVEN);
     while !list.is_empty() && size > 0 {
         size = (size / PARTS).clamp(1, MOST_IN_PART);
         let mut parts = list.chunks(size);
@@ -124,7 +124,7 @@ fn complete(
             traced.counters += seen.counters;
             for (&i, radiance) in part.iter().zip(seen.radiance) {
                 match radiance {
-                    Some(radiance) => (film.radiance[i], film.samples[i]) = (radiance, 1),
+                    Some(radiance) => film.pixels[i] = Pixel::new(radiance, 1),
                     None => shares = IN_DOUBT,
                 }
             }

@@ -38,6 +38,7 @@ pub use knob::{KNOBS, Knob, Need, share};
 pub use measure::{Clock, Span, Times};
 pub use promise::{Kept, Step, TooSmall, keep};
 pub use proof::Audit;
+pub use refine::BYTES_PER_PIXEL;
 pub use report::{Cut, Line, Report, Row, Setting, Tried};
 pub use spend::{First, Spent, spend};
 pub use statistics::{Estimate, Metric};

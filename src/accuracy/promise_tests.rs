@@ -144,7 +144,7 @@ fn an_error_that_no_reference_can_tell_is_not_promised() {
         let kept = keep(&world, &origins, &asked(20, 20), promise, &Ticking::new(1.0), NOBODY);
         let kept = kept.expect("large enough").expect("not stopped");
         // Half of them are white: each pixel is gray, to what those on its border are worth.
-        let of_gray = kept.traced.film.radiance.iter().map(|c| (c.red - 0.5) * (c.red - 0.5));
+        let of_gray = kept.traced.film.radiances().map(|c| (c.red - 0.5) * (c.red - 0.5));
         let error = (of_gray.sum::<f64>() / 400.0).sqrt();
         let audit = kept.audit.expect("done");
         assert!(!audit.proves(promise) || error < promise + 0.001, "{promise}: {audit:?}, {error}");
@@ -195,7 +195,7 @@ fn a_time_is_not_exceeded_and_more_of_it_makes_a_better_picture() {
     let clock = Ticking::new(1.0);
     let spent = spend(&world, &origins, &asked(160, 120), &|_| 300.0, &clock, &Unwatched);
     assert!(!spent.traced.complete && spent.audit.is_none() && clock.wall() <= 315.0);
-    let done = spent.traced.film.samples.iter().filter(|&&samples| samples == 1).count();
+    let done = spent.traced.film.samples().filter(|&samples| samples == 1).count();
     assert!(done > 0 && done < 160 * 120);
 }
 

@@ -34,7 +34,7 @@ pub fn clamped(radiance: Rgb, assumed_gamma: Gamma) -> [f64; 3] {
 
 /// Returns the colors of some pixels of a film, as used for measuring errors.
 pub fn colors_of(film: &Film, list: &[(u32, u32)]) -> Vec<[f64; 3]> {
-    let radiance = |&(x, y): &(u32, u32)| film.radiance[film.index(x, y)];
+    let radiance = |&(x, y): &(u32, u32)| film.radiance(film.index(x, y));
     list.iter().map(|place| clamped(radiance(place), film.assumed_gamma)).collect()
 }
 
@@ -142,8 +142,9 @@ pub struct Reference {
     pub counters: Counters,
 }
 
-/// Rounding error of sums of samples, relative to full scale.
-pub const ROUNDING: f64 = 4096.0 * f64::EPSILON;
+/// Rounding error of a film's colors, relative to full scale: half of `f32::EPSILON` of each, and up to four times
+/// that in linear light.
+pub const ROUNDING: f64 = 2.0 * f32::EPSILON as f64;
 
 impl Reference {
     /// Step of a reference that is inaccurate per pixel but usable over many pixels, for lack of time.

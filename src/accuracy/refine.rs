@@ -11,12 +11,14 @@ use std::thread;
 use super::measure::Clock;
 use super::reference::{Studio, clamped};
 use crate::color::{Gamma, Rgb};
-use crate::film::Film;
+use crate::film::{Film, Pixel};
 use crate::plan::{Plan, Region};
 use crate::trace::{Aim, Counters, Seen, Watch};
 
 /// Maximum number of samples along a pixel's side, as in the most expensive setting of the knob.
 pub const MOST_SIDE: u32 = 32;
+/// Memory per pixel beside the film: three variances, and a color.
+pub const BYTES_PER_PIXEL: u64 = (3 * size_of::<f32>() + size_of::<[f32; 3]>()) as u64;
 /// Number of samples that the information from a pixel's neighbours counts as.
 const NEIGHBOURS: f32 = 1.0;
 /// Maximum ratio of a pixel's samples to those of a neighbour, squared, since weights are roots of
@@ -100,11 +102,11 @@ pub struct Until<'a> {
 impl Canvas {
     /// Starts from a film of one ray per pixel, which took `pace`.
     pub fn new(film: Film, counters: Counters, pace: Pace) -> Self {
-        Self { variances: vec![0.0; film.samples.len()], film, counters, pace }
+        Self { variances: vec![0.0; film.pixels.len()], film, counters, pace }
     }
 
     pub fn pixels(&self) -> usize {
-        self.film.samples.len()
+        self.film.pixels.len()
     }
 
     pub fn pace(&self) -> Pace {
@@ -112,7 +114,7 @@ impl Canvas {
     }
 
     pub fn side(&self, i: usize) -> u32 {
-        self.film.samples[i].isqrt()
+        self.film.pixels[i].samples().isqrt()
     }
 
     /// Estimates each pixel's variance from its own samples and its neighbours'. `None` if stopped.
@@ -127,7 +129,7 @@ impl Canvas {
             Rows { width: self.film.frame.region.width as usize, threads, watch: studio.watch };
         let (count, gamma) = (self.pixels(), self.film.assumed_gamma);
         let colors =
-            in_rows.map(count, |i| clamped(self.film.radiance[i], gamma).map(|c| c as f32))?;
+            in_rows.map(count, |i| clamped(self.film.radiance(i), gamma).map(|c| c as f32))?;
         let alone = in_rows.map(count, |i| {
             let (mut near, mut sum, mut edge) = (0.0f32, 0.0f32, 0.0f32);
             in_rows.around(i, count, |j| {
@@ -138,7 +140,7 @@ impl Canvas {
                 edge = edge.max(off / 4.0);
             });
             let near = edge.max(sum / near.max(1.0));
-            let known = match self.film.samples[i] {
+            let known = match self.film.pixels[i].samples() {
                 0 | 1 => 0.0,
                 samples => samples as f32,
             };
@@ -243,8 +245,7 @@ impl Canvas {
                 is_whole = false;
                 continue;
             };
-            self.film.radiance[i] = mean;
-            self.film.samples[i] = side * side;
+            self.film.pixels[i] = Pixel::new(mean, side * side);
             self.variances[i] = variance(mean, deviation, self.film.assumed_gamma);
         }
         self.pace.seconds += clock.wall() - began;
@@ -255,7 +256,7 @@ impl Canvas {
 
 /// Whether each pixel has the maximum number of samples.
 pub fn is_finest(film: &Film) -> bool {
-    film.samples.iter().all(|&samples| samples == MOST_SIDE * MOST_SIDE)
+    film.samples().all(|samples| samples == MOST_SIDE * MOST_SIDE)
 }
 
 fn is_anew(now: u32, side: u32) -> bool {

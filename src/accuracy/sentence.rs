@@ -81,7 +81,7 @@ fn no_effect(report: &Report, tried: &Tried, dear: &Setting, changed: usize) -> 
     let of_color = settings.iter().map(|setting| change(report, setting, dear)).fold(0.0, f64::max);
     if of_color <= floor.max(ROUNDING) {
         let why = match of_color {
-            ..=ROUNDING => "as sums are rounded".to_owned(),
+            ..=ROUNDING => "as colors are rounded".to_owned(),
             _ => format!("below {of} noise floor of {}", table::amount(Metric::Rmse, floor)),
         };
         return format!(
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_knob_that_changes_only_what_is_rounded_buys_nothing() {
-        let said = "knob buys nothing here: 1 of 4800 audited pixels change, by 1.0e-13 at most, as sums are rounded.";
+        let said = "knob buys nothing here: 1 of 4800 audited pixels change, by 1.0e-13 at most, as colors are rounded.";
         // Whatever the error is: as small, or that of another knob.
         assert_eq!(sentence([(0.3, 2e-13), (0.3 + 1e-13, 1e-13)], ROUNDING), said);
         assert_eq!(sentence([(0.3, 0.1), (0.3 + 1e-13, 0.1)], ROUNDING), said);

@@ -102,7 +102,7 @@ pub fn spend(
     let processors = if wall > 0.0 { cpu / wall } else { 1.0 };
     let until = until(Some(First { film: &spent.traced.film, processors }));
     let Traced { film, counters, .. } = spent.traced;
-    let pace = Pace { seconds: wall, samples: film.samples.len() as f64 };
+    let pace = Pace { seconds: wall, samples: film.pixels.len() as f64 };
     let mut spending = Spending {
         studio,
         depths: Depths { origins, deepest: easel.deepest },

@@ -104,7 +104,7 @@ impl Truth {
     pub(super) fn deviations(&self, traced: &Traced) -> Vec<Deviation> {
         let film = &traced.film;
         let color =
-            |&(x, y): &(u32, u32)| clamped(film.radiance[film.index(x, y)], film.assumed_gamma);
+            |&(x, y): &(u32, u32)| clamped(film.radiance(film.index(x, y)), film.assumed_gamma);
         self.reference.deviations(&self.list.iter().map(color).collect::<Vec<_>>())
     }
 }
@@ -137,7 +137,7 @@ fn the_true_error_lies_in_the_interval_90_to_99_times_of_100() {
             let film = &traced.film;
             let colors: Vec<_> = list
                 .iter()
-                .map(|&(x, y)| clamped(film.radiance[film.index(x, y)], film.assumed_gamma))
+                .map(|&(x, y)| clamped(film.radiance(film.index(x, y)), film.assumed_gamma))
                 .collect();
             let off = reference.deviations(&colors);
             for (holds, metric) in holds.iter_mut().zip(Metric::ALL) {

@@ -6,8 +6,8 @@ use std::thread::available_parallelism;
 
 use lucarne::accuracy::{self, Clock, First, Options, Spent};
 use lucarne::color::Rgb;
-use lucarne::film::{Depth, Developer, Film};
-use lucarne::picture::{Format, encode};
+use lucarne::film::{Depth, Developer, Film, Pixel};
+use lucarne::picture::{self, Format};
 use lucarne::plan::Region;
 use lucarne::world::{Origins, World};
 
@@ -139,11 +139,12 @@ impl About {
     }
 
     fn unfinished(&self, spent: &Spent) -> String {
-        let samples = &spent.traced.film.samples;
-        let done = samples.iter().filter(|samples| **samples > 0).count();
+        let samples = spent.traced.film.samples();
+        let pixels = samples.len();
+        let done = samples.filter(|samples| *samples > 0).count();
         let share = match done {
             0 => "none".to_owned(),
-            done => format!("{} %", 100 * done / samples.len().max(1)),
+            done => format!("{} %", 100 * done / pixels.max(1)),
         };
         let with = match spent.is_less || spent.least != spent.flags {
             true => format!(", even with {}", spent.least),
@@ -157,7 +158,7 @@ impl About {
         let enough = match done {
             0 => String::new(),
             done => {
-                let all = read + (now - read) * samples.len() as f64 / done as f64 + to_end;
+                let all = read + (now - read) * pixels as f64 / done as f64 + to_end;
                 format!("; about {} s would be enough", no_less(1.1 * all.max(now + to_end)))
             }
         };
@@ -228,24 +229,23 @@ impl<'a> Desk<'a> {
         let row = width as usize;
         let high = (height / (BANDS * ON_TRIAL)).max(1);
         let bands = BANDS.min(height);
-        let mut some = Film { radiance: Vec::new(), samples: Vec::new(), ..*film };
+        let mut some = Film { pixels: Vec::new(), ..*film };
         some.frame.region.height = bands * high;
         let part = f64::from(some.frame.region.height) / f64::from(height.max(1));
-        if film.radiance.is_empty() {
-            some.radiance = (0..row * (bands * high) as usize).map(speckled).collect();
+        if film.pixels.is_empty() {
+            some.pixels = (0..row * (bands * high) as usize).map(speckled).collect();
         } else {
             for band in 0..bands {
                 let top = (height - high) / bands * band;
                 let rows = row * top as usize..row * (top + high) as usize;
-                some.radiance.extend(&film.radiance[rows]);
+                some.pixels.extend(&film.pixels[rows]);
             }
         }
-        some.samples = vec![1; some.radiance.len()];
         let began = (clock.cpu(), clock.wall());
         let (mut trials, mut took) = (0, (0.0, 0.0));
         while trials < TRIALS && took.1 < TRIAL {
             // Encoding errors are reported when the picture is written.
-            drop(encode(&developer.develop(&some), *format));
+            let _ = picture::write(&some, developer, *format, &mut std::io::sink());
             trials += 1;
             took = (clock.cpu() - began.0, clock.wall() - began.1);
         }
@@ -257,22 +257,22 @@ impl<'a> Desk<'a> {
 /// Returns a film without data.
 fn unknown(options: &Options, world: &World) -> Film {
     let (frame, assumed_gamma) = (options.frame, world.settings.assumed_gamma);
-    Film { frame, assumed_gamma, radiance: Vec::new(), samples: Vec::new() }
+    Film { frame, assumed_gamma, pixels: Vec::new() }
 }
 
 /// Returns pixel `i` of a picture of typical compressibility: a slow gradient with a little noise.
-fn speckled(i: usize) -> Rgb {
+fn speckled(i: usize) -> Pixel {
     let noise = (i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 56) as f64 / 255.0;
-    Rgb::gray((i % 1024) as f64 / 1024.0 + 0.02 * noise)
+    Pixel::new(Rgb::gray((i % 1024) as f64 / 1024.0 + 0.02 * noise), 1)
 }
 
 /// Describes the samples taken: `4 to 64 samples a pixel, 23 on average`.
 fn made(spent: &Spent) -> String {
-    let samples = &spent.traced.film.samples;
-    let least = samples.iter().copied().min().unwrap_or(0);
-    let most = samples.iter().copied().max().unwrap_or(0);
-    let sum: u64 = samples.iter().map(|&samples| u64::from(samples)).sum();
-    let mean = sum as f64 / samples.len().max(1) as f64;
+    let film = &spent.traced.film;
+    let least = film.samples().min().unwrap_or(0);
+    let most = film.samples().max().unwrap_or(0);
+    let sum: u64 = film.samples().map(u64::from).sum();
+    let mean = sum as f64 / film.pixels.len().max(1) as f64;
     let mut said = match (least == most, most) {
         (true, 1) => "1 sample a pixel".to_owned(),
         (true, _) => format!("{most} samples a pixel"),

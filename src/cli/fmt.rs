@@ -75,7 +75,7 @@ fn one(file: &Path, arguments: &FmtArguments, messages: &mut Messages) -> Outcom
         false => [mark, formatted.as_bytes()].concat(),
     };
     if is_stdin(file) {
-        messages::print_bytes(&encoded)?;
+        messages::print_with(&|out| out.write_all(&encoded))?;
     } else if encoded != bytes {
         write_over(file, &encoded)?;
     }

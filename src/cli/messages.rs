@@ -4,7 +4,7 @@
 //! output. A closed pipe is not an error.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{ErrorKind, IsTerminal, Write};
+use std::io::{BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
 use clap::ValueEnum;
@@ -202,13 +202,13 @@ fn style() -> render::Style {
 
 /// Prints text to standard output. A closed pipe is not an error.
 pub fn print(text: &str) -> Result<(), Failure> {
-    print_bytes(text.as_bytes())
+    print_with(&|out| out.write_all(text.as_bytes()))
 }
 
 /// Prints bytes to standard output, like [`print`].
-pub fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(bytes).and_then(|()| out.flush()) {
+pub fn print_with(content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>) -> Result<(), Failure> {
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    match content(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::file(format!("cannot write to standard output: {}", reason(&error))))
         }

@@ -6,7 +6,7 @@
 //! picture cannot be written to its destination, it is saved elsewhere.
 
 use std::fs;
-use std::io::{ErrorKind, Read, Write};
+use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 use lucarne::film::Depth;
@@ -17,6 +17,9 @@ use lucarne::source::Sources;
 use super::exit::{Failure, reason};
 use super::messages;
 use super::text::is_stdin;
+
+/// Writes the bytes of a picture.
+pub type Picture<'a> = &'a dyn Fn(&mut dyn Write) -> io::Result<()>;
 
 /// Destination of one picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -133,20 +136,20 @@ impl Output {
     }
 
     /// Writes the picture.
-    pub fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+    pub fn write(&self, picture: Picture) -> Result<(), Failure> {
         match self {
-            Self::Stdout => messages::print_bytes(bytes),
-            Self::File { path, .. } => write_whole(path, bytes),
+            Self::Stdout => messages::print_with(picture),
+            Self::File { path, .. } => write_with(path, picture),
         }
     }
 
     /// Saves a picture that could not be written to `place`: under the name of a partial picture or,
     /// failing that, in the temporary folder. Returns `failure`, extended by the path of the saved picture.
-    pub fn rescue(&self, place: &Self, bytes: &[u8], failure: Failure) -> Failure {
+    pub fn rescue(&self, place: &Self, picture: Picture, failure: Failure) -> Failure {
         let beside = self.partial().filter(|partial| partial != place);
-        let kept = match beside.filter(|beside| beside.write(bytes).is_ok()) {
+        let kept = match beside.filter(|beside| beside.write(picture).is_ok()) {
             Some(beside) => Ok(beside.name()),
-            None => self.keep_in(&std::env::temp_dir(), bytes),
+            None => self.keep_in(&std::env::temp_dir(), picture),
         };
         match kept {
             Ok(name) => failure.help(format!("the picture is not lost: it is in `{name}`")),
@@ -155,7 +158,7 @@ impl Output {
     }
 
     /// Writes the picture to a new file in a folder that may be shared with other users; returns its name.
-    fn keep_in(&self, folder: &Path, bytes: &[u8]) -> Result<String, Failure> {
+    fn keep_in(&self, folder: &Path, picture: Picture) -> Result<String, Failure> {
         let (stem, extension) = match self {
             Self::Stdout => ("picture".as_ref(), "png".as_ref()),
             Self::File { path, .. } => {
@@ -164,13 +167,13 @@ impl Output {
         };
         let prefix = format!("{}.partial-", stem.display());
         let suffix = format!(".{}", extension.display());
-        let failed = |error: std::io::Error| cannot(folder, &reason(&error));
+        let failed = |error: io::Error| cannot(folder, &reason(&error));
         let mut file = tempfile::Builder::new()
             .prefix(&prefix)
             .suffix(&suffix)
             .tempfile_in(folder)
             .map_err(failed)?;
-        file.write_all(bytes).map_err(failed)?;
+        written(&mut file, picture).map_err(failed)?;
         let (_, path) = file.keep().map_err(|error| failed(error.error))?;
         Ok(path.display().to_string())
     }
@@ -206,16 +209,27 @@ pub fn write_over(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 /// Writes a file atomically and keeps its permissions.
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let failed = |error: std::io::Error| cannot(file, &reason(&error));
+    write_with(file, &|out| out.write_all(bytes))
+}
+
+/// Writes a file like [`write_whole`], piece by piece.
+fn write_with(file: &Path, content: Picture) -> Result<(), Failure> {
+    let failed = |error: io::Error| cannot(file, &reason(&error));
     // Keeps a link and replaces its target.
     let path = &fs::canonicalize(file).unwrap_or(file.to_owned());
     let mut beside = temporary(path)?;
-    beside.write_all(bytes).map_err(failed)?;
+    written(&mut beside, content).map_err(failed)?;
     if let Ok(about) = fs::metadata(path) {
         beside.as_file().set_permissions(about.permissions()).map_err(failed)?;
     }
     beside.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
+}
+
+fn written(out: &mut dyn Write, content: Picture) -> io::Result<()> {
+    let mut out = BufWriter::new(out);
+    content(&mut out)?;
+    out.flush()
 }
 
 fn folder(path: &Path) -> &Path {
@@ -303,7 +317,7 @@ mod tests {
         assert!(output.check(PIXEL, Depth::Eight, true).is_ok());
         fs::write(&path, "P6\n1 1\n255\nabc").expect("written");
         assert!(output.check(PIXEL, Depth::Eight, false).is_ok());
-        output.write(b"P6\n1 1\n255\ndef").expect("written");
+        output.write(&|out| out.write_all(b"P6\n1 1\n255\ndef")).expect("written");
         assert_eq!(fs::read(&path).expect("read"), b"P6\n1 1\n255\ndef");
         assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
     }
@@ -311,9 +325,10 @@ mod tests {
     #[test]
     fn a_picture_that_cannot_be_written_is_kept_elsewhere() {
         let folder = tempfile::tempdir().expect("a folder");
+        let picture: Picture = &|out| out.write_all(b"picture");
         let rescued = |output: &Output| {
-            let failure = output.write(b"picture").expect_err("no place");
-            let help = output.rescue(output, b"picture", failure).help.expect("a place");
+            let failure = output.write(picture).expect_err("no place");
+            let help = output.rescue(output, picture, failure).help.expect("a place");
             let (_, path) = help.split_once("it is in `").expect("kept");
             PathBuf::from(path.trim_end_matches('`'))
         };
@@ -332,7 +347,7 @@ mod tests {
         assert_eq!(fs::read(&kept).expect("read"), b"picture");
         fs::remove_file(kept).expect("removed");
         // There is no place at all.
-        assert!(output.keep_in(&folder.path().join("none"), b"picture").is_err());
+        assert!(output.keep_in(&folder.path().join("none"), picture).is_err());
     }
 
     #[test]

@@ -210,7 +210,7 @@ fn note(step: &Step, metric: Metric, promise: f64) -> Option<String> {
 }
 
 /// Errors below this are not reported.
-const NOTHING: f64 = 1e-9;
+const NOTHING: f64 = 1e-6;
 /// Steps that take at least this many seconds are announced.
 const WORTH_TELLING: f64 = 5.0;
 
@@ -221,7 +221,7 @@ pub(super) fn error(audit: &Audit) -> String {
     let error = match audit.error.value < audit.resolution {
         true => {
             let most = audit.resolution.max(audit.error.high);
-            // Errors this small are rounding errors of sums.
+            // Errors this small are rounding errors of the film.
             let why = match most {
                 ..=NOTHING => "",
                 _ => " (it could not be told better than that)",

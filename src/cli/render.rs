@@ -3,8 +3,9 @@
 use std::num::NonZero;
 use std::thread::available_parallelism;
 
-use lucarne::film::{Film, develop};
-use lucarne::picture::encode;
+use lucarne::accuracy;
+use lucarne::film::{Developer, Film};
+use lucarne::picture::{self, Format};
 use lucarne::plan::Region;
 use lucarne::road::Road;
 use lucarne::trace::TraceOptions;
@@ -13,7 +14,7 @@ use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure, Outcome};
 use super::files::DiskFiles;
 use super::messages;
-use super::output::Output;
+use super::output::{Output, Picture};
 use super::progress::{self, Progress};
 use super::promise::{self, Made};
 use super::stats::{Stats, Stopwatch, peak_rss_bytes};
@@ -33,7 +34,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     let frame = arguments.picture.frame(&arguments.scene)?;
     let bytes = read_scene(&arguments.file)?;
     output.check(frame.region, depth, arguments.force)?;
-    fits(frame.region)?;
+    fits(frame.region, format, arguments.time_budget.is_some())?;
 
     let dialect = arguments.scene.dialect(&arguments.file, &bytes);
     let life = progress::life("reading the scene");
@@ -74,9 +75,9 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     stats.build_cpu_s = progress.build_cpu_seconds();
     stats.trace_cpu_s = (watch.lap() - stats.build_cpu_s).max(0.0);
 
-    let cannot = |why| Failure::file(format!("cannot write `{}`: {why}", output.name()));
-    let bytes = encode(&develop(&traced.film, depth), format).map_err(cannot)?;
-    let done = traced.film.samples.iter().filter(|samples| **samples > 0).count();
+    let film = &traced.film;
+    let pixels = film.pixels.len();
+    let done = film.samples().filter(|samples| *samples > 0).count();
     let written = match traced.complete {
         true => Some(output.clone()),
         false if done == 0 && exit == Exit::Interrupted => None,
@@ -84,7 +85,9 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
         false => output.partial().or_else(|| (exit == Exit::Limit).then(|| output.clone())),
     };
     if let Some(place) = &written {
-        place.write(&bytes).map_err(|failure| output.rescue(place, &bytes, failure))?;
+        let developer = Developer::new(depth, film.assumed_gamma, pixels);
+        let picture: Picture = &|out| picture::write(film, &developer, format, out);
+        place.write(picture).map_err(|failure| output.rescue(place, picture, failure))?;
     }
     stats.encode_cpu_s = watch.lap();
     stats.wall_s = watch.wall_seconds();
@@ -95,7 +98,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     if !traced.complete && exit == Exit::Interrupted {
         messages::eprint(&match written {
             Some(place) => {
-                let what = match 100 * done / traced.film.samples.len().max(1) {
+                let what = match 100 * done / pixels.max(1) {
                     100 => "one ray of each pixel, and a part of the smooth edges, are".to_owned(),
                     share => format!("the {share} % that are done are"),
                 };
@@ -121,10 +124,12 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     Ok(exit)
 }
 
-/// Fails if there is clearly too little memory for the film; a failed allocation would abort the program.
-fn fits(part: Region) -> Result<(), Failure> {
+/// Fails if there is clearly too little memory for the picture; a failed allocation would abort the program.
+fn fits(part: Region, format: Format, refined: bool) -> Result<(), Failure> {
     let pixels = u64::from(part.width) * u64::from(part.height);
-    let bytes = pixels.saturating_mul(Film::BYTES_PER_PIXEL);
+    let refining = if refined { accuracy::BYTES_PER_PIXEL } else { 0 };
+    let a_pixel = Film::BYTES_PER_PIXEL + refining.max(format.bytes_per_pixel());
+    let bytes = pixels.saturating_mul(a_pixel);
     let reserved =
         usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok());
     match reserved {

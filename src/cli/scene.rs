@@ -16,7 +16,7 @@ use super::values::{Limit, Warnings, declare, limit, now, warning};
 
 /// Default limit on the number of pixels, raised or lowered by `--limit pixels=N`.
 ///
-/// A picture of this size takes about 8 GiB of memory.
+/// A picture of this size takes about 2 GiB of memory.
 const MOST_PIXELS: u64 = 1 << 27;
 
 /// Arguments that control how a scene is compiled and how its messages are printed.

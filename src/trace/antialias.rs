@@ -4,9 +4,13 @@
 //! show and a region is an exact crop. Samples are averaged as they are, unclamped (as POV-Ray
 //! does): the film holds light, not what a display can show.
 
-use crate::color::{Gamma, Rgb, srgb_encode};
+use super::tiles::Crew;
+use crate::color::{Rgb, srgb_encode};
 use crate::film::Film;
 use crate::plan::Region;
+
+/// Rows of pixels whose edges a thread finds at once.
+const ROWS: usize = 32;
 
 /// The mean of `grid` × `grid` samples by their sum.
 pub(super) fn mean(sum: Rgb, grid: u32) -> Rgb {
@@ -17,57 +21,82 @@ pub(super) fn mean(sum: Rgb, grid: u32) -> Rgb {
     sum.map(|c| c / n)
 }
 
-/// A film as a display would show it, to find its edges in.
-pub(super) struct Shown {
+/// The pixels that differ from one of their neighbours on a film by more than `threshold`, in a component as a display
+/// would show it.
+pub(super) struct Edges {
     region: Region,
-    encoded: Vec<[f64; 3]>,
+    marks: Vec<bool>,
 }
 
-impl Shown {
-    #[inline(never)]
-    pub fn new(film: &Film) -> Self {
-        let mut last = (Rgb::BLACK, [0.0; 3]);
-        let encoded = film.radiance.iter().map(|&radiance| {
-            // Flat areas are common and the curve is dear.
-            if radiance != last.0 {
-                last = (radiance, encode(radiance, film.assumed_gamma));
-            }
-            last.1
-        });
-        Self { region: film.frame.region, encoded: encoded.collect() }
+impl Edges {
+    /// Finds them by one thread.
+    pub fn new(film: &Film, threshold: f64) -> Self {
+        let mut marks = vec![false; film.pixels.len()];
+        mark(film, threshold, 0, &mut marks);
+        Self { region: film.frame.region, marks }
     }
 
-    /// Whether pixel (`x`, `y`) differs by more than `threshold`, in an encoded component, from
-    /// one of its neighbours on the film.
     #[inline(never)]
-    pub fn is_edge(&self, x: u32, y: u32, threshold: f64) -> bool {
-        let region = self.region;
-        let row = region.width as usize;
-        let (column, line) = ((x - region.x) as usize, (y - region.y) as usize);
-        let here = self.encoded[line * row + column];
-        let columns = column.saturating_sub(1)..(column + 2).min(row);
-        let lines = line.saturating_sub(1)..(line + 2).min(region.height as usize);
-        lines.into_iter().any(|line| {
-            self.encoded[line * row + columns.start..line * row + columns.end]
-                .iter()
-                .any(|there| there.iter().zip(here).any(|(a, b)| (a - b).abs() > threshold))
-        })
+    pub fn found_by(crew: &Crew, film: &Film, threshold: f64) -> Self {
+        let mut marks = vec![false; film.pixels.len()];
+        let band = ROWS * film.frame.region.width.max(1) as usize;
+        crew.bands(&mut marks, band, |number, marks| mark(film, threshold, ROWS * number, marks));
+        Self { region: film.frame.region, marks }
+    }
+
+    /// Whether pixel (`x`, `y`) is one of them.
+    pub fn has(&self, x: u32, y: u32) -> bool {
+        let Region { x: left, y: top, width, .. } = self.region;
+        self.marks[(y - top) as usize * width as usize + (x - left) as usize]
     }
 }
 
-fn encode(radiance: Rgb, assumed_gamma: Gamma) -> [f64; 3] {
-    radiance.components().map(|c| srgb_encode(assumed_gamma.linear(c)))
+/// Marks the edges in some rows of a film, from row `first` on.
+fn mark(film: &Film, threshold: f64, first: usize, marks: &mut [bool]) {
+    let width = film.frame.region.width.max(1) as usize;
+    let above = first.checked_sub(1).map_or(Vec::new(), |above| shown(film, above));
+    // None beyond the film.
+    let mut near = [above, shown(film, first), Vec::new()];
+    for (line, marks) in (first..).zip(marks.chunks_mut(width)) {
+        near[2] = shown(film, line + 1);
+        for (column, mark) in marks.iter_mut().enumerate() {
+            let here = near[1][column];
+            let columns = column.saturating_sub(1)..(column + 2).min(width);
+            let mut around = near.iter().filter_map(|line| line.get(columns.clone())).flatten();
+            *mark =
+                around.any(|there| there.iter().zip(here).any(|(a, b)| (a - b).abs() > threshold));
+        }
+        near.rotate_left(1);
+    }
+}
+
+/// A row of a film as a display would show it; nothing beyond the last.
+fn shown(film: &Film, line: usize) -> Vec<[f64; 3]> {
+    let mut last = (Rgb::BLACK, [0.0; 3]);
+    let row = film.rows().nth(line).unwrap_or_default().iter().map(|pixel| {
+        let radiance = pixel.radiance();
+        // Flat areas are common and the curve is dear.
+        if radiance != last.0 {
+            let encode = |c| srgb_encode(film.assumed_gamma.linear(c));
+            last = (radiance, radiance.components().map(encode));
+        }
+        last.1
+    });
+    row.collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::Gamma;
+    use crate::film::Pixel;
     use crate::plan::Frame;
+    use crate::trace::{TraceOptions, Unwatched};
 
     /// A gray film three pixels wide and high.
     fn film(assumed_gamma: Gamma, grays: [f64; 9]) -> Film {
         let mut film = Film::new(Frame::whole(3, 3), assumed_gamma);
-        film.radiance = grays.map(Rgb::gray).to_vec();
+        film.pixels = grays.map(|gray| Pixel::new(Rgb::gray(gray), 1)).to_vec();
         film
     }
 
@@ -77,10 +106,10 @@ mod tests {
             let mut grays = [0.5; 9];
             grays[odd] = 0.6;
             let film = film(Gamma::LINEAR, grays);
-            let shown = Shown::new(&film);
-            assert!(shown.is_edge(1, 1, 0.05));
-            assert_eq!(shown.is_edge(0, 0, 0.05), [0, 1, 3, 4].contains(&odd));
-            assert_eq!(shown.is_edge(2, 1, 0.05), [1, 2, 4, 5, 7, 8].contains(&odd));
+            let edges = Edges::new(&film, 0.05);
+            assert!(edges.has(1, 1));
+            assert_eq!(edges.has(0, 0), [0, 1, 3, 4].contains(&odd));
+            assert_eq!(edges.has(2, 1), [1, 2, 4, 5, 7, 8].contains(&odd));
         }
     }
 
@@ -88,10 +117,24 @@ mod tests {
     fn differences_are_those_a_display_shows() {
         let edge = |gamma: f64, a: f64, b: f64| {
             let film = film(Gamma::Power(gamma), [a, a, a, a, a, a, a, a, b]);
-            Shown::new(&film).is_edge(1, 1, 0.05)
+            Edges::new(&film, 0.05).has(1, 1)
         };
         assert!(edge(1.0, 0.0, 0.02) && !edge(1.0, 0.9, 0.92));
         assert!(!edge(1.0, 5.0, 1.0) && !edge(1.0, -3.0, 0.0), "beyond white and black");
         assert!(!edge(2.2, 0.0, 0.02) && edge(2.2, 0.0, 0.2), "by the scene's gamma");
+    }
+
+    #[test]
+    fn the_edges_of_a_large_film_are_those_of_its_parts() {
+        let mut film = Film::new(Frame::whole(37, 2 * ROWS as u32 + 5), Gamma::LINEAR);
+        for (i, pixel) in film.pixels.iter_mut().enumerate() {
+            *pixel = Pixel::new(Rgb::gray(f64::from(i % 11 == 0 || i % 37 == 5)), 1);
+        }
+        let whole = Edges::new(&film, 0.05);
+        for threads in [1, 3] {
+            let crew = Crew::new(&TraceOptions::on_threads(threads), &Unwatched);
+            assert_eq!(Edges::found_by(&crew, &film, 0.05).marks, whole.marks);
+        }
+        assert!(whole.marks.contains(&true) && whole.marks.contains(&false));
     }
 }

@@ -58,7 +58,7 @@ use crate::geometry::{Geometry, Hit, Occluder};
 use crate::plan::{Antialias, Frame, Plan, Region};
 use crate::world::World;
 
-use antialias::Shown;
+use antialias::Edges;
 use area::Nodes;
 use batch::{Batch, Onwards};
 use camera::Lens;
@@ -203,11 +203,11 @@ fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew) -> Traced {
         Antialias::Adaptive { threshold, grid } => {
             let border = grown(region, width, height);
             let first = uniform(empty(border), (0, 2), 1);
-            let shown = first.complete.then(|| Shown::new(&first.film));
+            let edges = first.complete.then(|| Edges::found_by(crew, &first.film, threshold));
             let film = first.film.crop(region);
-            let Some(shown) = shown else { return Traced { film, ..first } };
+            let Some(edges) = edges else { return Traced { film, ..first } };
             let mut second = crew.pass(film, (1, 2), |walk, places, pixels| {
-                let finer = |(x, y)| match shown.is_edge(x, y, threshold) {
+                let finer = |(x, y)| match edges.has(x, y) {
                     true => grid.max(1),
                     false => 0,
                 };

@@ -3,13 +3,13 @@
 //! **In:** a list of pixels. **Out:** [`Pixels`]. **Invariant:** as for the film, nothing depends
 //! on the number of threads; a planned pixel has the bits that [`super::trace`] puts there.
 
-use super::antialias::{self, Shown};
+use super::antialias::{self, Edges};
 use super::camera::{Lens, Point, Shift};
 use super::tiles::Crew;
 use super::tracer::Tracer;
 use super::{Counters, TraceOptions, Walk, Watch, grown};
 use crate::color::Rgb;
-use crate::film::Film;
+use crate::film::{self, Film};
 use crate::geometry::Geometry;
 use crate::math::random::Random;
 use crate::plan::{Antialias, Frame, Plan, Region};
@@ -53,7 +53,8 @@ pub fn pixels(
     let pixel = Pixel::new(&tracer, plan);
     let crew = Crew::new(options, watch);
     let (radiance, counters) = crew.each(list, |walk, &place| match sampling {
-        Sampling::Planned => pixel.planned(walk, place),
+        // As the film holds it.
+        Sampling::Planned => film::Pixel::new(pixel.planned(walk, place), 1).radiance(),
         Sampling::Jittered { side, seed } => pixel.jittered(walk, place, side, seed),
     });
     Pixels { radiance, counters }
@@ -139,7 +140,7 @@ impl<'a> Pixel<'a> {
             for column in region.x..region.x + region.width {
                 let before = std::mem::take(&mut walk.counters);
                 let at = around.index(column, line);
-                around.radiance[at] = self.grid(walk, (column, line), 1);
+                around.pixels[at] = film::Pixel::new(self.grid(walk, (column, line), 1), 1);
                 let these = std::mem::replace(&mut walk.counters, before);
                 if (column, line) == (x, y) {
                     own = these;
@@ -147,8 +148,8 @@ impl<'a> Pixel<'a> {
             }
         }
         walk.counters += own;
-        let edge = Shown::new(&around).is_edge(x, y, threshold);
-        (around.radiance[around.index(x, y)], edge)
+        let edge = Edges::new(&around, threshold).has(x, y);
+        (around.radiance(around.index(x, y)), edge)
     }
 
     fn grid(&self, walk: &mut Walk, place: (u32, u32), grid: u32) -> Rgb {

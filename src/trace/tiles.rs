@@ -9,8 +9,7 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::{Counters, Sampled, TraceOptions, Traced, Walk, Watch};
-use crate::color::Rgb;
-use crate::film::Film;
+use crate::film::{Film, Pixel};
 use crate::plan::Region;
 
 /// Pixels along a tile's side: small enough to share a picture evenly, large enough that handing
@@ -83,6 +82,20 @@ impl<'a> Crew<'a> {
         (all, counters)
     }
 
+    /// Computes parts of a list, `length` values long but for the last, each by its number.
+    pub fn bands<T: Send>(
+        &self,
+        list: &mut [T],
+        length: usize,
+        one: impl Fn(usize, &mut [T]) + Sync,
+    ) {
+        let one = |(number, part): (usize, &mut [T])| one(number, part);
+        match &self.pool {
+            Some(pool) => pool.install(|| list.par_chunks_mut(length).enumerate().for_each(one)),
+            None => list.chunks_mut(length).enumerate().for_each(one),
+        }
+    }
+
     /// Computes the pixels of `film`, `which.0` being the number of this pass among `which.1`: `sampled` adds what is
     /// seen of each place of a list; `None` leaves a pixel as it is. Neighbours are next to each other in the list.
     pub fn pass(
@@ -109,7 +122,7 @@ impl<'a> Crew<'a> {
                     stopped.store(true, Ordering::Relaxed);
                     break;
                 }
-                let width = rows.first().map_or(0, |(radiance, _)| radiance.len());
+                let width = rows.first().map_or(0, |row| row.len());
                 places.clear();
                 pixels.clear();
                 for top in (0..rows.len()).step_by(BLOCK) {
@@ -123,10 +136,9 @@ impl<'a> Crew<'a> {
                 }
                 sampled(walk, &places, &mut pixels);
                 for (place, pixel) in places.iter().zip(&pixels) {
-                    let (radiance, samples) = &mut rows[(place.1 - y) as usize];
-                    let column = (place.0 - tile.x) as usize;
-                    if let Some(pixel) = pixel {
-                        (radiance[column], samples[column]) = *pixel;
+                    if let Some((mean, samples)) = *pixel {
+                        let row = &mut rows[(place.1 - y) as usize];
+                        row[(place.0 - tile.x) as usize] = Pixel::new(mean, samples);
                     }
                 }
             }
@@ -157,15 +169,14 @@ struct Tile<'film> {
     /// Its top left pixel.
     x: u32,
     y: u32,
-    /// Of each of its rows the radiance and the samples.
-    rows: Vec<(&'film mut [Rgb], &'film mut [u32])>,
+    rows: Vec<&'film mut [Pixel]>,
 }
 
 /// The tiles of a film, row by row.
 fn tiles(film: &mut Film, side: usize) -> Vec<Tile<'_>> {
     let Region { x, y, width, height } = film.frame.region;
     let width = width.max(1) as usize;
-    let mut rows = film.radiance.chunks_mut(width).zip(film.samples.chunks_mut(width));
+    let mut rows = film.pixels.chunks_mut(width);
     let mut tiles = Vec::new();
     for y in (y..y + height).step_by(side) {
         let first = tiles.len();
@@ -174,8 +185,8 @@ fn tiles(film: &mut Film, side: usize) -> Vec<Tile<'_>> {
             y,
             rows: Vec::new(),
         }));
-        for (radiance, samples) in rows.by_ref().take(side) {
-            let pieces = radiance.chunks_mut(side).zip(samples.chunks_mut(side));
+        for row in rows.by_ref().take(side) {
+            let pieces = row.chunks_mut(side);
             tiles[first..].iter_mut().zip(pieces).for_each(|(tile, piece)| tile.rows.push(piece));
         }
     }

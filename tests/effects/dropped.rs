@@ -25,7 +25,7 @@ fn told(seen: &Seen) -> Vec<String> {
 }
 
 fn png(world: &World, plan: &Plan) -> Vec<u8> {
-    encode(&develop(&traced(world, plan).film, Depth::Sixteen), Format::Png).expect("a picture")
+    encode(&traced(world, plan).film, Depth::Sixteen, Format::Png).expect("a picture")
 }
 
 /// The scene with an object that lacks its flags in the text, and has them in the World: what would be

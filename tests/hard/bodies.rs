@@ -318,7 +318,7 @@ impl View {
             };
             let expected = at(0.0, 0.0);
             shown += usize::from(apart(expected, BACKGROUND) > OFF);
-            let seen = film.radiance[film.index(x, y)].components();
+            let seen = film.radiance(film.index(x, y)).components();
             if apart(seen, expected) <= OFF {
                 continue;
             }

@@ -3,7 +3,7 @@
 //! That what is mirrored and what goes through come to all, and that equal indices change no bit
 //! (row 40), is tested beside the laws, in `trace/refraction.rs`.
 
-use super::held::{hold, hold_sized, rendered};
+use super::held::{hold, hold_sized, unrounded};
 use super::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
 
 fn above() -> Camera {
@@ -42,7 +42,7 @@ fn row_37_a_clear_sheet_lies_just_above_a_floor() {
 
 #[test]
 fn rows_17_and_37_a_flat_box_is_one_sheet_to_the_eye_and_to_the_light() {
-    let center = |text: &str| rendered(text, (1, 1)).radiance[0].components();
+    let center = |text: &str| unrounded(text, (1, 1))[0].components();
     for box_ in
         ["box { <-9, 1, -9>, <9, 1, 9>", "box { <-9, 0, -9>, <9, 0, 9> rotate x translate y"]
     {

@@ -40,7 +40,7 @@ fn pictured(text: String) -> (Vec<[f64; 3]>, Duration) {
         let options = PlanOptions { antialias: Antialias::Off, ..PlanOptions::new(frame) };
         let plan = plan(&world, &origins, &options);
         let film = trace(&world, &plan, &TraceOptions::on_threads(1), &Unwatched).film;
-        let colors = film.radiance.iter().map(|color| color.components()).collect();
+        let colors = film.radiances().map(|color| color.components()).collect();
         drop((world, origins, road));
         (colors, processor_time() - start)
     };

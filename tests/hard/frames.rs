@@ -2,14 +2,15 @@
 //! 75 and 76.
 
 use lucarne::color::{Gamma, Rgb, srgb_decode, srgb_encode};
-use lucarne::film::{Depth, Film, Pixels, develop};
+use lucarne::film::{Components, Depth, Film, Pixel, develop};
 use lucarne::math::elementary::sin_cos_degrees;
 use lucarne::plan::{Antialias, Frame, PlanOptions, plan};
 use lucarne::trace::{TraceOptions, Unwatched, trace};
 
-use super::held::{compiled, hold_sized, rendered};
+use super::held::{compiled, hold_sized, rendered, unrounded};
 use super::scene::{Camera, Light, Scene, Triple, WHITE, cuboid, plane, sphere};
 use crate::dice::Dice;
+use crate::unrounded::radiances;
 
 fn sampled(text: &str, (width, height): (u32, u32), antialias: Antialias) -> Film {
     let (world, origins) = compiled(text);
@@ -30,7 +31,7 @@ fn row_45_a_light_on_the_surface_itself_or_in_its_plane_gives_nothing() {
     let floor = || plane([0.0, 1.0, 0.0], 1.0);
     let dark = |position: Triple, expected: f64| {
         let scene = Scene::new(camera, &[Light { position, color: WHITE }], vec![floor()]);
-        for c in rendered(&scene.text(), (5, 5)).radiance {
+        for c in unrounded(&scene.text(), (5, 5)) {
             assert!((c.red - expected).abs() < 1e-15, "{position:?}: {c:?}");
         }
         // The seed's finish, too: with N·L = 0 its highlight looks for N·H.
@@ -40,7 +41,7 @@ fn row_45_a_light_on_the_surface_itself_or_in_its_plane_gives_nothing() {
         );
         assert_ne!(seed, scene.text());
         let film = rendered(&seed, (5, 5));
-        assert!(film.radiance.iter().all(|c| c.is_finite()), "{position:?}");
+        assert!(film.radiances().all(|c| c.is_finite()), "{position:?}");
     };
     for x in -2..=2 {
         for z in -2..=2 {
@@ -53,8 +54,8 @@ fn row_45_a_light_on_the_surface_itself_or_in_its_plane_gives_nothing() {
     // On a ball, seen where the light is: the light is at one pixel's point.
     let ball = sphere([0.0; 3], 1.0);
     let light = Light { position: [0.0, 1.0, 0.0], color: WHITE };
-    let film = rendered(&Scene::new(camera, &[light], vec![ball]).text(), (5, 5));
-    assert_eq!(film.radiance[12], Rgb::gray(0.1));
+    let seen = unrounded(&Scene::new(camera, &[light], vec![ball]).text(), (5, 5));
+    assert_eq!(seen[12], Rgb::gray(0.1));
 }
 
 #[test]
@@ -63,25 +64,25 @@ fn row_62_the_displays_curve_is_monotone_and_keeps_its_numbers() {
     assert_eq!(srgb_encode(f64::NAN), 0.0);
     let shown = |radiance: Vec<Rgb>, depth: Depth| {
         let mut film = Film::new(Frame::whole(radiance.len() as u32, 1), Gamma::LINEAR);
-        film.radiance = radiance;
-        develop(&film, depth).pixels
+        film.pixels = radiance.into_iter().map(|radiance| Pixel::new(radiance, 1)).collect();
+        develop(&film, depth).components
     };
     let codes = |last: u32| (0..=last).map(move |n| srgb_decode(f64::from(n) / f64::from(last)));
     // What was decoded is encoded to itself.
-    let Pixels::Eight(eight) = shown(codes(255).map(Rgb::gray).collect(), Depth::Eight) else {
+    let Components::Eight(eight) = shown(codes(255).map(Rgb::gray).collect(), Depth::Eight) else {
         panic!("eight bits")
     };
-    assert!(eight.iter().enumerate().all(|(n, pixel)| pixel.map(usize::from) == [n; 3]));
-    let Pixels::Sixteen(wide) = shown(codes(65_535).map(Rgb::gray).collect(), Depth::Sixteen)
+    assert!(eight.iter().enumerate().all(|(i, &code)| usize::from(code) == i / 3));
+    let Components::Sixteen(wide) = shown(codes(65_535).map(Rgb::gray).collect(), Depth::Sixteen)
     else {
         panic!("sixteen bits")
     };
-    assert!(wide.iter().enumerate().all(|(n, pixel)| pixel.map(usize::from) == [n; 3]));
+    assert!(wide.iter().enumerate().all(|(i, &code)| usize::from(code) == i / 3));
     // And in 65,536 equal steps of light none is darker than the one before.
     let steps = (0..=65_535).map(|n| Rgb::gray(f64::from(n) / 65_535.0)).collect::<Vec<_>>();
-    let Pixels::Eight(eight) = shown(steps, Depth::Eight) else { panic!("eight bits") };
-    assert!(eight.is_sorted() && eight[0] == [0; 3] && eight[65_535] == [255; 3]);
-    let seen: std::collections::BTreeSet<u8> = eight.iter().map(|pixel| pixel[0]).collect();
+    let Components::Eight(eight) = shown(steps, Depth::Eight) else { panic!("eight bits") };
+    assert!(eight.is_sorted() && eight[..3] == [0; 3] && eight[3 * 65_535..] == [255; 3]);
+    let seen: std::collections::BTreeSet<u8> = eight.into_iter().collect();
     assert_eq!(seen.len(), 256);
 }
 
@@ -94,7 +95,7 @@ fn row_73_sizes_below_all_normal_numbers_are_drawn_or_refused() {
         )
     };
     for k in ["1e-150", "1e-290", "1e-305", "1e-310", "1e150", "1e290", "1e305"] {
-        for c in rendered(&text(k), (16, 12)).radiance {
+        for c in rendered(&text(k), (16, 12)).radiances() {
             assert!(!c.red.is_nan(), "{k}: {c:?}");
         }
     }
@@ -110,7 +111,7 @@ fn row_74_a_path_may_be_as_long_as_one_likes_on_a_small_stack() {
     };
     for level in [0, 1, 2, 256, 1_000_000] {
         let text = tunnel(level.max(1));
-        let film = std::thread::Builder::new()
+        let seen = std::thread::Builder::new()
             .stack_size(256 * 1024)
             .spawn(move || {
                 let (world, origins) = compiled(&text);
@@ -121,14 +122,14 @@ fn row_74_a_path_may_be_as_long_as_one_likes_on_a_small_stack() {
                     ..PlanOptions::new(frame)
                 };
                 let plan = plan(&world, &origins, &options);
-                trace(&world, &plan, &TraceOptions::on_threads(1), &Unwatched).film
+                radiances(&world, &plan, &TraceOptions::on_threads(1))
             })
             .expect("a thread")
             .join()
             .expect("no overflow");
         // Each surface adds its emission of ¼; white from 4 on.
         let expected = 0.25 * f64::from(level.max(1));
-        for c in film.radiance {
+        for c in seen {
             assert!((c.red / expected - 1.0).abs() < 1e-9, "{level}: {}", c.red);
         }
     }
@@ -159,7 +160,7 @@ fn row_75_a_knife_edge_covers_what_it_covers() {
         );
         for side in [4, 9] {
             let film = sampled(&text, (1, 1), Antialias::Grid(side));
-            let off = film.radiance[0].red - area(cosine, sine, distance);
+            let off = film.radiance(0).red - area(cosine, sine, distance);
             let bar = 0.5 / f64::from(side) + 1e-3;
             assert!(off.abs() <= bar, "{degrees}°, {distance}: {off:e} with {side}");
         }
@@ -183,12 +184,12 @@ fn row_76_pictures_may_have_any_shape_and_any_angle() {
     }
     let wide = rendered(&any_scene(45.0).text(), (100_000, 1));
     let high = rendered(&any_scene(45.0).text(), (1, 100_000));
-    assert!(wide.radiance.iter().chain(&high.radiance).all(|c| c.is_finite()));
+    assert!(wide.radiances().chain(high.radiances()).all(|c| c.is_finite()));
     for angle in [1e-9, 1e-3, 120.0, 170.0, 179.0] {
         hold_sized(&format!("an angle of {angle}"), &any_scene(angle), (16, 12));
     }
     for angle in [1e-300, 179.999, 179.999_999_999] {
         let film = rendered(&any_scene(angle).text(), (16, 12));
-        assert!(film.radiance.iter().all(|c| c.is_finite()), "{angle:e}");
+        assert!(film.radiances().all(|c| c.is_finite()), "{angle:e}");
     }
 }

@@ -68,7 +68,7 @@ fn row_12_cells_beyond_any_number_are_some_colour() {
         let location = [far, 3.0, -far];
         let scene = Scene::new(down(location), &[], vec![plane(FLOOR, 0.0).checker(&[])]);
         let film = super::held::rendered(&scene.text(), (8, 8));
-        assert!(film.radiance.iter().all(|c| c.is_finite()), "{far:e}");
+        assert!(film.radiances().all(|c| c.is_finite()), "{far:e}");
     }
 }
 
@@ -118,7 +118,7 @@ fn row_13_a_seam_in_the_middle_of_pixels_is_one_colour_all_along() {
         );
         let film = super::held::rendered(&text, (160, 120));
         let first = film.index(0, 82);
-        film.radiance[first..first + 160].iter().map(|c| c.red).collect::<Vec<f64>>()
+        film.radiances().skip(first).take(160).map(|c| c.red).collect::<Vec<f64>>()
     };
     for turn in [0.0, 37.0, 123.456] {
         for away in ["0", "<100, 0, 77>", "<1e5, 0, -3e4>"] {
@@ -205,7 +205,7 @@ fn row_15_a_wall_of_boxes_has_no_holes() {
                     let text = scene.text();
                     for pixels in [5, 6, 12] {
                         let film = super::held::rendered(&text, (pixels, pixels));
-                        let holes = film.radiance.iter().filter(|c| c.red < 0.99).count();
+                        let holes = film.radiances().filter(|c| c.red < 0.99).count();
                         assert_eq!(holes, 0, "{size} {lift:e} turned {turned}, {pixels} pixels");
                     }
                 }

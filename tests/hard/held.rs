@@ -11,6 +11,7 @@ use lucarne::world::{Origins, World};
 
 use super::exact::Exact;
 use super::scene::{Scene, Triple};
+use crate::unrounded::radiances;
 
 /// A pixel is off when a linear channel is farther than this from the exact one.
 const OFF: f64 = 0.03;
@@ -34,6 +35,15 @@ pub fn rendered(text: &str, (width, height): (u32, u32)) -> Film {
     let options = PlanOptions { antialias: Antialias::Off, ..PlanOptions::new(frame) };
     let plan = plan(&world, &origins, &options);
     trace(&world, &plan, &TraceOptions::on_threads(1), &Unwatched).film
+}
+
+/// The radiance of each pixel of such a picture, before its film rounds it.
+pub fn unrounded(text: &str, (width, height): (u32, u32)) -> Vec<Rgb> {
+    let (world, origins) = compiled(text);
+    let frame = Frame::whole(width, height);
+    let options = PlanOptions { antialias: Antialias::Off, ..PlanOptions::new(frame) };
+    let plan = plan(&world, &origins, &options);
+    radiances(&world, &plan, &TraceOptions::on_threads(1))
 }
 
 /// Asserts that no pixel of the scene's picture is bad.
@@ -119,7 +129,7 @@ impl<'a> Truth<'a> {
         for y in 0..height {
             for x in 0..width {
                 let place = film.index(x, y);
-                let (seen, expected) = (film.radiance[place], self.pixels[place]);
+                let (seen, expected) = (film.radiance(place), self.pixels[place]);
                 if apart(components(seen), expected) <= OFF {
                     continue;
                 }

@@ -80,7 +80,7 @@ fn rows(
         ),
         (33, 3),
     );
-    [0, 1, 2].map(|y| (0..33).map(|x| film.radiance[film.index(x, y)].green > 0.5).collect())
+    [0, 1, 2].map(|y| (0..33).map(|x| film.radiance(film.index(x, y)).green > 0.5).collect())
 }
 
 /// What is wrong with two solids that touch in the plane that the camera looks along.
@@ -226,7 +226,7 @@ fn a_face_that_a_ray_goes_along_by_the_least_slope_takes_no_other_face_away() {
                 (33, 25),
             );
             // Where the box is whole on either side of the plane, its near face is at x = 2.
-            let near = film.radiance[film.index(16, 12)].red;
+            let near = film.radiance(film.index(16, 12)).red;
             assert!((near - 0.75).abs() < 1e-6, "{slope} {hole}: {near}");
         }
     }
@@ -244,7 +244,7 @@ fn a_slope_is_a_slope_to_a_camera_at_0_in_a_plane_of_a_solid() {
             (3, 9),
         );
         // The slopes go from 8e-7 to −8e-7.
-        let rows = (0..9).map(|y| film.radiance[film.index(1, y)].green > 0.5);
+        let rows = (0..9).map(|y| film.radiance(film.index(1, y)).green > 0.5);
         let seen: Vec<bool> = rows.collect();
         assert!(seen[..4].iter().all(|seen| *seen == above), "{plane}: {seen:?}");
         assert!(seen[5..].iter().all(|seen| *seen != above), "{plane}: {seen:?}");

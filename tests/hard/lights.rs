@@ -87,7 +87,7 @@ fn row_60_a_thousand_lights_are_one() {
     let part = Light { color: [1e-3; 3], ..light([5.0, 8.0, 6.0]) };
     let many = rendered(&Scene::new(above(), &[part; 1000], objects()).text(), (32, 24));
     let one = rendered(&Scene::new(above(), &[light([5.0, 8.0, 6.0])], objects()).text(), (32, 24));
-    let off = many.radiance.iter().zip(&one.radiance);
+    let off = many.radiances().zip(one.radiances());
     let off = off.map(|(a, b)| apart(a.components(), b.components())).fold(0.0, f64::max);
     assert!(off < 1e-6, "{off:e}");
 }

@@ -1,6 +1,6 @@
 //! Light that goes many ways: rows 8, 41 and 42.
 
-use super::held::{hold, hold_sized, rendered};
+use super::held::{hold, hold_sized, unrounded};
 use super::scene::{Camera, Light, Object, Scene, Step, Triple, WHITE, cuboid, plane, sphere, ten};
 
 fn ahead(location: Triple) -> Camera {
@@ -88,14 +88,14 @@ fn row_42_in_a_white_furnace_nothing_is_lost() {
         let shell = |object: Object| object.finish(finish.0, 0.0, finish.1);
         let objects =
             vec![shell(cuboid([-1.0; 3], [1.0; 3])), shell(sphere([0.2, -0.3, -0.4], 0.4))];
-        rendered(&Scene::new(ahead([0.1, 0.2, 0.3]), &[], objects).deep(depth).text(), (32, 24))
+        unrounded(&Scene::new(ahead([0.1, 0.2, 0.3]), &[], objects).deep(depth).text(), (32, 24))
     };
     // A surface that gives half and mirrors half: 1 − 2^−depth; 200 deep it is 1.
-    let film = room(200, (0.5, 0.5));
-    let worst = film.radiance.iter().flat_map(|c| c.components()).map(|c| (1.0 - c).abs());
+    let seen = room(200, (0.5, 0.5));
+    let worst = seen.into_iter().flat_map(|c| c.components()).map(|c| (1.0 - c).abs());
     assert!(worst.fold(0.0, f64::max) < 1e-12);
     // Nothing is lost by mirrors either: after 199 whole reflections the last one's emission is left.
-    let film = room(200, (1.0 / 200.0, 1.0));
-    let worst = film.radiance.iter().flat_map(|c| c.components()).map(|c| (1.0 - c).abs());
+    let seen = room(200, (1.0 / 200.0, 1.0));
+    let worst = seen.into_iter().flat_map(|c| c.components()).map(|c| (1.0 - c).abs());
     assert!(worst.fold(0.0, f64::max) < 1e-12);
 }

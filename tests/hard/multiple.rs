@@ -28,10 +28,10 @@ fn off(many: &str, one: &str) -> f64 {
         )
     };
     let (many, one) = (seen(many), seen(one));
-    let apart = |(a, b): (&lucarne::color::Rgb, &lucarne::color::Rgb)| {
+    let apart = |(a, b): (lucarne::color::Rgb, lucarne::color::Rgb)| {
         (a.red - b.red).abs().max((a.blue - b.blue).abs())
     };
-    many.radiance.iter().zip(&one.radiance).map(apart).fold(0.0, f64::max)
+    many.radiances().zip(one.radiances()).map(apart).fold(0.0, f64::max)
 }
 
 #[test]

@@ -66,7 +66,7 @@ fn seen(objects: &str, exponent: i32, turn: f64) -> Vec<i32> {
         union {{ {objects} rotate {turn}*<1, 2, 3> scale 1e{exponent} }}"
     );
     let film = rendered(&text, PIXELS);
-    film.radiance.iter().map(|color| (color.red * 1e3).round() as i32).collect()
+    film.radiances().map(|color| (color.red * 1e3).round() as i32).collect()
 }
 
 #[test]

@@ -21,7 +21,7 @@ fn seen(from: &str, way: &str, things: &str) -> Vec<[i32; 3]> {
 fn look(text: &str) -> Vec<[i32; 3]> {
     let film = rendered(text, PIXELS);
     let thousandths = |c: f64| (c * 1e3).round() as i32;
-    film.radiance.iter().map(|c| [c.red, c.green, c.blue].map(thousandths)).collect()
+    film.radiances().map(|c| [c.red, c.green, c.blue].map(thousandths)).collect()
 }
 
 /// How many pixels of two pictures are not the same.
@@ -193,7 +193,7 @@ fn column(
         size,
     );
     let thousandths = |c: f64| (c * 1e3).round() as i32;
-    ys.map(|y| film.radiance[film.index(x, y)])
+    ys.map(|y| film.radiance(film.index(x, y)))
         .map(|c| [c.red, c.green, c.blue].map(thousandths))
         .collect()
 }
@@ -356,7 +356,7 @@ fn at_a_joint_of_a_lathe_a_pattern_goes_on() {
         (nearest_to_its_axis, 26, 17, 0.001),
     ] {
         let film = rendered(&text.replace("PAINT", paint), (33, 25));
-        let [here, before, behind] = [x, x - 1, x + 1].map(|x| film.radiance[film.index(x, y)]);
+        let [here, before, behind] = [x, x - 1, x + 1].map(|x| film.radiance(film.index(x, y)));
         assert!(before.red > 0.5 && behind.red > 0.5, "{text}");
         let middle = 0.5 * (before.green + behind.green);
         assert!((here.green - middle).abs() < most, "{here:?} {before:?} {behind:?} {text}");

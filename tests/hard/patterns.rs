@@ -27,7 +27,7 @@ fn seen(pigment: &str, size: f64, away: f64, turn: f64, face: &str) -> Vec<f64> 
            scale {size} rotate <0, {turn}, {turn}> translate {away}*<1, -2, 0.5>
          }}"
     );
-    rendered(&text, (24, 24)).radiance.iter().map(|color| color.red).collect()
+    rendered(&text, (24, 24)).radiances().map(|color| color.red).collect()
 }
 
 /// How many neighbours differ in a picture that may have straight edges, but no speckles: a cell has a few.

@@ -19,7 +19,7 @@ fn off(camera: &str) -> usize {
         )
     };
     let (ball, sphere) = (seen(BALL), seen("sphere { 0, 1 }"));
-    let all = ball.radiance.iter().zip(&sphere.radiance);
+    let all = ball.radiances().zip(sphere.radiances());
     all.filter(|(a, b)| (a.red - b.red).abs() > 1e-6 || (a.green - b.green).abs() > 1e-6).count()
 }
 

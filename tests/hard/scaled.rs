@@ -1,14 +1,15 @@
 //! What changes no bit of a picture: powers of two, mirrors, the order of things, threads and
 //! tiles: rows 47 and 68.
 
-use lucarne::film::{Depth, Film, develop};
+use lucarne::color::{Gamma, Rgb};
+use lucarne::film::{Depth, Film, Pixel};
 use lucarne::math::Vector;
 use lucarne::math::elementary::pow;
 use lucarne::picture::{Format, encode};
 use lucarne::plan::{Antialias, Frame, PlanOptions, Region, plan};
 use lucarne::trace::{TraceOptions, Unwatched, trace};
 
-use super::held::{apart, compiled};
+use super::held::{apart, compiled, unrounded};
 use super::things::{CAMERAS, SHAPES, THINGS};
 
 const SIZE: (u32, u32) = (28, 21);
@@ -40,8 +41,14 @@ fn film_of(text: &str, antialias: Antialias, size: (u32, u32), options: TraceOpt
     trace(&world, &plan, &options, &Unwatched).film
 }
 
+/// The film of these pixels.
+fn filmed(radiances: &[Rgb]) -> Film {
+    let pixels = radiances.iter().map(|&radiance| Pixel::new(radiance, 1)).collect();
+    Film { pixels, ..Film::new(Frame::whole(SIZE.0, SIZE.1), Gamma::LINEAR) }
+}
+
 fn png(film: &Film) -> Vec<u8> {
-    encode(&develop(film, Depth::Sixteen), Format::Png).expect("a picture")
+    encode(film, Depth::Sixteen, Format::Png).expect("a picture")
 }
 
 fn two_to(exponent: i32) -> f64 {
@@ -51,16 +58,16 @@ fn two_to(exponent: i32) -> f64 {
 /// At each exponent to one of the cameras after the other, or to all.
 fn assert_same_at_any_power_of_two(things: &str, fault: [&str; 2], in_turn: bool) {
     for (number, camera) in CAMERAS.into_iter().enumerate() {
-        let plain = film(&scene(things, 1.0, camera), Antialias::Off, 1);
-        let file = png(&plain);
+        let plain = unrounded(&scene(things, 1.0, camera), SIZE);
+        let file = png(&filmed(&plain));
         // A fault planted in one length shows.
         let faulty = scene(things, 4.0, camera).replace(fault[0], fault[1]);
         assert_ne!(png(&film(&faulty, Antialias::Off, 1)), file);
         let step = if in_turn { CAMERAS.len() } else { 1 };
         for exponent in (-200..=200).skip(number % step).step_by(step) {
-            let scaled = film(&scene(things, two_to(exponent), camera), Antialias::Off, 1);
-            assert_eq!(scaled.radiance, plain.radiance, "2^{exponent}: {camera}");
-            assert!(png(&scaled) == file, "2^{exponent}: {camera}");
+            let scaled = unrounded(&scene(things, two_to(exponent), camera), SIZE);
+            assert_eq!(scaled, plain, "2^{exponent}: {camera}");
+            assert!(png(&filmed(&scaled)) == file, "2^{exponent}: {camera}");
         }
     }
 }
@@ -130,15 +137,15 @@ fn row_47_a_mirrored_scene_is_the_same_picture_to_a_mirrored_camera_and_its_mirr
         ("scale -1", |v| -v),
     ];
     for things in WORLDS {
-        let plain = film(&mapped(things, "", |v| v, 1.0), Antialias::Off, 1);
+        let plain = unrounded(&mapped(things, "", |v| v, 1.0), SIZE);
         let flipped: Vec<_> = (0..SIZE.1)
             .flat_map(|y| (0..SIZE.0).rev().map(move |x| (x, y)))
-            .map(|(x, y)| plain.radiance[plain.index(x, y)])
+            .map(|(x, y)| plain[(y * SIZE.0 + x) as usize])
             .collect();
-        assert_ne!(plain.radiance, flipped);
+        assert_ne!(plain, flipped);
         for (steps, map) in mirrors {
-            let seen = |flip| film(&mapped(things, steps, map, flip), Antialias::Off, 1).radiance;
-            assert_eq!(seen(1.0), plain.radiance, "{steps}");
+            let seen = |flip| unrounded(&mapped(things, steps, map, flip), SIZE);
+            assert_eq!(seen(1.0), plain, "{steps}");
             assert_eq!(seen(-1.0), flipped, "{steps}");
         }
     }
@@ -152,10 +159,10 @@ fn row_47_a_scene_whose_axes_are_exchanged_is_the_same_picture_but_for_rounding(
         ("matrix <0,0,1, 1,0,0, 0,1,0, 0,0,0>", |v| Vector::new(v.y, v.z, v.x)),
     ];
     for things in WORLDS {
-        let plain = film(&mapped(things, "", |v| v, 1.0), Antialias::Off, 1);
+        let plain = unrounded(&mapped(things, "", |v| v, 1.0), SIZE);
         for (steps, map) in turns {
-            let turned = film(&mapped(things, steps, map, 1.0), Antialias::Off, 1);
-            let pairs = turned.radiance.iter().zip(&plain.radiance);
+            let turned = unrounded(&mapped(things, steps, map, 1.0), SIZE);
+            let pairs = turned.iter().zip(&plain);
             let off = pairs.map(|(a, b)| apart(a.components(), b.components()));
             let off = off.fold(0.0, f64::max);
             assert!(off < 1e-9, "{steps}: {off:e}");

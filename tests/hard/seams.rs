@@ -38,7 +38,7 @@ fn holes(camera: &str, things: &str) -> usize {
         "camera {{ {camera} right 1.333*x angle 50 }} background {{ rgb <1, 0, 0> }} {things}"
     );
     let film = rendered(&text, (3, 2401));
-    (0..2401).filter(|&y| film.radiance[film.index(1, y)].red > 0.5).count()
+    (0..2401).filter(|&y| film.radiance(film.index(1, y)).red > 0.5).count()
 }
 
 const LOOK: &str = "location <0.1, 0.2, -3> look_at <0.4, 0.3, 0>";
@@ -95,7 +95,7 @@ fn a_polygon_and_a_triangle_that_share_an_edge_far_off_leave_nothing_between_the
              union {{ {edge} pigment {{ rgb 0 }} {map} }}"
         );
         let film = rendered(&text, (3, 401));
-        let holes = (0..401).filter(|y| film.radiance[film.index(1, *y)].red > 0.5).count();
+        let holes = (0..401).filter(|y| film.radiance(film.index(1, *y)).red > 0.5).count();
         assert_eq!(holes, 0, "{edge}");
     }
 }
@@ -128,7 +128,7 @@ fn a_ring_is_whole_at_the_height_where_its_curve_begins() {
                      background {{ rgb <1, 0, 0> }} {thing} {PAINT} }}"
                 );
                 let film = rendered(&text, (41, 31));
-                film.radiance.iter().map(|radiance| radiance.red > 0.5).collect::<Vec<_>>()
+                film.radiances().map(|radiance| radiance.red > 0.5).collect::<Vec<_>>()
             });
             assert!(
                 pictures[0].contains(&false) && pictures[0] == pictures[1],

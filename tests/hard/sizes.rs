@@ -192,7 +192,7 @@ fn row_49_an_offset_by_exact_numbers_changes_no_pixel() {
         let mut changed = 0;
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             let at = plain.index(x, y);
-            let [one, other] = [&plain, &moved].map(|film| film.radiance[at].components());
+            let [one, other] = [&plain, &moved].map(|film| film.radiance(at).components());
             // Where nothing changes within a thousandth of a pixel.
             let is_judged = || !changes_near(&exact, (x, y), (width, height));
             if apart(one, other) > 0.003 && is_judged() {

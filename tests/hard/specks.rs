@@ -35,7 +35,7 @@ fn assert_no_speck(things: &str, map: &str) {
          {things}"
     );
     let film = rendered(&text, (21, 21));
-    let green = |x, y| film.radiance[film.index(x, y)].green > 0.5;
+    let green = |x, y| film.radiance(film.index(x, y)).green > 0.5;
     let all = (9..=11).all(|y| (9..=11).all(|x| green(x, y)));
     assert!(all, "{text}");
 }
@@ -109,7 +109,7 @@ fn the_first_of_two_coinciding_faces_is_seen_up_to_its_corner() {
                 };
                 let (a, b) = (place(41.0, x, 0.301, 0.12), place(31.0, y, 0.501, 0.09));
                 let is_first = a < 0.3 && b < 0.5 && b > 0.5 - depth;
-                let green = film.radiance[film.index(x as u32, y as u32)].green > 0.5;
+                let green = film.radiance(film.index(x as u32, y as u32)).green > 0.5;
                 assert_eq!(green, is_first, "{text} {x} {y}");
             }
         }
@@ -128,7 +128,7 @@ fn the_first_of_two_coinciding_faces_is_seen_up_to_its_corner_by_who_looks_aslan
         // The face is 5 from the camera.
         let a = 0.5 - 5.0 * (0.101 + 0.0126 * ((f64::from(x) + 0.5) / 33.0 - 0.5));
         let b = 0.5 - 5.0 * (0.101 + 0.0096 * ((f64::from(y) + 0.5) / 25.0 - 0.5));
-        let green = film.radiance[film.index(x, y)].green > 0.5;
+        let green = film.radiance(film.index(x, y)).green > 0.5;
         assert_eq!(green, a < 0.0 && b < 0.0, "{x} {y}");
     }
 }
@@ -159,7 +159,7 @@ fn the_first_of_two_coinciding_faces_is_seen_a_thousand_sizes_from_the_origin() 
                 ),
                 (9, 9),
             );
-            let is_first = film.radiance.iter().all(|color| color.green > 0.5);
+            let is_first = film.radiances().all(|color| color.green > 0.5);
             assert!(is_first, "{first} {second} {map}");
         }
     }

@@ -58,7 +58,7 @@ fn an_isosurface_that_counts_or_asks_is_the_solid_that_is_written_out() {
         });
         let off = (0..24).flat_map(|y| (0..32).map(move |x| (x, y))).filter(|&(x, y)| {
             let [one, other] =
-                [&films[0], &films[1]].map(|film| film.radiance[film.index(x, y)].red);
+                [&films[0], &films[1]].map(|film| film.radiance(film.index(x, y)).red);
             (one - other).abs() > 0.03
         });
         // At an edge rounding decides.

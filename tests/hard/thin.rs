@@ -7,7 +7,7 @@ use super::held::rendered;
 const CAMERA: &str = "#version 3.7; camera { location <2, 3, -6> look_at 0 angle 35 right x*4/3 }";
 
 fn radiance(things: &str) -> Vec<Rgb> {
-    rendered(&format!("{CAMERA} {things}"), (80, 60)).radiance
+    rendered(&format!("{CAMERA} {things}"), (80, 60)).radiances().collect()
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn a_cone_seen_along_its_axis_is_whole_also_where_its_side_would_be_met_twice_as
             ),
             (65, 49),
         );
-        let across = (32 - reach..=32 + reach).map(|x| film.radiance[film.index(x, 24)].red);
+        let across = (32 - reach..=32 + reach).map(|x| film.radiance(film.index(x, 24)).red);
         assert!(across.into_iter().all(|red| red > 0.5), "{cap}");
     }
 }
@@ -78,7 +78,7 @@ fn the_tip_of_what_is_open_is_seen_along_its_axis() {
             let red = "pigment { rgb <1, 0, 0> } finish { emission 1 }";
             let film = rendered(&format!("{camera} {tip} {red} }}"), (65, 49));
             for x in 30..=34 {
-                assert!(film.radiance[film.index(x, 24)].red > 0.5, "{tip} {way} {x}");
+                assert!(film.radiance(film.index(x, 24)).red > 0.5, "{tip} {way} {x}");
             }
         }
     }
@@ -102,7 +102,7 @@ fn a_quadric_with_a_tip_is_seen_around_it_however_far_from_the_origin_it_stands(
             for (x, y) in (0..31).flat_map(|x: i32| (0..31).map(move |y: i32| (x, y))) {
                 let (aside, up) = ((x - 15).abs(), (y - 15).abs());
                 if aside != up {
-                    let red = film.radiance[film.index(x as u32, y as u32)].red;
+                    let red = film.radiance(film.index(x as u32, y as u32)).red;
                     assert_eq!(red < 0.5, aside < up, "{tip} {width} {x} {y}");
                 }
             }

@@ -78,7 +78,7 @@ fn rows(things: &str, map: &str) -> [Vec<bool>; 2] {
         ),
         (81, 61),
     );
-    [30, 31].map(|y| (0..81).map(|x| film.radiance[film.index(x, y)].red < 0.5).collect())
+    [30, 31].map(|y| (0..81).map(|x| film.radiance(film.index(x, y)).red < 0.5).collect())
 }
 
 const PAINT: &str = "pigment { rgb <0, 1, 0> } finish { emission 1 }";
@@ -133,7 +133,7 @@ fn three_rows(thing: &str, map: &str, away: f64) -> [Vec<char>; 3] {
     );
     [29, 30, 31].map(|y| {
         let told = |x| {
-            let colour = film.radiance[film.index(x, y)];
+            let colour = film.radiance(film.index(x, y));
             if colour.red > 0.5 {
                 ' '
             } else if colour.green > 0.5 {
@@ -203,7 +203,7 @@ fn rays_through_an_edge_see_nothing_of_what_is_taken_away_there_or_only_touches(
             ),
             (320, 240),
         );
-        let lit = film.radiance.iter().filter(|radiance| radiance.red > 0.0).count();
+        let lit = film.radiances().filter(|radiance| radiance.red > 0.0).count();
         assert_eq!(lit, 0, "{thing}");
     }
 }

@@ -32,7 +32,7 @@ fn looks(name: &str, objects: &str, expected: Expected) {
             for y in 0..PIXELS {
                 for x in 0..PIXELS {
                     let at = |i: u32| (f64::from(i) + 0.5) * 4.0 / f64::from(PIXELS) - 2.0;
-                    let seen = film.radiance[film.index(x, y)];
+                    let seen = film.radiance(film.index(x, y));
                     let is = usize::from(seen.red > 0.5) + 2 * usize::from(seen.green > 0.5);
                     wrong += usize::from(is != expected(at(x), -at(y)));
                 }
@@ -144,7 +144,7 @@ fn an_isosurface_in_a_whole_loses_nothing_from_afar_where_a_line_goes_along_it_a
                      {with} pigment {{ gradient y color_map {{ [0 rgb 0.25] [1 rgb 0.75] }} scale 8
                      translate -4*y }} finish {{ ambient 1 diffuse 0 }} }}"
                 );
-                rendered(&scene, (18, 13)).radiance.iter().map(|seen| seen.red).collect::<Vec<_>>()
+                rendered(&scene, (18, 13)).radiances().map(|seen| seen.red).collect::<Vec<_>>()
             };
             let (near, far) = (seen(6.0), seen(1e5));
             assert!(near.iter().filter(|red| **red > 0.0).count() > 50, "{whole} {function}");

@@ -46,24 +46,24 @@ fn shot() -> Shot {
 
 #[test]
 fn a_power_of_two_times_every_length_changes_no_bit() {
-    let one = shot().of(&scene(1.0));
+    let one = shot().unrounded(&scene(1.0));
     for power in [-200, -40, -1, 1, 7, 60, 200] {
-        assert_eq!(shot().of(&scene(2f64.powi(power))), one, "2^{power}");
+        assert_eq!(shot().unrounded(&scene(2f64.powi(power))), one, "2^{power}");
     }
     // Planted: one length is left behind.
     let faulty = scene(2.0).replace("scale K }", "scale 1 }");
     assert_ne!(faulty, scene(2.0));
-    assert_ne!(shot().of(&faulty), one);
+    assert_ne!(shot().unrounded(&faulty), one);
 }
 
 #[test]
 fn a_power_of_ten_times_every_length_changes_no_pixel_by_much() {
-    let one = shot().of(&scene(1.0));
+    let one = shot().unrounded(&scene(1.0));
     for k in [1e-9, 1e-3, 1e6, 1e12] {
-        assert!(apart(&shot().of(&scene(k)), &one) < 1e-6, "{k}");
+        assert!(apart(&shot().unrounded(&scene(k)), &one) < 1e-6, "{k}");
     }
     let faulty = scene(1e3).replace("translate <1.6", "translate <1.601");
-    assert!(apart(&shot().of(&faulty), &one) > 1e-6);
+    assert!(apart(&shot().unrounded(&faulty), &one) > 1e-6);
 }
 
 #[test]
@@ -105,10 +105,10 @@ fn the_order_of_objects_does_not_matter() {
     let mut lines: Vec<&str> = text.lines().collect();
     let solids = lines.len() - 6..;
     lines[solids].reverse();
-    assert_eq!(shot().of(&lines.join("\n")), shot().of(&text));
+    assert_eq!(shot().unrounded(&lines.join("\n")), shot().unrounded(&text));
     // Planted: one is lost on the way.
     lines.pop();
-    assert_ne!(shot().of(&lines.join("\n")), shot().of(&text));
+    assert_ne!(shot().unrounded(&lines.join("\n")), shot().unrounded(&text));
 }
 
 #[test]
@@ -120,27 +120,27 @@ fn a_light_is_the_sum_of_its_parts() {
         let part = |weight: f64| format!("light_source {{ <5, 8, 9>*K, rgb 0.8*{weight} }}");
         text.replace(light, &format!("{} {}", part(share), part(1.0 - share)))
     };
-    let one = shot().of(&scene(1.0));
-    assert!(apart(&shot().of(&split(0.3)), &one) < 1e-12);
+    let one = shot().unrounded(&scene(1.0));
+    assert!(apart(&shot().unrounded(&split(0.3)), &one) < 1e-12);
     let faulty = split(0.3).replace("0.8*0.3", "0.8*0.30001");
-    assert!(apart(&shot().of(&faulty), &one) > 1e-12);
+    assert!(apart(&shot().unrounded(&faulty), &one) > 1e-12);
 }
 
 #[test]
 fn what_nobody_sees_changes_nothing() {
     let hidden = "sphere { <0, 40, 200>, 1 no_shadow }";
     let text = format!("{}\n{hidden}", scene(1.0));
-    let one = shot().of(&scene(1.0));
-    assert_eq!(shot().of(&text), one);
+    let one = shot().unrounded(&scene(1.0));
+    assert_eq!(shot().unrounded(&text), one);
     let faulty = text.replace("<0, 40, 200>", "<0, 1, 2>");
-    assert_ne!(shot().of(&faulty), one);
+    assert_ne!(shot().unrounded(&faulty), one);
 }
 
 #[test]
 fn a_scene_moved_together_with_its_camera_looks_the_same() {
-    let one = shot().of(&format!("{} {CONTENTS}", camera(1.0, "")));
+    let one = shot().unrounded(&format!("{} {CONTENTS}", camera(1.0, "")));
     let moved = |camera_steps: &str, steps: &str| {
-        shot().of(&format!("{} union {{ {CONTENTS} {steps} }}", camera(1.0, camera_steps)))
+        shot().unrounded(&format!("{} union {{ {CONTENTS} {steps} }}", camera(1.0, camera_steps)))
     };
     for steps in ["rotate 50*y", "translate <10, -20, 30>", "scale 3 rotate <10, 20, 30>"] {
         assert!(apart(&moved(steps, steps), &one) < 1e-9, "{steps}");

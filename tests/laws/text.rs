@@ -1,12 +1,17 @@
 //! From a text to its World and to its Film, without a mistake on the way.
 
 use lucarne::color::Rgb;
-use lucarne::plan::{Antialias, Frame, PlanOptions, Region, plan};
+use lucarne::plan::{Antialias, Frame, Plan, PlanOptions, Region, plan};
 use lucarne::road::{Options, Road};
 use lucarne::scene::Dialect;
 use lucarne::source::{FileError, Files, Found};
 use lucarne::trace::{TraceOptions, Unwatched, trace};
 use lucarne::world::{Origins, World};
+
+use crate::unrounded::radiances;
+
+/// Traces a World by its Plan.
+type Traced = fn(&World, &Plan, &TraceOptions) -> Vec<Rgb>;
 
 /// Files to include, by name.
 struct Shelf<'a>(&'a [(&'a str, &'a str)]);
@@ -45,13 +50,23 @@ impl Shot {
         self
     }
 
-    /// Radiance, row by row.
+    /// Radiance on the film, row by row.
     pub fn of(self, text: &str) -> Vec<Rgb> {
+        self.by(text, |world, plan, options| {
+            trace(world, plan, options, &Unwatched).film.radiances().collect()
+        })
+    }
+
+    /// Radiance before a film rounds it.
+    pub fn unrounded(self, text: &str) -> Vec<Rgb> {
+        self.by(text, radiances)
+    }
+
+    fn by(self, text: &str, traced: Traced) -> Vec<Rgb> {
         let (world, origins) = compiled(text, &[]);
         let Self { frame, antialias, threads } = self;
         let plan = plan(&world, &origins, &PlanOptions { antialias, ..PlanOptions::new(frame) });
-        let options = TraceOptions::on_threads(threads);
-        trace(&world, &plan, &options, &Unwatched).film.radiance
+        traced(&world, &plan, &TraceOptions::on_threads(threads))
     }
 }
 

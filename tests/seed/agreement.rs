@@ -13,7 +13,7 @@ use lucarne::plan::{Antialias, Frame, PlanOptions, plan};
 use lucarne::road::{Options, Road};
 use lucarne::scene::{Dialect, Scene};
 use lucarne::source::NoFiles;
-use lucarne::trace::{TraceOptions, Unwatched, trace};
+use lucarne::trace::TraceOptions;
 use lucarne::world::{Origins, World};
 
 use super::page::{Page, Source};
@@ -61,7 +61,7 @@ fn traced(world: &World, origins: &Origins, width: u32, height: u32) -> Vec<Rgb>
     let frame = Frame::whole(width, height);
     let options = PlanOptions { antialias: Antialias::Off, ..PlanOptions::new(frame) };
     let plan = plan(world, origins, &options);
-    trace(world, &plan, &TraceOptions::default(), &Unwatched).film.radiance
+    crate::unrounded::radiances(world, &plan, &TraceOptions::default())
 }
 
 /// The largest difference of two colours' components; a NaN is infinitely far.

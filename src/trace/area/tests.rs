@@ -70,7 +70,7 @@ fn traced(world: &World, (width, height): (u32, u32), options: &TraceOptions) ->
 
 fn red(world: &World, width: u32, height: u32) -> Vec<f64> {
     let traced = traced(world, (width, height), &TraceOptions::on_threads(1));
-    traced.film.radiance.iter().map(|seen| seen.red).collect()
+    traced.film.radiances().map(|seen| seen.red).collect()
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn jitter_is_the_same_on_any_threads_and_tiles_and_keeps_the_mean() {
     let jittered = wall(Some(Area { jitter: true, circular: true, ..area }));
     let picture = |threads, tile_side| {
         let options = TraceOptions { tile_side, ..TraceOptions::on_threads(threads) };
-        traced(&jittered, (40, 30), &options).film.radiance
+        traced(&jittered, (40, 30), &options).film
     };
     let first = picture(1, None);
     assert_eq!(picture(3, Some(7)), first);
@@ -161,9 +161,9 @@ fn samples_spread_over_a_light_come_to_what_a_fine_grid_shows() {
             trace(&world, &plan, &options, &Unwatched)
         };
         let traced = picture(1, None);
-        assert_eq!(picture(2, Some(7)).film.radiance, traced.film.radiance);
+        assert_eq!(picture(2, Some(7)).film, traced.film);
         let rays = traced.counters.shadow;
-        (traced.film.radiance.into_iter().map(|seen| seen.red).collect::<Vec<_>>(), rays)
+        (traced.film.radiances().map(|seen| seen.red).collect::<Vec<_>>(), rays)
     };
     let off = |a: &[f64], b: &[f64]| {
         let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));

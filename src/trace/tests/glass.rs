@@ -108,8 +108,8 @@ fn a_furnace_of_glass_is_white() {
             world.settings = Settings { max_trace_level: 12, adc_bailout: 0.0, ..world.settings };
         });
     let result = traced(&world, 24, 18, Antialias::Off);
-    let most = result.film.radiance.iter().map(|c| c.red).fold(0.0, f64::max);
-    let mean = result.film.radiance.iter().map(|c| c.red).sum::<f64>() / (24.0 * 18.0);
+    let most = result.film.radiances().map(|c| c.red).fold(0.0, f64::max);
+    let mean = result.film.radiances().map(|c| c.red).sum::<f64>() / (24.0 * 18.0);
     assert!(most <= 1.0 + 1e-12 && mean > 0.998, "{most} {mean}");
     assert!(result.counters.transmission > 400 && result.counters.reflection > 400);
     // Nothing is lost where no path is too long.

@@ -16,7 +16,7 @@ fn a_perfect_mirror_before_a_white_background_is_exactly_white_200_mirrors_deep(
         });
     let result = traced(&world, 40, 30, Antialias::Off);
     assert!(result.counters.reflection > 1200, "{:?}", result.counters);
-    assert!(result.film.radiance.iter().all(|&radiance| radiance == Rgb::WHITE));
+    assert!(result.film.radiances().all(|radiance| radiance == Rgb::WHITE));
 }
 
 #[test]
@@ -28,7 +28,7 @@ fn max_trace_level_counts_the_cameras_ray_and_black_lies_beyond() {
             world.background = Rgb::gray(1e9);
         });
         let result = traced(&world, 1, 1, Antialias::Off);
-        assert_eq!(result.film.radiance[0], Rgb::gray(f64::from(surfaces)));
+        assert_eq!(result.film.radiance(0), Rgb::gray(f64::from(surfaces)));
         assert_eq!(result.counters.reflection, u64::from(surfaces) - 1);
     }
 }
@@ -221,7 +221,7 @@ fn an_empty_world_shows_its_background_from_any_camera() {
         world.background = Rgb::gray(0.5);
         world.camera.forward = Vector::new(1.0, 2.0, 3.0) * 1e-200;
     });
-    assert!(traced(&world, 7, 3, Antialias::Grid(2)).film.radiance.iter().all(|c| c.red == 0.5));
+    assert!(traced(&world, 7, 3, Antialias::Grid(2)).film.radiances().all(|c| c.red == 0.5));
 }
 
 #[test]

@@ -189,7 +189,11 @@ fn traced(world: &World, width: u32, height: u32, antialias: Antialias) -> Trace
     traced_by(world, &plan(world, &Origins::default(), &options))
 }
 
-/// What the camera's central ray sees.
+/// What the camera's central ray sees, before a film rounds it.
 fn centre(world: &World) -> Rgb {
-    traced(world, 1, 1, Antialias::Off).film.radiance[0]
+    let plan = plan(world, &Origins::default(), &options(1, 1, Antialias::Off));
+    let aim = Aim { place: (0, 0), side: 1, seed: None };
+    let (geometry, threads) = (Geometry::build(world), TraceOptions::on_threads(1));
+    let (seen, _) = seen(world, &geometry, &plan, &[aim], &threads, &Unwatched);
+    seen[0].expect("not stopped").mean
 }

@@ -45,7 +45,7 @@ fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
             for (&(x, y), radiance) in list.iter().zip(&single.radiance) {
                 assert_eq!(
                     *radiance,
-                    Some(traced.film.radiance[traced.film.index(x, y)]),
+                    Some(traced.film.radiance(traced.film.index(x, y))),
                     "{x} {y}"
                 );
             }

@@ -1,0 +1,23 @@
+//! The radiance of each pixel before a film rounds it, for tests of what holds beyond its precision.
+
+use lucarne::color::Rgb;
+use lucarne::plan::{Antialias, Plan, Region};
+use lucarne::trace::{Aim, TraceOptions, Unwatched, geometry, seen, trace};
+use lucarne::world::World;
+
+/// Traces a picture, row by row. Only that of adaptive antialiasing comes from a film.
+pub fn radiances(world: &World, plan: &Plan, options: &TraceOptions) -> Vec<Rgb> {
+    let side = match plan.antialias {
+        Antialias::Off => 1,
+        Antialias::Grid(side) => side,
+        Antialias::Adaptive { .. } => {
+            return trace(world, plan, options, &Unwatched).film.radiances().collect();
+        }
+    };
+    let Region { x, y, width, height } = plan.frame.region;
+    let places = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y)));
+    let aims: Vec<Aim> = places.map(|place| Aim { place, side, seed: None }).collect();
+    let geometry = geometry(world, plan, options);
+    let (seen, _) = seen(world, &geometry, plan, &aims, options, &Unwatched);
+    seen.into_iter().map(|seen| seen.expect("not stopped").mean).collect()
+}
