@@ -21,6 +21,7 @@ mod search;
 mod shades;
 mod sides;
 mod span;
+mod subsets;
 mod surface;
 mod through;
 mod whole;
@@ -37,7 +38,7 @@ use crate::bvh::Tree;
 use crate::math::wide::Instructions;
 use crate::shape::local::{Local, Met};
 use crate::shape::{Bounds, Box_, Ellipsoid, Placed, Plane, Ray, Rounding, Shape, Sphere};
-use crate::world::{Object, World};
+use crate::world::World;
 use balls::{Ball, Balls};
 use beside::Grain;
 pub use extent::Extent;
@@ -75,6 +76,9 @@ pub struct Geometry {
     in_image: Option<Box<Geometry>>,
     /// What mirrored rays meet, likewise.
     in_reflections: Option<Box<Geometry>>,
+    /// What stops light, and what stops a part of it, where that is the smaller part.
+    opaque: Option<Box<Geometry>>,
+    filters: Option<Box<Geometry>>,
     /// The objects that lights shine through.
     projections: Vec<Geometry>,
 }
@@ -106,39 +110,14 @@ enum Solid {
 }
 
 impl Geometry {
-    pub fn build(world: &World) -> Self {
-        let part = |holds: fn(&Object) -> bool| {
-            let is_part = !world.objects.iter().all(holds);
-            is_part.then(|| Box::new(Self::of(world, holds)))
-        };
-        Self {
-            in_image: part(|object| object.in_image),
-            in_reflections: part(|object| object.in_reflections),
-            projections: world.projections.iter().map(Self::build).collect(),
-            ..Self::of(world, |_| true)
-        }
-    }
-
     /// Returns what a light shines through, by its number.
     pub fn projection(&self, number: u32) -> &Self {
         &self.projections[number as usize]
     }
 
-    /// What the camera's rays meet, as long as nothing has mirrored them.
-    pub fn in_image(&self) -> &Self {
-        self.in_image.as_deref().unwrap_or(self)
-    }
-
-    /// What mirrored rays meet.
-    pub fn in_reflections(&self) -> &Self {
-        self.in_reflections.as_deref().unwrap_or(self)
-    }
-
-    /// Of those of the World's objects that it `holds`.
-    fn of(world: &World, holds: fn(&Object) -> bool) -> Self {
-        let (bounded, unbounded): (Vec<u32>, Vec<u32>) = world
-            .solids()
-            .filter(|&object| holds(&world.objects[object as usize]))
+    /// Of some of [`World::solids`], in their order.
+    fn of(world: &World, solids: impl Iterator<Item = u32>) -> Self {
+        let (bounded, unbounded): (Vec<u32>, Vec<u32>) = solids
             .filter(|&object| !Extent::of(world, object, Rounding::Outward).is_empty())
             .partition(|&object| bounds(world, object).is_some());
         let (tree, order) = if bounded.len() < TREE_FROM {
@@ -149,20 +128,22 @@ impl Geometry {
             (Some(tree), order.into_iter().map(|place| bounded[place as usize]).collect())
         };
         let mut geometry = Self {
-            entries: Vec::with_capacity(world.objects.len()),
+            entries: Vec::with_capacity(unbounded.len() + order.len()),
             grains: Vec::new(),
             unbounded: unbounded.len(),
             tree,
             balls: Vec::new(),
             hulls: Vec::new(),
-            boxes: Vec::with_capacity(world.boxes.len()),
-            ellipsoids: Vec::with_capacity(world.ellipsoids.len()),
-            placed: Vec::with_capacity(world.placed.len()),
-            wholes: Vec::with_capacity(world.csg_solids.len()),
+            boxes: Vec::new(),
+            ellipsoids: Vec::new(),
+            placed: Vec::new(),
+            wholes: Vec::new(),
             counts: false,
             instructions: Instructions::best(),
             in_image: None,
             in_reflections: None,
+            opaque: None,
+            filters: None,
             projections: Vec::new(),
         };
         for object in unbounded.into_iter().chain(order) {
@@ -212,13 +193,6 @@ impl Geometry {
     pub fn with(mut self, instructions: Instructions) -> Self {
         self.instructions = instructions;
         self.parts(|part| part.with(instructions))
-    }
-
-    fn parts(mut self, change: impl Fn(Self) -> Self) -> Self {
-        for part in [&mut self.in_image, &mut self.in_reflections] {
-            *part = part.take().map(|part| Box::new(change(*part)));
-        }
-        self
     }
 
     /// Whether it counts what its searches take.

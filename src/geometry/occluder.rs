@@ -33,8 +33,8 @@ impl Geometry {
     #[inline(always)]
     pub fn occluder(&self, ray: &Ray, distance: f64, guess: Occluder, work: &mut Work) -> Occluder {
         match self.counts {
-            true => self.occluder_with(ray, distance, guess, work),
-            false => self.occluder_with(ray, distance, guess, Uncounted),
+            true => self.opaque().occluder_with(ray, distance, guess, work),
+            false => self.opaque().occluder_with(ray, distance, guess, Uncounted),
         }
     }
 
@@ -49,12 +49,13 @@ impl Geometry {
         work: &mut Work,
     ) -> u32 {
         if rays.mask.count_ones() >= packet::LEAST {
-            let mut shades = Shades::new(self, rays, distances, self.counts.then_some(work));
-            if guess.0 < self.entries.len() {
+            let opaque = self.opaque();
+            let mut shades = Shades::new(opaque, rays, distances, self.counts.then_some(work));
+            if guess.0 < opaque.entries.len() {
                 dispatch!(self.instructions.level(), simd => shades.look(simd, guess.0, rays.mask));
             }
             if shades.open() != 0 {
-                self.search_together(&mut shades);
+                opaque.search_together(&mut shades);
             }
             return shades.finish(guess);
         }

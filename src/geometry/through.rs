@@ -18,8 +18,8 @@ impl Geometry {
     /// that is [`Geometry::counting`].
     pub fn filters(&self, ray: &Ray, distance: f64, hits: &mut Vec<Hit>, work: &mut Work) {
         match self.counts() {
-            true => self.filters_with(ray, distance, hits, work),
-            false => self.filters_with(ray, distance, hits, Uncounted),
+            true => self.filtering().filters_with(ray, distance, hits, work),
+            false => self.filtering().filters_with(ray, distance, hits, Uncounted),
         }
     }
 
