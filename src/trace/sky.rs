@@ -14,8 +14,16 @@ use crate::world::World;
 /// is not let through untinted further down.
 ///
 /// **Source:** POV-Ray 3.7's behaviour, measured for each kind of colour, alone and layered.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn seen(world: &World, sharpness: &Sharpness, direction: Vector) -> Rgb {
+    match world.sky {
+        Some(_) => painted(world, sharpness, direction),
+        None => world.background,
+    }
+}
+
+#[inline(never)]
+fn painted(world: &World, sharpness: &Sharpness, direction: Vector) -> Rgb {
     let pigments = world.sky.as_ref().map_or(&[][..], |sky| &sky.pigments);
     let emission = world.sky.as_ref().map_or(Rgb::WHITE, |sky| sky.emission);
     let pigments = pigments.iter().zip(&sharpness.sky);
