@@ -3,9 +3,12 @@
 //! **In:** the radiance gathered by the tracer. **Out:** an [`Image`]. **Invariant:** the same bits for any
 //! number of threads; each pixel has its sample count; pixels not reached are black.
 
-use crate::color::{Gamma, Rgb, srgb_decode, srgb_encode};
-use crate::math::elementary::pow;
+mod curve;
+
+use crate::color::{Gamma, Rgb};
 use crate::plan::{Frame, Region};
+
+use curve::Curve;
 
 /// The traced region, row by row from its top left.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,8 +16,33 @@ pub struct Film {
     pub frame: Frame,
     /// Transfer function from radiance to linear light.
     pub assumed_gamma: Gamma,
+    /// What the picture shows of each pixel.
+    pub channels: Channels,
     /// `region.width × region.height` pixels.
     pub pixels: Vec<Pixel>,
+}
+
+/// Channels of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Channels {
+    #[default]
+    Rgb,
+    /// With alpha: how much of the pixel is not the background.
+    Rgba,
+}
+
+impl Channels {
+    pub const fn count(self) -> usize {
+        match self {
+            Self::Rgb => 3,
+            Self::Rgba => 4,
+        }
+    }
+
+    /// Returns those of a picture with or without alpha.
+    pub const fn with(alpha: bool) -> Self {
+        if alpha { Self::Rgba } else { Self::Rgb }
+    }
 }
 
 /// A pixel of a film. Films are large, so radiance is rounded to `f32` once its samples are summed.
@@ -22,11 +50,12 @@ pub struct Film {
 pub struct Pixel {
     radiance: [f32; 3],
     samples: u16,
-    coverage: u16,
+    /// In 65,535ths.
+    opacity: u16,
 }
 
 impl Pixel {
-    /// `radiance` is the mean of so many samples.
+    /// `radiance` is the mean of so many samples, of an opaque pixel.
     #[inline]
     pub fn new(radiance: Rgb, samples: u32) -> Self {
         // Finite light stays finite.
@@ -34,8 +63,17 @@ impl Pixel {
         Self {
             radiance: radiance.components().map(rounded),
             samples: samples.try_into().unwrap_or(u16::MAX),
-            coverage: u16::MAX,
+            opacity: u16::MAX,
         }
+    }
+
+    /// Makes an opaque pixel one of which so much is not the background, 0 … 1.
+    #[inline]
+    pub fn with_opacity(mut self, opacity: f64) -> Self {
+        if opacity != 1.0 {
+            self.opacity = (opacity * f64::from(u16::MAX) + 0.5) as u16;
+        }
+        self
     }
 
     /// Returns the mean of the samples, in the scene's working space.
@@ -43,6 +81,21 @@ impl Pixel {
     pub fn radiance(self) -> Rgb {
         let [red, green, blue] = self.radiance.map(f64::from);
         Rgb { red, green, blue }
+    }
+
+    /// Returns how much of the pixel is not the background, 0 … 1.
+    #[inline]
+    pub fn opacity(self) -> f64 {
+        f64::from(self.opacity) / f64::from(u16::MAX)
+    }
+
+    /// Returns its colour divided by alpha, and that alpha: the pixel's opacity, or its brightness if that is more,
+    /// up to 1.
+    fn straight(self) -> (Rgb, f64) {
+        let radiance = self.radiance();
+        let alpha = self.opacity().max(radiance.brightness().min(1.0));
+        let color = if alpha > 0.0 { radiance * (1.0 / alpha) } else { Rgb::BLACK };
+        (color, alpha)
     }
 
     /// Returns the number of samples: 0 if not reached, 65 535 if as many or more.
@@ -56,9 +109,11 @@ impl Film {
     /// Peak memory per pixel while tracing: the film, and the marks of edges.
     pub const BYTES_PER_PIXEL: u64 = (size_of::<Pixel>() + size_of::<bool>()) as u64;
 
+    /// Returns a film without alpha whose pixels are not reached.
     pub fn new(frame: Frame, assumed_gamma: Gamma) -> Self {
         let pixels = frame.region.width as usize * frame.region.height as usize;
-        Self { frame, assumed_gamma, pixels: vec![Pixel::default(); pixels] }
+        let pixels = vec![Pixel::default(); pixels];
+        Self { frame, assumed_gamma, channels: Channels::Rgb, pixels }
     }
 
     /// Returns the index of pixel (`x`, `y`) of the full picture, which must be in the region.
@@ -114,10 +169,11 @@ impl Film {
 pub struct Image {
     pub width: u32,
     pub height: u32,
+    pub channels: Channels,
     pub components: Components,
 }
 
-/// Red, green and blue of each pixel of a row or an image.
+/// Red, green, blue and, if asked for, alpha of each pixel of a row or an image.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Components {
     /// Display-referred, sRGB transfer function, 0 … 255.
@@ -151,10 +207,15 @@ impl Depth {
 /// Converts a film to an image. Linear light is `assumed_gamma` applied to the radiance. Display-referred
 /// values are `255 · sRGB` (or `65535 · sRGB`) of that, rounded to nearest. Negative and undefined light is
 /// black.
+///
+/// With alpha, display-referred colours are divided by it, and what is brighter than its alpha allows has more
+/// alpha instead; linear light is multiplied by it, and its alpha is as it is.
+///
+/// **Source:** behaviour of POV-Ray 3.7 with `Output_Alpha`, measured for PNG and OpenEXR.
 pub fn develop(film: &Film, depth: Depth) -> Image {
-    let Region { width, height, .. } = film.frame.region;
+    let (Region { width, height, .. }, channels) = (film.frame.region, film.channels);
     let developer = Developer::new(depth, film.assumed_gamma, film.pixels.len());
-    Image { width, height, components: developer.develop(&film.pixels) }
+    Image { width, height, channels, components: developer.develop(&film.pixels, channels) }
 }
 
 /// Converts pixels of films with the same `assumed_gamma` like [`develop`], building its lookup tables only
@@ -187,11 +248,29 @@ impl Developer {
     }
 
     /// Converts some pixels, such as a row.
-    pub fn develop(&self, pixels: &[Pixel]) -> Components {
+    pub fn develop(&self, pixels: &[Pixel], channels: Channels) -> Components {
+        let alpha = channels == Channels::Rgba;
         match &self.0 {
-            Tones::Eight(curve) => Components::Eight(each(pixels, |c| curve.code(c) as u8)),
-            Tones::Sixteen(curve) => Components::Sixteen(each(pixels, |c| curve.code(c) as u16)),
-            Tones::Linear(gamma) => Components::Linear(each(pixels, |c| gamma.linear(c) as f32)),
+            Tones::Eight(curve) => {
+                let code = |c| curve.code(c) as u8;
+                let part = |part: f64| (255.0 * part).round() as u8;
+                Components::Eight(match alpha {
+                    true => each_straight(pixels, code, part),
+                    false => each(pixels, code),
+                })
+            }
+            Tones::Sixteen(curve) => {
+                let code = |c| curve.code(c) as u16;
+                let part = |part: f64| (65_535.0 * part).round() as u16;
+                Components::Sixteen(match alpha {
+                    true => each_straight(pixels, code, part),
+                    false => each(pixels, code),
+                })
+            }
+            Tones::Linear(gamma) => Components::Linear(match alpha {
+                true => each_multiplied(pixels, *gamma),
+                false => each(pixels, |c| gamma.linear(c) as f32),
+            }),
         }
     }
 }
@@ -199,90 +278,34 @@ impl Developer {
 fn each<T: Copy + Default>(pixels: &[Pixel], encode: impl Fn(f64) -> T) -> Vec<T> {
     let mut all = vec![T::default(); 3 * pixels.len()];
     for (place, pixel) in all.chunks_exact_mut(3).zip(pixels) {
-        place.copy_from_slice(&pixel.radiance.map(|c| encode(c.into())));
+        let Rgb { red, green, blue } = pixel.radiance();
+        place.copy_from_slice(&[encode(red), encode(green), encode(blue)]);
     }
     all
 }
 
-/// Returns the code of a component, 0 … `last`, by definition.
-fn code(component: f64, gamma: Gamma, last: u32) -> u32 {
-    (srgb_encode(gamma.linear(component)) * f64::from(last)).round() as u32
-}
-
-/// Computes [`code`] by table: `steps[k]` is the least component with a code above `k`.
-///
-/// The definition takes two powers, a search only a few comparisons. Both agree for every number, because
-/// the steps are computed with the definition itself.
-struct Curve {
-    last: u32,
-    gamma: Gamma,
-    /// Empty if there are so few pixels that computing the steps costs more than it saves.
-    steps: Vec<f64>,
-    /// For each of `starts.len()` equal parts of 0 … 1, the code of its lower end.
-    starts: Vec<u32>,
-}
-
-impl Curve {
-    fn new(last: u32, gamma: Gamma, wanted: usize) -> Self {
-        let mut curve = Self { last, gamma, steps: Vec::new(), starts: Vec::new() };
-        // Each step costs about twenty evaluations.
-        if wanted / 20 > last as usize {
-            curve.steps = (0..last).map(|k| step_above(k, gamma, last)).collect();
-            let parts = 16 * (last as usize + 1);
-            let mut at = 0;
-            curve.starts = (0..parts)
-                .map(|part| {
-                    let low = part as f64 / parts as f64;
-                    at += curve.steps[at..].iter().take_while(|&&step| step <= low).count();
-                    at as u32
-                })
-                .collect();
-        }
-        curve
-    }
-
-    #[inline]
-    fn code(&self, component: f64) -> u32 {
-        if self.steps.is_empty() {
-            return code(component, self.gamma, self.last);
-        }
-        // Casting clamps below and makes NaN 0.
-        let part = (component * self.starts.len() as f64) as usize;
-        let Some(&start) = self.starts.get(part) else { return self.last };
-        let mut code = start;
-        while code < self.last && self.steps[code as usize] <= component {
-            code += 1;
-        }
-        code
-    }
-}
-
-/// Returns the least component with a code above `k`, by bisection over the bits of a float around the
-/// inverse formula.
-fn step_above(k: u32, gamma: Gamma, last: u32) -> f64 {
-    let above = |bits: u64| code(f64::from_bits(bits), gamma, last) > k;
-    let shown = (f64::from(k) + 0.5) / f64::from(last);
-    let guess = match gamma {
-        Gamma::Power(exponent) => pow(srgb_decode(shown), 1.0 / exponent),
-        Gamma::Srgb => shown,
+/// Returns colours that alpha does not multiply, and their alpha.
+fn each_straight<T>(
+    pixels: &[Pixel],
+    encode: impl Fn(f64) -> T,
+    part: impl Fn(f64) -> T,
+) -> Vec<T> {
+    let straight = |pixel: &Pixel| {
+        let (color, alpha) = pixel.straight();
+        let [red, green, blue] = color.components().map(&encode);
+        [red, green, blue, part(alpha)]
     };
-    let guess = guess.to_bits();
-    let mut width = 16;
-    let (mut low, mut high) = (guess, guess);
-    while above(low) {
-        low = low.saturating_sub(width);
-        width *= 16;
-    }
-    width = 16;
-    while !above(high) {
-        high += width;
-        width *= 16;
-    }
-    while high - low > 1 {
-        let middle = low + (high - low) / 2;
-        if above(middle) { high = middle } else { low = middle }
-    }
-    f64::from_bits(high)
+    pixels.iter().flat_map(straight).collect()
+}
+
+/// Returns linear light that alpha multiplies, and alpha.
+fn each_multiplied(pixels: &[Pixel], gamma: Gamma) -> Vec<f32> {
+    let multiplied = |pixel: &Pixel| {
+        let (color, part) = pixel.straight();
+        let [red, green, blue] = color.components().map(|c| (gamma.linear(c) * part) as f32);
+        [red, green, blue, pixel.opacity() as f32]
+    };
+    pixels.iter().flat_map(multiplied).collect()
 }
 
 #[cfg(test)]
@@ -292,33 +315,7 @@ mod tests {
     fn film(radiance: Vec<Rgb>, assumed_gamma: Gamma) -> Film {
         let frame = Frame::whole(radiance.len() as u32, 1);
         let pixels = radiance.into_iter().map(|radiance| Pixel::new(radiance, 1)).collect();
-        Film { frame, assumed_gamma, pixels }
-    }
-
-    #[test]
-    fn the_table_agrees_with_the_definition_at_and_around_every_step() {
-        let powers = [1.0, 2.2, 0.4].map(Gamma::Power);
-        let curves = [255, 65_535].into_iter().flat_map(|last| {
-            powers.into_iter().chain([Gamma::Srgb]).map(move |gamma| (last, gamma))
-        });
-        for (last, gamma) in curves {
-            let curve = Curve::new(last, gamma, usize::MAX);
-            assert_eq!(curve.steps.len(), last as usize);
-            assert!(curve.steps.windows(2).all(|pair| pair[0] < pair[1]));
-            for &step in &curve.steps {
-                for bits in step.to_bits() - 3..step.to_bits() + 3 {
-                    let c = f64::from_bits(bits);
-                    assert_eq!(curve.code(c), code(c, gamma, last), "{c} {gamma} {last}");
-                }
-            }
-            for i in -10..70_000 {
-                let c = f64::from(i) / 65_535.0;
-                assert_eq!(curve.code(c), code(c, gamma, last), "{c} {gamma} {last}");
-            }
-            for c in [f64::NAN, f64::INFINITY, -f64::INFINITY, -0.0, 1e-320, 1.0, 1e300] {
-                assert_eq!(curve.code(c), code(c, gamma, last), "{c} {gamma} {last}");
-            }
-        }
+        Film { pixels, ..Film::new(frame, assumed_gamma) }
     }
 
     #[test]
@@ -363,6 +360,35 @@ mod tests {
     }
 
     #[test]
+    fn alpha_divides_what_a_display_shows_and_multiplies_linear_light() {
+        let quarter = f64::from(1u16 << 14) / 65_535.0;
+        let clear = Pixel::new(Rgb::new(quarter, 0.5 * quarter, 0.0), 1).with_opacity(quarter);
+        // Brighter than alpha allows: a highlight on clear glass.
+        let bright = Pixel::new(Rgb::gray(0.6), 1).with_opacity(0.0);
+        let pixels = vec![clear, bright, Pixel::default()];
+        let film = |assumed_gamma| Film {
+            channels: Channels::Rgba,
+            pixels: pixels.clone(),
+            ..Film::new(Frame::whole(3, 1), assumed_gamma)
+        };
+        let eight = develop(&film(Gamma::LINEAR), Depth::Eight).components;
+        let expected = vec![255, 188, 0, 64, 255, 255, 255, 153, 0, 0, 0, 0];
+        assert_eq!(eight, Components::Eight(expected));
+        let linear = |gamma| match develop(&film(gamma), Depth::Linear).components {
+            Components::Linear(linear) => linear,
+            other => panic!("not linear: {other:?}"),
+        };
+        let close =
+            |a: &[f32], b: [f64; 4]| a.iter().zip(b).all(|(a, b)| (f64::from(*a) - b).abs() < 1e-6);
+        let straight = linear(Gamma::LINEAR);
+        assert!(close(&straight[..4], [quarter, 0.5 * quarter, 0.0, quarter]), "{straight:?}");
+        assert!(close(&straight[4..8], [0.6, 0.6, 0.6, 0.0]), "{straight:?}");
+        // The curve is that of colours which alpha does not multiply.
+        let squared = linear(Gamma::Power(2.0));
+        assert!(close(&squared[..4], [quarter, 0.25 * quarter, 0.0, quarter]), "{squared:?}");
+    }
+
+    #[test]
     fn a_row_is_developed_like_the_whole() {
         let colors: Vec<Rgb> = (0..60).map(|i| Rgb::new(0.0, 0.5, f64::from(i) / 40.0)).collect();
         let mut film = film(colors, Gamma::Srgb);
@@ -370,7 +396,8 @@ mod tests {
         for depth in [Depth::Eight, Depth::Sixteen, Depth::Linear] {
             let developer = Developer::new(depth, film.assumed_gamma, film.pixels.len());
             assert_eq!(developer.depth(), depth);
-            let rows: Vec<_> = film.rows().map(|row| developer.develop(row)).collect();
+            let rows: Vec<_> =
+                film.rows().map(|row| developer.develop(row, film.channels)).collect();
             assert_eq!(rows.len(), 5);
             let mut bits = Vec::new();
             for row in rows {

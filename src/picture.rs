@@ -17,7 +17,7 @@ use image::codecs::qoi::QoiEncoder;
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use png::EncodingError;
 
-use crate::film::{Components, Depth, Developer, Film};
+use crate::film::{Channels, Components, Depth, Developer, Film};
 use crate::plan::Region;
 
 /// Bytes in a part of a PNG.
@@ -72,6 +72,14 @@ impl Format {
         }
     }
 
+    /// Whether a picture of this format can have an alpha channel.
+    pub fn holds_alpha(self) -> bool {
+        match self {
+            Self::Png | Self::Qoi | Self::Exr => true,
+            Self::Jpeg | Self::Ppm | Self::Hdr => false,
+        }
+    }
+
     /// Returns why this format cannot hold a picture of this size; `None` if it can.
     pub fn too_large(self, width: u32, height: u32) -> Option<String> {
         match self {
@@ -87,14 +95,15 @@ impl Format {
 
     /// Returns the memory that [`write`] takes per pixel, beside a row: the entire image, and the entire file
     /// for a format that is not written from front to back.
-    pub const fn bytes_per_pixel(self) -> u64 {
+    pub const fn bytes_per_pixel(self, channels: Channels) -> u64 {
+        let channels = channels.count() as u64;
         match self {
             Self::Png | Self::Ppm => 0,
-            Self::Jpeg => 3,
-            // Four for the file, whose colours may be longer than they were.
-            Self::Qoi => 3 + 4,
-            Self::Hdr => 12,
-            Self::Exr => 12 + 12,
+            Self::Jpeg => channels,
+            // The colours of the file may be one byte longer.
+            Self::Qoi => channels + (channels + 1),
+            Self::Hdr => 4 * channels,
+            Self::Exr => 4 * channels + 4 * channels,
         }
     }
 
@@ -119,20 +128,25 @@ pub fn write(
     out: &mut dyn Write,
 ) -> Result<()> {
     let Region { width, height, .. } = film.frame.region;
-    let (color, last) = match developer.depth() {
-        Depth::Eight => (ExtendedColorType::Rgb8, 255),
-        Depth::Sixteen => (ExtendedColorType::Rgb16, 65_535),
-        Depth::Linear => (ExtendedColorType::Rgb32F, 0),
+    let color = match (developer.depth(), film.channels) {
+        _ if film.channels == Channels::Rgba && !format.holds_alpha() => {
+            return Err(Error::other(format!("{format:?} cannot hold alpha")));
+        }
+        (Depth::Eight, Channels::Rgb) => ExtendedColorType::Rgb8,
+        (Depth::Eight, Channels::Rgba) => ExtendedColorType::Rgba8,
+        (Depth::Sixteen, _) => ExtendedColorType::Rgb16,
+        (Depth::Linear, Channels::Rgb) => ExtendedColorType::Rgb32F,
+        (Depth::Linear, Channels::Rgba) => ExtendedColorType::Rgba32F,
     };
     let whole = || {
-        let size = 3 * film.pixels.len() * developer.depth().bytes();
-        let mut whole = Vec::with_capacity(size);
+        let pixel = film.channels.count() * developer.depth().bytes();
+        let mut whole = Vec::with_capacity(pixel * film.pixels.len());
         rows(film, developer, u16::to_ne_bytes).for_each(|row| whole.extend_from_slice(&row));
         whole
     };
     let written = match format {
         Format::Png => return png(film, developer, out),
-        Format::Ppm => return ppm(film, developer, last, out),
+        Format::Ppm => return ppm(film, developer, out),
         Format::Jpeg => {
             JpegEncoder::new_with_quality(out, 92).write_image(&whole(), width, height, color)
         }
@@ -165,7 +179,7 @@ fn rows(
     developer: &Developer,
     order: impl Fn(u16) -> [u8; 2],
 ) -> impl Iterator<Item = Vec<u8>> {
-    film.rows().map(move |row| match developer.develop(row) {
+    film.rows().map(move |row| match developer.develop(row, film.channels) {
         Components::Eight(bytes) => bytes,
         Components::Sixteen(all) => bytes(&all, &order),
         Components::Linear(all) => bytes(&all, f32::to_ne_bytes),
@@ -184,7 +198,10 @@ fn bytes<T: Copy, const N: usize>(all: &[T], order: impl Fn(T) -> [u8; N]) -> Ve
 fn png(film: &Film, developer: &Developer, out: &mut dyn Write) -> Result<()> {
     let Region { width, height, .. } = film.frame.region;
     let mut encoder = png::Encoder::new(out, width, height);
-    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_color(match film.channels {
+        Channels::Rgb => png::ColorType::Rgb,
+        Channels::Rgba => png::ColorType::Rgba,
+    });
     encoder.set_depth(match developer.depth() {
         Depth::Eight => png::BitDepth::Eight,
         Depth::Sixteen => png::BitDepth::Sixteen,
@@ -208,10 +225,12 @@ fn png(film: &Film, developer: &Developer, out: &mut dyn Write) -> Result<()> {
 }
 
 /// Encodes a binary PPM. **Source:** the Netpbm manual, `ppm`.
-fn ppm(film: &Film, developer: &Developer, last: u32, out: &mut dyn Write) -> Result<()> {
-    if developer.depth() == Depth::Linear {
-        return Err(Error::other("PPM cannot hold linear light"));
-    }
+fn ppm(film: &Film, developer: &Developer, out: &mut dyn Write) -> Result<()> {
+    let last = match developer.depth() {
+        Depth::Eight => 255,
+        Depth::Sixteen => 65_535,
+        Depth::Linear => return Err(Error::other("PPM cannot hold linear light")),
+    };
     let Region { width, height, .. } = film.frame.region;
     out.write_all(ppm_header(width, height, last).as_bytes())?;
     rows(film, developer, u16::to_be_bytes).try_for_each(|row| out.write_all(&row))
@@ -240,8 +259,9 @@ mod tests {
         let frame = Frame::whole(31, 17);
         let parts = |i: u32| [i % 256, (i * 7) % 256, (i * 31) % 256].map(|c| f64::from(c) / 255.0);
         let colors = (0..31 * 17).map(parts).map(|[r, g, b]| Rgb::new(r, g, b));
-        let pixels = colors.map(|color| Pixel::new(color, 1)).collect();
-        Film { frame, assumed_gamma: Gamma::LINEAR, pixels }
+        let pixel = |color: Rgb| Pixel::new(color, 1).with_opacity(1.0 - color.blue);
+        let pixels = colors.map(pixel).collect();
+        Film { pixels, ..Film::new(frame, Gamma::LINEAR) }
     }
 
     #[test]
@@ -263,6 +283,16 @@ mod tests {
                 Components::Eight(all) => assert_eq!(read.to_rgb8().into_raw(), all),
                 Components::Sixteen(all) => assert_eq!(read.to_rgb16().into_raw(), all),
                 Components::Linear(all) => assert_eq!(read.to_rgb32f().into_raw(), all),
+            }
+            let film = Film { channels: Channels::Rgba, ..film() };
+            let clear = encode(&film, depth, format);
+            assert_eq!(clear.is_ok(), format.holds_alpha(), "{format:?}");
+            let Ok(bytes) = clear else { continue };
+            let read = image::load_from_memory(&bytes).expect("a picture");
+            match develop(&film, depth).components {
+                Components::Eight(all) => assert_eq!(read.to_rgba8().into_raw(), all),
+                Components::Sixteen(all) => assert_eq!(read.to_rgba16().into_raw(), all),
+                Components::Linear(all) => assert_eq!(read.to_rgba32f().into_raw(), all),
             }
         }
     }
@@ -317,6 +347,11 @@ mod tests {
         }
         for format in [Format::Png, Format::Ppm] {
             assert!(encode(&film(), Depth::Linear, format).is_err());
+        }
+        let film = Film { channels: Channels::Rgba, ..film() };
+        for format in Format::ALL {
+            let depth = format.depth(None).expect("a depth");
+            assert_eq!(encode(&film, depth, format).is_ok(), format.holds_alpha(), "{format:?}");
         }
         let wide = Film::new(Frame::whole(70_000, 1), Gamma::LINEAR);
         assert!(encode(&wide, Depth::Eight, Format::Jpeg).is_err());

@@ -12,7 +12,7 @@ pub mod print;
 mod rainbow;
 mod solid;
 
-use crate::color::{Clearness, Gamma, Rgb};
+use crate::color::{Clearness, Color, Gamma, Rgb};
 use crate::math::placement::Map;
 use crate::shape::uv::Mapping;
 use crate::shape::{Box_, Ellipsoid, Placed, Plane, Shape, Sphere};
@@ -34,6 +34,8 @@ pub struct World {
     pub settings: Settings,
     /// The colour of a ray that leaves the scene where the sky is transparent.
     pub background: Rgb,
+    /// What that is in a picture with alpha.
+    pub backdrop: Backdrop,
     pub sky: Option<Sky>,
     /// In written order; each changes the picture.
     pub fogs: Vec<Fog>,
@@ -343,6 +345,22 @@ pub struct Dispersion {
 /// tracer uses these numbers, so that a pattern never flickers on its own lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FaceCoordinates(pub [Option<f64>; 3]);
+
+/// The background of a picture with alpha.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Backdrop {
+    /// As written; clear if it is not.
+    pub color: Color,
+    /// Only mirrors show it and the sky, and the picture shows through both: in scenes for versions below 3.7.
+    pub only_mirrored: bool,
+}
+
+impl Default for Backdrop {
+    fn default() -> Self {
+        let color = Color { rgb: Rgb::BLACK, filter: 0.0, transmit: 1.0 };
+        Self { color, only_mirrored: false }
+    }
+}
 
 /// The sky, at infinity: patterns are evaluated at the ray's direction, of length 1.
 #[derive(Debug, Clone, PartialEq)]

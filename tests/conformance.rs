@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crate::programs::is_installed;
 
+mod alpha;
 mod cameras;
 mod drawn;
 mod examples;

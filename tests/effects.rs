@@ -28,6 +28,7 @@ const OPTIONS: PlanOptions = PlanOptions {
     julia_iterations: None,
     light_samples: Samples::Scene,
     blur_samples: Samples::Scene,
+    alpha: false,
 };
 
 /// Files as they lie on disk, or are built in, but for those that were changed here.

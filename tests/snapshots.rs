@@ -21,6 +21,7 @@ const PLAN: PlanOptions = PlanOptions {
     julia_iterations: None,
     light_samples: Samples::Scene,
     blur_samples: Samples::Scene,
+    alpha: false,
 };
 
 fn stages(name: &str, text: &str) -> String {

@@ -11,7 +11,7 @@ use super::measure::Clock;
 use super::reference::Studio;
 use super::refine::{MOST_IN_PART, Spread, place};
 use super::render_settings::Easel;
-use crate::film::{Film, Pixel};
+use crate::film::{Channels, Film, Pixel};
 use crate::plan::{Antialias, Plan, PlanOptions, Samples, plan};
 use crate::trace::{Sampling, Traced, Watch};
 use crate::world::Origins;
@@ -67,7 +67,7 @@ pub fn begin(
     let most = until - kept * (until - clock.wall());
     let began = (clock.cpu(), clock.wall());
     let gamma = studio.world.settings.assumed_gamma;
-    let mut traced = Traced::unbegun(own.frame, gamma);
+    let mut traced = Traced::unbegun(own.frame, gamma, Channels::with(own.alpha));
     let plan = |settings| plan(studio.world, origins, settings);
     let mut rest = complete(studio, &plan(&settings), &mut traced, (clock, most));
     let took = (clock.cpu() - began.0, clock.wall() - began.1);
@@ -122,9 +122,11 @@ fn complete(
             let studio = Studio { watch: &in_share, ..*studio };
             let seen = studio.pixels(plan, &places, Sampling::Planned);
             traced.counters += seen.counters;
-            for (&i, radiance) in part.iter().zip(seen.radiance) {
+            for ((&i, radiance), opacity) in part.iter().zip(seen.radiance).zip(seen.opacity) {
                 match radiance {
-                    Some(radiance) => film.pixels[i] = Pixel::new(radiance, 1),
+                    Some(radiance) => {
+                        film.pixels[i] = Pixel::new(radiance, 1).with_opacity(opacity);
+                    }
                     None => shares = IN_DOUBT,
                 }
             }

@@ -53,7 +53,8 @@ pub fn at_once(
         let in_time = Deadline { clock, until, watch: studio.watch };
         let studio = Studio { watch: &in_time, ..*studio };
         let plan = Plan { antialias, ..candidate.plan.clone() };
-        let Pixels { radiance, counters } = studio.pixels(&plan, &list[..few], Sampling::Planned);
+        let Pixels { radiance, counters, .. } =
+            studio.pixels(&plan, &list[..few], Sampling::Planned);
         // Unfinished pixels are estimated from the finished ones.
         let done = radiance.iter().flatten().count().max(1) as f64;
         ((clock.wall() - began) / done, counters.camera as f64 / done)

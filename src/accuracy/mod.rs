@@ -62,6 +62,8 @@ pub struct Options<'a> {
     pub budget: f64,
     /// Seed for the audited pixels and the samples of the reference.
     pub seed: u64,
+    /// As [`PlanOptions::alpha`].
+    pub alpha: bool,
     pub trace: TraceOptions,
 }
 

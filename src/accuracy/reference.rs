@@ -89,7 +89,7 @@ impl Studio<'_> {
         list: &[(u32, u32)],
         sampling: Sampling,
     ) -> (Vec<[f64; 3]>, Counters) {
-        let Pixels { radiance, counters } = self.pixels(plan, list, sampling);
+        let Pixels { radiance, counters, .. } = self.pixels(plan, list, sampling);
         let gamma = self.world.settings.assumed_gamma;
         (radiance.into_iter().map_while(|c| Some(clamped(c?, gamma))).collect(), counters)
     }

@@ -241,11 +241,11 @@ impl Canvas {
         self.counters += counters;
         let mut is_whole = true;
         for ((i, side), seen) in list.into_iter().zip(seen) {
-            let Some(Seen { mean, deviation }) = seen else {
+            let Some(Seen { mean, opacity, deviation }) = seen else {
                 is_whole = false;
                 continue;
             };
-            self.film.pixels[i] = Pixel::new(mean, side * side);
+            self.film.pixels[i] = Pixel::new(mean, side * side).with_opacity(opacity);
             self.variances[i] = variance(mean, deviation, self.film.assumed_gamma);
         }
         self.pace.seconds += clock.wall() - began;

@@ -18,7 +18,7 @@ pub struct Easel<'a> {
 
 impl<'a> Easel<'a> {
     pub fn new(world: &World, origins: &Origins, options: &Options<'a>) -> Self {
-        let own = own(world, options.frame);
+        let own = PlanOptions { alpha: options.alpha, ..own(world, options.frame) };
         let deepest = dearest(own, options.knobs);
         Self { own, deepest, knobs: called_for(world, origins, own, options.knobs) }
     }

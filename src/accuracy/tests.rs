@@ -61,6 +61,7 @@ pub(super) fn asked(width: u32, height: u32) -> Options<'static> {
         metric: Metric::Rmse,
         budget: 1e4,
         seed: 1,
+        alpha: false,
         trace: ONE_THREAD,
     }
 }

@@ -90,6 +90,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
         metric: arguments.metric.into(),
         budget: (arguments.budget - clock.wall_seconds()).max(0.0),
         seed: arguments.seed,
+        alpha: false,
         trace: TraceOptions::on_threads(threads),
     };
     let pixels = u64::from(frame.region.width) * u64::from(frame.region.height);

@@ -81,6 +81,10 @@ pub struct RenderArguments {
     /// Bits per channel, 8 or 16; png and ppm only
     #[arg(long, value_parser = clap::value_parser!(u8))]
     pub bits: Option<u8>,
+    /// Write how opaque each pixel is, too: 1 where a ray ends on something, 0 where it sees nothing but the
+    /// background (for example `--alpha -o ball.png`); png, qoi and exr only
+    #[arg(long)]
+    pub alpha: bool,
     /// Choose settings that keep the error at or below E (for example 0.01, 1% or 2/255) and verify the
     /// error on pixels not used for that choice; exits with 5 if the bound cannot be verified
     #[arg(long, value_name = "E", value_parser = error, allow_negative_numbers = true)]
@@ -355,6 +359,7 @@ impl PictureArguments {
             julia_iterations: self.julia_iterations,
             light_samples: self.light_samples,
             blur_samples: self.blur_samples,
+            alpha: false,
         }
     }
 }

@@ -6,7 +6,7 @@ use std::thread::available_parallelism;
 
 use lucarne::accuracy::{self, Clock, First, Options, Spent};
 use lucarne::color::Rgb;
-use lucarne::film::{Depth, Developer, Film, Pixel};
+use lucarne::film::{Channels, Depth, Developer, Film, Pixel};
 use lucarne::picture::{self, Format};
 use lucarne::plan::Region;
 use lucarne::world::{Origins, World};
@@ -257,7 +257,7 @@ impl<'a> Desk<'a> {
 /// Returns a film without data.
 fn unknown(options: &Options, world: &World) -> Film {
     let (frame, assumed_gamma) = (options.frame, world.settings.assumed_gamma);
-    Film { frame, assumed_gamma, pixels: Vec::new() }
+    Film { frame, assumed_gamma, channels: Channels::with(options.alpha), pixels: Vec::new() }
 }
 
 /// Returns pixel `i` of a picture of typical compressibility: a slow gradient with a little noise.

@@ -2,7 +2,7 @@
 //! kept.
 
 use lucarne::accuracy::{self, Audit, KNOBS, Knob, Metric, Options, Step, TooSmall, share, table};
-use lucarne::film::Depth;
+use lucarne::film::{Channels, Depth};
 use lucarne::picture::Format;
 use lucarne::plan::{Frame, PlanOptions, plan};
 use lucarne::trace::{TraceOptions, Traced, trace};
@@ -39,6 +39,7 @@ pub fn make(
         metric: arguments.metric.into(),
         budget: 0.0,
         seed: arguments.seed,
+        alpha: arguments.alpha,
         trace: trace_options,
     };
     if let Some(promise) = arguments.max_error {
@@ -79,7 +80,11 @@ fn keep(
     let interrupted = |traced| Made { traced, said: String::new(), exit: Exit::Interrupted };
     let Some(kept) = kept else {
         let gamma = world.settings.assumed_gamma;
-        return Ok(interrupted(Traced::unbegun(options.frame, gamma)));
+        return Ok(interrupted(Traced::unbegun(
+            options.frame,
+            gamma,
+            Channels::with(options.alpha),
+        )));
     };
     let Some(audit) = kept.audit else { return Ok(interrupted(kept.traced)) };
     let proven = audit.proves(promise);

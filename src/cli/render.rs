@@ -4,9 +4,9 @@ use std::num::NonZero;
 use std::thread::available_parallelism;
 
 use lucarne::accuracy;
-use lucarne::film::{Developer, Film};
-use lucarne::picture::{self, Format};
-use lucarne::plan::Region;
+use lucarne::film::{Channels, Developer, Film};
+use lucarne::picture;
+use lucarne::plan::{PlanOptions, Region};
 use lucarne::road::Road;
 use lucarne::trace::TraceOptions;
 
@@ -31,10 +31,16 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
         Failure::usage(format!("a .{name} picture cannot have {bits} bits a channel"))
             .help("`--bits` may be 8 (png, jpg, ppm, qoi) or 16 (png, ppm)")
     })?;
+    if arguments.alpha && !format.holds_alpha() {
+        let name = format.extensions()[0];
+        return Err(Failure::usage(format!("a .{name} picture cannot have an alpha channel"))
+            .help("with `--alpha`, write a .png, .qoi or .exr"));
+    }
     let frame = arguments.picture.frame(&arguments.scene)?;
     let bytes = read_scene(&arguments.file)?;
     output.check(frame.region, depth, arguments.force)?;
-    fits(frame.region, format, arguments.time_budget.is_some())?;
+    let channels = Channels::with(arguments.alpha);
+    fits(frame.region, format.bytes_per_pixel(channels), arguments.time_budget.is_some())?;
 
     let dialect = arguments.scene.dialect(&arguments.file, &bytes);
     let life = progress::life("reading the scene");
@@ -62,7 +68,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     output.keeps(&road.sources)?;
 
     let picture = &arguments.picture;
-    let options = picture.options(frame);
+    let options = PlanOptions { alpha: arguments.alpha, ..picture.options(frame) };
     watch.lap();
     drop(life);
     let progress = Progress::start("rendering");
@@ -125,10 +131,10 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
 }
 
 /// Fails if there is clearly too little memory for the picture; a failed allocation would abort the program.
-fn fits(part: Region, format: Format, refined: bool) -> Result<(), Failure> {
+fn fits(part: Region, writing: u64, refined: bool) -> Result<(), Failure> {
     let pixels = u64::from(part.width) * u64::from(part.height);
     let refining = if refined { accuracy::BYTES_PER_PIXEL } else { 0 };
-    let a_pixel = Film::BYTES_PER_PIXEL + refining.max(format.bytes_per_pixel());
+    let a_pixel = Film::BYTES_PER_PIXEL + refining.max(writing);
     let bytes = pixels.saturating_mul(a_pixel);
     let reserved =
         usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok());

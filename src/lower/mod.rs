@@ -251,8 +251,10 @@ impl Lowering<'_, '_> {
             untinted_layers: false,
         };
         self.origins.max_trace_level = settings.max_trace_level_site;
+        self.world.backdrop.only_mirrored = settings.clearness == Clearness::Old;
         if let Some(background) = &self.scene.background {
             let Color { rgb, transmit, .. } = background.color;
+            self.world.backdrop.color = Color { rgb: rgb.bounded(), ..background.color };
             let rgb = match settings.clearness {
                 Clearness::Current => rgb * (1.0 - transmit),
                 Clearness::Old => rgb,

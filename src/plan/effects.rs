@@ -37,6 +37,7 @@ pub fn plan(world: &World, origins: &Origins, options: &PlanOptions) -> Plan {
         julia_iterations: options.julia_iterations,
         light_samples: options.light_samples,
         blur_samples: options.blur_samples,
+        alpha: options.alpha,
         stages: Vec::new(),
         effects: Vec::new(),
         left_out: Vec::new(),

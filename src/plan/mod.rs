@@ -121,6 +121,8 @@ pub struct PlanOptions {
     pub light_samples: Samples,
     /// Samples per pixel that a lens blurs.
     pub blur_samples: Samples,
+    /// Each pixel knows how much of it is not the background.
+    pub alpha: bool,
 }
 
 impl PlanOptions {
@@ -135,6 +137,7 @@ impl PlanOptions {
             julia_iterations: None,
             light_samples: Samples::Scene,
             blur_samples: Samples::Scene,
+            alpha: false,
         }
     }
 }
@@ -252,6 +255,8 @@ pub struct Plan {
     pub light_samples: Samples,
     /// See [`PlanOptions`].
     pub blur_samples: Samples,
+    /// See [`PlanOptions`].
+    pub alpha: bool,
     /// The stages that run, in their order.
     pub stages: Vec<Stage>,
     /// Effects that are simulated.

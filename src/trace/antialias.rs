@@ -12,17 +12,8 @@ use crate::plan::Region;
 /// Rows of pixels whose edges a thread finds at once.
 const ROWS: usize = 32;
 
-/// The mean of `grid` × `grid` samples by their sum.
-pub(super) fn mean(sum: Rgb, grid: u32) -> Rgb {
-    if grid == 1 {
-        return sum;
-    }
-    let n = f64::from(grid) * f64::from(grid);
-    sum.map(|c| c / n)
-}
-
-/// The pixels that differ from one of their neighbours on a film by more than `threshold`, in a component as a display
-/// would show it.
+/// The pixels that differ from one of their neighbours on a film by more than `threshold`, in opacity or a component as
+/// a display would show it.
 pub(super) struct Edges {
     region: Region,
     marks: Vec<bool>,
@@ -70,8 +61,8 @@ fn mark(film: &Film, threshold: f64, first: usize, marks: &mut [bool]) {
     }
 }
 
-/// A row of a film as a display would show it; nothing beyond the last.
-fn shown(film: &Film, line: usize) -> Vec<[f64; 3]> {
+/// A row of a film as a display would show it, with its opacity; nothing beyond the last.
+fn shown(film: &Film, line: usize) -> Vec<[f64; 4]> {
     let mut last = (Rgb::BLACK, [0.0; 3]);
     let row = film.rows().nth(line).unwrap_or_default().iter().map(|pixel| {
         let radiance = pixel.radiance();
@@ -80,7 +71,8 @@ fn shown(film: &Film, line: usize) -> Vec<[f64; 3]> {
             let encode = |c| srgb_encode(film.assumed_gamma.linear(c));
             last = (radiance, radiance.components().map(encode));
         }
-        last.1
+        let [red, green, blue] = last.1;
+        [red, green, blue, pixel.opacity()]
     });
     row.collect()
 }

@@ -1,7 +1,7 @@
 //! Rays that are traced together, generation by generation: the camera's, those that go on from where these end, and
 //! so forth.
 //!
-//! **In:** the camera's rays. **Out:** the radiance that comes back along each. **Invariant:** what comes back along a
+//! **In:** the camera's rays. **Out:** what is seen along each. **Invariant:** what comes back along a
 //! ray depends on no other ray. Radiance is folded from the last generation to the first and never accumulated into a
 //! throughput, so a clamp at each surface is possible. Nothing grows on the call stack, and memory is bounded by the
 //! depth, not by the number of paths: of a generation only so many rays go on at once, far down only one, and the rest
@@ -13,6 +13,7 @@ use super::Walk;
 use super::fog::Veil;
 use super::packet::{Packet, Packets};
 use super::reflection;
+use super::sight::Sight;
 use super::tracer::Tracer;
 use super::way::Way;
 use crate::color::Rgb;
@@ -107,6 +108,8 @@ struct Generation {
     packets: usize,
     /// The solids that are known of rays before it.
     solids: usize,
+    /// So many are mirrored: the first.
+    mirrored: usize,
 }
 
 /// The rays of a batch. Kept from batch to batch for its memory.
@@ -117,6 +120,10 @@ pub(super) struct Batch {
     backs: Vec<Back>,
     /// What fog does to each; empty without fog.
     veils: Vec<Veil>,
+    /// How much of the background's light comes back along each; empty if that is not asked for.
+    clear: Vec<f64>,
+    /// How much of each is not the background is asked for.
+    has_alpha: bool,
     packets: Packets,
     generations: Vec<Generation>,
 }
@@ -129,6 +136,8 @@ pub(super) struct Surfaces<'a> {
     /// The number of the packet's first ray among those of its generation.
     pub first: u32,
     seen: &'a mut [Return],
+    /// Empty if that is not asked for.
+    clear: &'a mut [f64],
 }
 
 impl Surfaces<'_> {
@@ -136,6 +145,13 @@ impl Surfaces<'_> {
     #[inline(always)]
     pub fn show(&mut self, number: usize, local: Rgb, clamped: bool) {
         self.seen[number] = Return { seen: local, clamped };
+    }
+
+    /// What a ray sees that leaves the scene, and how much of what is behind the sky it would see.
+    #[cold]
+    pub fn show_sky(&mut self, number: usize, (sky, clear): (Rgb, f64)) {
+        self.show(number, sky, false);
+        self.clear[number] = clear;
     }
 }
 
@@ -147,12 +163,14 @@ impl Batch {
     }
 
     /// Makes the first generation of the camera's rays that are there.
-    fn begin(&mut self, count: usize) {
+    fn begin(&mut self, count: usize, has_alpha: bool) {
         self.returns.clear();
         self.backs.clear();
         self.veils.clear();
+        self.clear.clear();
+        self.has_alpha = has_alpha;
         self.generations.clear();
-        self.add(count, 0, 0);
+        self.add([0, count], 0, 0);
     }
 
     /// Adds a generation of the rays that go on before surfaces and behind them.
@@ -161,13 +179,18 @@ impl Batch {
         self.packets.extend(onward.ways.iter().chain(&behind.ways));
         self.backs.extend_from_slice(&onward.backs);
         self.backs.extend_from_slice(&behind.backs);
-        self.add(onward.len() + behind.len(), packets, solids);
+        self.add([onward.len(), behind.len()], packets, solids);
     }
 
-    fn add(&mut self, count: usize, packets: usize, solids: usize) {
-        let first = self.returns.len();
+    /// Adds a generation of rays, first those that are mirrored, then others.
+    fn add(&mut self, [mirrored, others]: [usize; 2], packets: usize, solids: usize) {
+        let (first, count) = (self.returns.len(), mirrored + others);
         self.returns.resize(first + count, Return::NOTHING);
-        self.generations.push(Generation { first, count, shaded: 0, packets, solids });
+        if self.has_alpha {
+            self.clear.resize(first + count, 0.0);
+        }
+        let generation = Generation { first, count, shaded: 0, packets, solids, mirrored };
+        self.generations.push(generation);
     }
 
     /// The surfaces that are shaded next, at most `slice`, of one packet.
@@ -180,11 +203,13 @@ impl Batch {
         }
         self.generations.last_mut()?.shaded = end;
         let bits = |to: usize| (1 << (to - start)) - 1;
+        let list = first + start..first + end;
         Some(Surfaces {
             packet: self.packets.at(packets + start / ROW),
             mask: bits(end) & !bits(shaded),
             first: start as u32,
-            seen: &mut self.returns[first + start..first + end],
+            seen: &mut self.returns[list.clone()],
+            clear: self.clear.get_mut(list).unwrap_or_default(),
         })
     }
 
@@ -200,7 +225,10 @@ impl Batch {
     /// Folds the last generation into the one before; returns what it may forget of solids, or `None` if it is the
     /// first.
     fn fold(&mut self) -> Option<usize> {
-        let Generation { first, solids, .. } = self.generations.pop()?;
+        let Generation { first, solids, mirrored, .. } = self.generations.pop()?;
+        if self.has_alpha {
+            self.fold_clear(first, mirrored);
+        }
         let (before, last) = self.returns.split_at_mut(first);
         last.iter_mut().filter(|one| one.clamped).for_each(|one| one.seen = one.seen.at_most_one());
         if !self.veils.is_empty() {
@@ -219,17 +247,35 @@ impl Batch {
         self.backs.truncate(backs);
         Some(solids)
     }
+
+    /// Folds how clear the rays of the last generation are. Mirrors show the background, but nothing through it.
+    #[cold]
+    #[inline(never)]
+    fn fold_clear(&mut self, first: usize, mirrored: usize) {
+        let (before, last) = self.clear.split_at_mut(first);
+        if !self.veils.is_empty() {
+            for (one, Veil { through, .. }) in last.iter_mut().zip(&self.veils[first..]) {
+                *one *= through.brightness();
+            }
+        }
+        let Some(to) = self.generations.last().map(|before| before.first) else { return };
+        let backs = &self.backs[self.backs.len() - last.len()..];
+        for (clear, back) in last.iter().zip(backs).skip(mirrored) {
+            before[to + back.to as usize] += back.factor.brightness() * clear;
+        }
+        self.clear.truncate(first);
+    }
 }
 
 impl<'a> Tracer<'a> {
-    /// Shows `look` the radiance seen along each of the camera's rays, in their order; stops early where the watch
+    /// Shows `look` what is seen along each of the camera's rays, in their order; stops early where the watch
     /// wants no more. `fill` puts the next rays into a row, from its first place on and as many as there is room for,
     /// until there are none.
     pub fn each_seen(
         &self,
         walk: &mut Walk,
         mut fill: impl FnMut(&mut Rays),
-        mut look: impl FnMut(Rgb),
+        mut look: impl FnMut(Sight),
     ) {
         let mut batch = std::mem::take(&mut walk.batch);
         let mut count = 0;
@@ -259,16 +305,23 @@ impl<'a> Tracer<'a> {
         walk: &mut Walk,
         batch: &mut Batch,
         count: usize,
-        look: &mut impl FnMut(Rgb),
+        look: &mut impl FnMut(Sight),
     ) -> ControlFlow<()> {
         walk.counters.camera += count as u64;
-        batch.begin(count);
+        batch.begin(count, self.has_alpha);
         self.follow(walk, batch);
         batch.packets.clear();
         if walk.patience.is_over_after(count as u32, self.watch) {
             return ControlFlow::Break(());
         }
-        batch.returns.iter().for_each(|one| look(one.seen));
+        match self.has_alpha {
+            false => batch.returns.iter().for_each(|one| look(Sight::opaque(one.seen))),
+            true => {
+                for (one, clear) in batch.returns.iter().zip(&batch.clear) {
+                    look(Sight { radiance: one.seen, opacity: 1.0 - clear.clamp(0.0, 1.0) });
+                }
+            }
+        }
         ControlFlow::Continue(())
     }
 

@@ -4,9 +4,9 @@
 //! and how many a pixel has on these samples.
 
 use super::camera::{Focus, Lens, Shift};
+use super::sight::Sight;
 use super::tracer::Tracer;
 use super::{Sampled, Walk};
-use crate::color::Rgb;
 
 /// Samples that a pixel gets at once after the first.
 const ROUND: u32 = 6;
@@ -15,20 +15,23 @@ const ROUND: u32 = 6;
 const TOGETHER: usize = 1024;
 
 /// The samples of a pixel so far.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 struct Sums {
     count: u32,
-    radiance: Rgb,
-    /// Of each component as a display shows it, 0 to 1, and of its square.
-    shown: [f64; 3],
-    squares: [f64; 3],
+    seen: Sight,
+    /// Of each component as a display shows it, 0 to 1, and the opacity, and of its square.
+    shown: [f64; 4],
+    squares: [f64; 4],
 }
 
 impl Sums {
-    fn add(&mut self, seen: Rgb) {
+    const NONE: Self = Self { count: 0, seen: Sight::NOTHING, shown: [0.0; 4], squares: [0.0; 4] };
+
+    fn add(&mut self, seen: Sight) {
         self.count += 1;
-        self.radiance += seen;
-        for (i, c) in seen.components().into_iter().enumerate() {
+        self.seen += seen;
+        let [red, green, blue] = seen.radiance.components();
+        for (i, c) in [red, green, blue, seen.opacity].into_iter().enumerate() {
             let c = c.clamp(0.0, 1.0);
             self.shown[i] += c;
             self.squares[i] += c * c;
@@ -39,7 +42,7 @@ impl Sums {
     fn variance(&self) -> f64 {
         let n = f64::from(self.count);
         let of = |i: usize| (self.squares[i] - self.shown[i] * self.shown[i] / n) / (n - 1.0);
-        (0..3).map(of).fold(0.0, f64::max)
+        (0..4).map(of).fold(0.0, f64::max)
     }
 
     fn is_enough(&self, focus: &Focus) -> bool {
@@ -47,8 +50,7 @@ impl Sums {
     }
 
     fn mean(&self) -> Sampled {
-        let n = f64::from(self.count);
-        (self.radiance.map(|c| c / n), self.count)
+        (self.seen.mean(f64::from(self.count)), self.count)
     }
 }
 
@@ -61,7 +63,7 @@ impl Tracer<'_> {
         focus: &Focus,
         places: &[(u32, u32)],
     ) -> Vec<Option<Sampled>> {
-        let mut pixels = vec![Sums::default(); places.len()];
+        let mut pixels = vec![Sums::NONE; places.len()];
         let mut open: Vec<usize> = (0..places.len()).collect();
         let shifts: Vec<Shift> = places.iter().map(|&place| Shift::of(place)).collect();
         let round = focus.at_once(ROUND);

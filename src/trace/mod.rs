@@ -39,6 +39,7 @@ mod samples;
 mod shade;
 mod shadow;
 mod sharpness;
+mod sight;
 mod sky;
 mod split;
 mod surface;
@@ -53,7 +54,7 @@ mod watch;
 mod way;
 
 use crate::color::{Gamma, Rgb};
-use crate::film::Film;
+use crate::film::{Channels, Film};
 use crate::geometry::{Geometry, Hit, Occluder};
 use crate::plan::{Antialias, Frame, Plan, Region};
 use crate::world::World;
@@ -64,6 +65,7 @@ use batch::{Batch, Onwards};
 use camera::Lens;
 use media::Media;
 use shadow::Filters;
+use sight::Sight;
 use tiles::Crew;
 use tracer::Tracer;
 use watch::Patience;
@@ -99,8 +101,8 @@ pub struct Traced {
 
 impl Traced {
     /// Before any ray: every pixel black.
-    pub fn unbegun(frame: Frame, assumed_gamma: Gamma) -> Self {
-        let film = Film::new(frame, assumed_gamma);
+    pub fn unbegun(frame: Frame, assumed_gamma: Gamma, channels: Channels) -> Self {
+        let film = Film { channels, ..Film::new(frame, assumed_gamma) };
         Self { film, counters: Counters::default(), complete: false }
     }
 }
@@ -185,8 +187,9 @@ pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry 
 fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew) -> Traced {
     let Frame { width, height, region } = plan.frame;
     let lens = Lens::new(&tracer.world.camera, width, height).sampled(plan.blur_samples);
-    let empty =
-        |region| Film::new(Frame { region, ..plan.frame }, tracer.world.settings.assumed_gamma);
+    let channels = Channels::with(plan.alpha);
+    let gamma = tracer.world.settings.assumed_gamma;
+    let empty = |region| Film { channels, ..Film::new(Frame { region, ..plan.frame }, gamma) };
     let uniform = |film, which, grid| {
         crew.pass(film, which, |walk, places, pixels| {
             sampled(tracer, &lens, walk, places, |_| grid, pixels);
@@ -220,7 +223,7 @@ fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew) -> Traced {
 }
 
 /// The mean of a pixel's samples, and how many.
-type Sampled = (Rgb, u32);
+type Sampled = (Sight, u32);
 
 /// Samples pixels side by side: each by `grid` × `grid` samples, whose mean is taken in a fixed order. `None` where
 /// `grid` is 0, and where the watch wanted no more.
@@ -236,7 +239,7 @@ fn sampled(
     let points = places.iter().zip(&grids).flat_map(|(&place, &grid)| {
         (0..grid).flat_map(move |j| (0..grid).map(move |i| lens.point(place, (i, j), grid)))
     });
-    let mut sum = (Rgb::BLACK, 0);
+    let mut sum = (Sight::NOTHING, 0);
     tracer.each_sample(walk, lens, points, |seen| {
         while grids[pixels.len()] == 0 {
             pixels.push(None);
@@ -244,8 +247,8 @@ fn sampled(
         let grid = grids[pixels.len()];
         sum = (sum.0 + seen, sum.1 + 1);
         if sum.1 == grid * grid {
-            pixels.push(Some((antialias::mean(sum.0, grid), sum.1)));
-            sum = (Rgb::BLACK, 0);
+            pixels.push(Some((sum.0.mean(f64::from(sum.1)), sum.1)));
+            sum = (Sight::NOTHING, 0);
         }
     });
     pixels.resize(places.len(), None);

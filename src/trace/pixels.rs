@@ -3,13 +3,14 @@
 //! **In:** a list of pixels. **Out:** [`Pixels`]. **Invariant:** as for the film, nothing depends
 //! on the number of threads; a planned pixel has the bits that [`super::trace`] puts there.
 
-use super::antialias::{self, Edges};
+use super::antialias::Edges;
 use super::camera::{Lens, Point, Shift};
+use super::sight::Sight;
 use super::tiles::Crew;
 use super::tracer::Tracer;
 use super::{Counters, TraceOptions, Walk, Watch, grown};
 use crate::color::Rgb;
-use crate::film::{self, Film};
+use crate::film::Film;
 use crate::geometry::Geometry;
 use crate::math::random::Random;
 use crate::plan::{Antialias, Frame, Plan, Region};
@@ -34,6 +35,8 @@ pub struct Pixels {
     /// The mean of each pixel's samples, in the scene's working space; `None` for those that the
     /// watch left undone, the last of the list as a rule.
     pub radiance: Vec<Option<Rgb>>,
+    /// Of each, how much of it is not the background, if the Plan asks for that.
+    pub opacity: Vec<f64>,
     pub counters: Counters,
 }
 
@@ -52,12 +55,14 @@ pub fn pixels(
     let tracer = Tracer::new(world, geometry, plan, watch);
     let pixel = Pixel::new(&tracer, plan);
     let crew = Crew::new(options, watch);
-    let (radiance, counters) = crew.each(list, |walk, &place| match sampling {
+    let (seen, counters) = crew.each(list, |walk, &place| match sampling {
         // As the film holds it.
-        Sampling::Planned => film::Pixel::new(pixel.planned(walk, place), 1).radiance(),
+        Sampling::Planned => pixel.planned(walk, place).pixel(1).into(),
         Sampling::Jittered { side, seed } => pixel.jittered(walk, place, side, seed),
     });
-    Pixels { radiance, counters }
+    let radiance = seen.iter().map(|seen| Some(seen.as_ref()?.radiance)).collect();
+    let opacity = seen.iter().map(|seen| seen.map_or(0.0, |seen| seen.opacity)).collect();
+    Pixels { radiance, opacity, counters }
 }
 
 /// A pixel, and how to look at it.
@@ -75,6 +80,8 @@ pub struct Aim {
 pub struct Seen {
     /// Of the samples, in the scene's working space.
     pub mean: Rgb,
+    /// How much of it is not the background, if the Plan asks for that.
+    pub opacity: f64,
     /// The standard deviation of each component of the samples, those beyond [`Seen::BRIGHTEST`] counted
     /// as that; 0 of samples drawn at random.
     pub deviation: [f64; 3],
@@ -114,10 +121,10 @@ impl<'a> Pixel<'a> {
         Self { plan, tracer, lens }
     }
 
-    fn planned(&self, walk: &mut Walk, place: (u32, u32)) -> Rgb {
+    fn planned(&self, walk: &mut Walk, place: (u32, u32)) -> Sight {
         if let Some(focus) = self.lens.focus() {
             let seen = self.tracer.blurred(walk, &self.lens, focus, &[place]);
-            return seen[0].map_or(Rgb::BLACK, |(mean, _)| mean);
+            return seen[0].map_or(Sight::NOTHING, |(mean, _)| mean);
         }
         match self.plan.antialias {
             Antialias::Off => self.grid(walk, place, 1),
@@ -130,7 +137,7 @@ impl<'a> Pixel<'a> {
     }
 
     /// The pixel's single sample, and whether its neighbours' make it an edge.
-    fn first_pass(&self, walk: &mut Walk, (x, y): (u32, u32), threshold: f64) -> (Rgb, bool) {
+    fn first_pass(&self, walk: &mut Walk, (x, y): (u32, u32), threshold: f64) -> (Sight, bool) {
         let Frame { width, height, .. } = self.plan.frame;
         let region = grown(Region { x, y, width: 1, height: 1 }, width, height);
         let gamma = self.tracer.world.settings.assumed_gamma;
@@ -140,7 +147,7 @@ impl<'a> Pixel<'a> {
             for column in region.x..region.x + region.width {
                 let before = std::mem::take(&mut walk.counters);
                 let at = around.index(column, line);
-                around.pixels[at] = film::Pixel::new(self.grid(walk, (column, line), 1), 1);
+                around.pixels[at] = self.grid(walk, (column, line), 1).pixel(1);
                 let these = std::mem::replace(&mut walk.counters, before);
                 if (column, line) == (x, y) {
                     own = these;
@@ -149,10 +156,10 @@ impl<'a> Pixel<'a> {
         }
         walk.counters += own;
         let edge = Edges::new(&around, threshold).has(x, y);
-        (around.radiance(around.index(x, y)), edge)
+        (around.pixels[around.index(x, y)].into(), edge)
     }
 
-    fn grid(&self, walk: &mut Walk, place: (u32, u32), grid: u32) -> Rgb {
+    fn grid(&self, walk: &mut Walk, place: (u32, u32), grid: u32) -> Sight {
         self.grid_seen(walk, place, grid, |_| ())
     }
 
@@ -162,8 +169,8 @@ impl<'a> Pixel<'a> {
         walk: &mut Walk,
         place: (u32, u32),
         grid: u32,
-        also: impl FnMut(Rgb),
-    ) -> Rgb {
+        also: impl FnMut(Sight),
+    ) -> Sight {
         if let Some(focus) = self.lens.focus() {
             let shift = Shift::of(place);
             let points = (0..grid * grid).map(|k| self.lens.blurred(focus, place, &shift, k));
@@ -178,28 +185,28 @@ impl<'a> Pixel<'a> {
         walk: &mut Walk,
         grid: u32,
         points: impl Iterator<Item = Point>,
-        mut also: impl FnMut(Rgb),
-    ) -> Rgb {
-        let mut sum = Rgb::BLACK;
+        mut also: impl FnMut(Sight),
+    ) -> Sight {
+        let mut sum = Sight::NOTHING;
         self.tracer.each_sample(walk, &self.lens, points, |seen| {
             also(seen);
             sum += seen;
         });
-        antialias::mean(sum, grid)
+        sum.mean(f64::from(grid) * f64::from(grid))
     }
 
     fn aimed(&self, walk: &mut Walk, &Aim { place, side, seed }: &Aim) -> Seen {
         let (mut sum, mut squares) = ([0.0; 3], [0.0; 3]);
-        let add = |seen: Rgb| {
+        let add = |seen: Sight| {
             for (c, (sum, square)) in
-                seen.components().into_iter().zip(sum.iter_mut().zip(&mut squares))
+                seen.radiance.components().into_iter().zip(sum.iter_mut().zip(&mut squares))
             {
                 let c = c.clamp(0.0, Seen::BRIGHTEST);
                 *sum += c;
                 *square += c * c;
             }
         };
-        let mean = match seed {
+        let Sight { radiance: mean, opacity } = match seed {
             None => self.grid_seen(walk, place, side, add),
             Some(seed) => self.jittered(walk, place, side, seed),
         };
@@ -208,10 +215,10 @@ impl<'a> Pixel<'a> {
             let mean: f64 = sum[i] / n;
             (squares[i] / n - mean * mean).max(0.0).sqrt()
         });
-        Seen { mean, deviation }
+        Seen { mean, opacity, deviation }
     }
 
-    fn jittered(&self, walk: &mut Walk, (x, y): (u32, u32), side: u32, seed: u64) -> Rgb {
+    fn jittered(&self, walk: &mut Walk, (x, y): (u32, u32), side: u32, seed: u64) -> Sight {
         let mut random = Random::of(seed, u64::from(x) << 32 | u64::from(y));
         let within = |part: u32, random: &mut Random| {
             (f64::from(part) + random.number(0.0, 1.0)) / f64::from(side)

@@ -5,21 +5,21 @@
 
 use super::Walk;
 use super::camera::{Lens, Point};
+use super::sight::Sight;
 use super::tracer::Tracer;
-use crate::color::Rgb;
 use crate::geometry::Hit;
 use crate::math::wide::{ROW, Rays};
 use crate::shape::Ray;
 
 impl Tracer<'_> {
-    /// Shows `look` the radiance at each point of the screen, in their order; stops early where the watch wants no
+    /// Shows `look` what is seen at each point of the screen, in their order; stops early where the watch wants no
     /// more.
     pub fn each_sample(
         &self,
         walk: &mut Walk,
         lens: &Lens,
         points: impl Iterator<Item = Point>,
-        mut look: impl FnMut(Rgb),
+        mut look: impl FnMut(Sight),
     ) {
         match lens.plain() {
             Some(flat) => {
@@ -53,19 +53,22 @@ impl Tracer<'_> {
                 let mut next = 0;
                 self.each_of(walk, &rays, |seen| {
                     while rays[next].is_none() {
-                        look(Rgb::BLACK);
+                        look(Sight::NOTHING);
                         next += 1;
                     }
                     look(seen);
                     next += 1;
                 });
-                rays[next..].iter().take_while(|ray| ray.is_none()).for_each(|_| look(Rgb::BLACK));
+                rays[next..]
+                    .iter()
+                    .take_while(|ray| ray.is_none())
+                    .for_each(|_| look(Sight::NOTHING));
             }
         }
     }
 
-    /// Shows `look` the radiance along each of the rays that there are.
-    fn each_of(&self, walk: &mut Walk, rays: &[Option<Ray>], look: impl FnMut(Rgb)) {
+    /// Shows `look` what is seen along each of the rays that there are.
+    fn each_of(&self, walk: &mut Walk, rays: &[Option<Ray>], look: impl FnMut(Sight)) {
         let sent: Vec<Ray> = rays.iter().flatten().copied().collect();
         let mut rows = sent.chunks(ROW);
         let fill = |rays: &mut Rays| *rays = Rays::new(rows.next().unwrap_or(&[]).iter());
@@ -85,7 +88,7 @@ impl Tracer<'_> {
         walk: &mut Walk,
         rays: Vec<Option<Ray>>,
         of_a_point: usize,
-        look: impl FnMut(Rgb),
+        look: impl FnMut(Sight),
     ) {
         let mut seen = Vec::with_capacity(rays.len());
         self.each_of(walk, &rays, |one| seen.push(one));
@@ -95,8 +98,9 @@ impl Tracer<'_> {
             let there = seen.by_ref().take(count).collect::<Vec<_>>();
             // Otherwise the watch wanted no more.
             (there.len() == count).then(|| {
-                let sum = there.into_iter().fold(Rgb::BLACK, |sum, one| sum + one);
-                sum * (1.0 / f64::from(count.max(1) as u32))
+                let sum = there.into_iter().fold(Sight::NOTHING, |sum, one| sum + one);
+                let part = 1.0 / f64::from(count.max(1) as u32);
+                Sight { radiance: sum.radiance * part, opacity: sum.opacity * part }
             })
         });
         means.for_each(look);

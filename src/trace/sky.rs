@@ -1,10 +1,11 @@
 //! What a ray sees that leaves the scene.
 
 use super::sharpness::{ROUNDED, Sharpness};
+use super::way::Way;
 use crate::color::{Clearness, Color, Rgb};
 use crate::math::Vector;
 use crate::texture::space::Nowhere;
-use crate::world::World;
+use crate::world::{Backdrop, World};
 
 /// The sky's pigments painted one over the other, the last on top and `background` below all: each
 /// shows its colour where it is opaque, times the sky's `emission`, and what lies below untinted through its
@@ -17,20 +18,51 @@ use crate::world::World;
 #[inline(always)]
 pub(super) fn seen(world: &World, sharpness: &Sharpness, direction: Vector) -> Rgb {
     match world.sky {
-        Some(_) => painted(world, sharpness, direction),
+        Some(_) => over(world, sharpness, direction, world.background),
         None => world.background,
     }
 }
 
-#[inline(never)]
-fn painted(world: &World, sharpness: &Sharpness, direction: Vector) -> Rgb {
+/// What a ray sees of the sky in a picture with alpha, and how much of what lies behind the background.
+///
+/// The ray that mirrors sent sees no alpha.
+///
+/// **Source:** POV-Ray 3.7's behaviour with `Output_Alpha`, measured for each kind of colour, alone and layered.
+#[cold]
+pub(super) fn seen_with_alpha(world: &World, sharpness: &Sharpness, way: &Way) -> (Rgb, f64) {
+    let Backdrop { color, only_mirrored } = world.backdrop;
+    let direction = way.ray.direction;
+    match (way.mirrored, only_mirrored) {
+        (true, _) => (over(world, sharpness, direction, color.rgb), 0.0),
+        (false, true) => (Rgb::BLACK, 1.0),
+        (false, false) => {
+            let shown = color.rgb * (1.0 - color.filter - color.transmit);
+            let pigments = pigments(world, sharpness, direction);
+            let clear =
+                pigments.fold(color.transmittance(), |clear, top| clear * top.transmittance());
+            (over(world, sharpness, direction, shown), clear.brightness())
+        }
+    }
+}
+
+/// The colours of the sky's pigments in a direction.
+fn pigments<'a>(
+    world: &'a World,
+    sharpness: &'a Sharpness,
+    direction: Vector,
+) -> impl DoubleEndedIterator<Item = Color> + 'a {
     let pigments = world.sky.as_ref().map_or(&[][..], |sky| &sky.pigments);
-    let emission = world.sky.as_ref().map_or(Rgb::WHITE, |sky| sky.emission);
-    let pigments = pigments.iter().zip(&sharpness.sky);
-    let pigments = pigments.map(|(pigment, &is_sharp)| {
+    pigments.iter().zip(&sharpness.sky).map(move |(pigment, &is_sharp)| {
         let error = Vector::splat(ROUNDED);
         pigment.color(None, &Nowhere { point: direction, error, is_sharp })
-    });
+    })
+}
+
+/// The sky over a background.
+#[inline(never)]
+fn over(world: &World, sharpness: &Sharpness, direction: Vector, background: Rgb) -> Rgb {
+    let emission = world.sky.as_ref().map_or(Rgb::WHITE, |sky| sky.emission);
+    let pigments = pigments(world, sharpness, direction);
     if world.settings.clearness == Clearness::Old {
         let all = Color { rgb: Rgb::WHITE, filter: 1.0, transmit: 1.0 };
         let (mut sum, mut above) = (Rgb::BLACK, None::<Color>);
@@ -45,9 +77,9 @@ fn painted(world: &World, sharpness: &Sharpness, direction: Vector) -> Rgb {
             });
         }
         let seen = above.map_or(Rgb::WHITE, Color::transmittance);
-        return sum + world.background * seen;
+        return sum + background * seen;
     }
-    pigments.fold(world.background, |below, top| {
+    pigments.fold(background, |below, top| {
         if top.filter == 0.0 && top.transmit == 0.0 {
             return top.rgb * emission;
         }

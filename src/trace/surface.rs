@@ -40,8 +40,15 @@ impl<'a> Tracer<'a> {
                 walk.counters.evaluations.count(self.world, hit.found().as_ref(), hidden);
             }
             if hit.found().is_none() {
-                let sky = sky::seen(self.world, &self.sharpness, packet.rays.directions.at(number));
-                surfaces.show(number, sky, false);
+                if self.has_alpha {
+                    let sky =
+                        sky::seen_with_alpha(self.world, &self.sharpness, &packet.way(number));
+                    surfaces.show_sky(number, sky);
+                } else {
+                    let direction = packet.rays.directions.at(number);
+                    let sky = sky::seen(self.world, &self.sharpness, direction);
+                    surfaces.show(number, sky, false);
+                }
                 continue;
             }
             let object = &self.world.objects[hit.object as usize];

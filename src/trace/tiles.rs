@@ -138,7 +138,7 @@ impl<'a> Crew<'a> {
                 for (place, pixel) in places.iter().zip(&pixels) {
                     if let Some((mean, samples)) = *pixel {
                         let row = &mut rows[(place.1 - y) as usize];
-                        row[(place.0 - tile.x) as usize] = Pixel::new(mean, samples);
+                        row[(place.0 - tile.x) as usize] = mean.pixel(samples);
                     }
                 }
             }

@@ -45,6 +45,8 @@ pub(super) struct Tracer<'a> {
     around: Around,
     /// Fog or rainbows veil what rays meet.
     pub has_fog: bool,
+    /// How much of each pixel is not the background is asked for.
+    pub has_alpha: bool,
     /// Interiors dim light.
     pub absorbs: bool,
     /// Light comes through clear surfaces.
@@ -103,6 +105,7 @@ impl<'a> Tracer<'a> {
             follows_media,
             around: if follows_media { Around::of(world) } else { Around::default() },
             has_fog,
+            has_alpha: plan.alpha,
             absorbs: plan.simulates(Effect::Absorption),
             filters_shadows: plan.runs(Stage::Shadow) && plan.simulates(Effect::ColoredShadows),
             slice: slice(world),

@@ -8,8 +8,8 @@ mod texture;
 use std::fmt::{self, Write};
 
 use super::{
-    Absorption, Area, Attenuation, Beam, CameraKind, Churn, Coat, CsgSolid, Cutaway, Dispersion,
-    Fade, Focus, Ground, LightKind, Object, Origins, Rainbow, World,
+    Absorption, Area, Attenuation, Backdrop, Beam, CameraKind, Churn, Coat, CsgSolid, Cutaway,
+    Dispersion, Fade, Focus, Ground, LightKind, Object, Origins, Rainbow, World,
 };
 use crate::color::{Clearness, Rgb};
 use crate::math::placement::{Map, Placement};
@@ -49,7 +49,12 @@ impl Printer<'_> {
         if settings.untinted_layers {
             writeln!(out, "  layers of versions up to 3.1")?;
         }
-        writeln!(out, "background {}", self.world.background)?;
+        let Backdrop { color, only_mirrored } = self.world.backdrop;
+        write!(out, "background {}", self.world.background)?;
+        if color != Backdrop::default().color {
+            write!(out, ", with alpha {color}")?;
+        }
+        writeln!(out, "{}", if only_mirrored { ", mirrored only" } else { "" })?;
         if let Some(sky) = &self.world.sky {
             writeln!(out, "sky{}", self.at(self.origins.sky.as_ref().map(|sky| sky.site)))?;
             for layer in &sky.pigments {

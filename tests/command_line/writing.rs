@@ -75,3 +75,32 @@ fn a_write_protected_text_is_neither_fixed_nor_formatted() {
         assert_eq!(place.read(name), before);
     }
 }
+
+#[test]
+fn alpha_is_written_where_the_format_holds_it_and_refused_where_not() {
+    let place = Place::new();
+    let alphas = |picture: image::DynamicImage| {
+        assert!(picture.color().has_alpha());
+        picture.to_rgba8().pixels().map(|pixel| pixel.0[3]).collect::<Vec<_>>()
+    };
+    for words in ["a.png", "a.png --bits 16", "a.qoi", "a.exr"]
+        .iter()
+        .chain(&["a.png --max-error 0.2 --force", "a.png --time-budget 1s --force"])
+    {
+        // A second may be too short to find out the error.
+        let code = place.run(&format!("a.scene --size 32x24 --alpha -o {words}")).code();
+        assert!(code == 0 || code == 5 && words.contains("budget"), "{words}: {code}");
+        let file = words.split(' ').next().expect("a name");
+        let alphas = alphas(image::open(place.path(file)).expect("a picture"));
+        assert!(alphas[0] == 0 && alphas[32 * 12 + 16] == 255, "{words}: {alphas:?}");
+    }
+    let run = place.run("a.scene --size 32x24 --alpha -o -").ends(0, &[]);
+    let printed = alphas(image::load_from_memory(&run.0.stdout).expect("a picture"));
+    assert!(printed[0] == 0 && printed[32 * 12 + 16] == 255);
+    place.run("a.scene --size 32x24 -o a.png").ends(0, &[]);
+    assert!(!image::open(place.path("a.png")).expect("a picture").color().has_alpha());
+    for name in ["jpg", "ppm", "hdr"] {
+        let said = format!("a .{name} picture cannot have an alpha channel");
+        place.run(&format!("a.scene --alpha -o b.{name}")).ends(2, &[&said, "write a .png"]);
+    }
+}

@@ -88,6 +88,7 @@ const OPTIONS: PlanOptions = PlanOptions {
     julia_iterations: None,
     light_samples: Samples::Scene,
     blur_samples: Samples::Scene,
+    alpha: false,
 };
 
 /// Changes the lit mirror and asks why the effect is left out.

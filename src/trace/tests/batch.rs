@@ -4,7 +4,7 @@ use super::*;
 use crate::math::wide::{ROW, Rays};
 
 /// What the camera sees along the rays of a picture, each by itself or all together.
-pub(super) fn seen(world: &World, plan: &Plan, together: bool) -> (Vec<Rgb>, usize) {
+pub(super) fn seen(world: &World, plan: &Plan, together: bool) -> (Vec<Sight>, usize) {
     let geometry = Geometry::build(world);
     let tracer = Tracer::new(world, &geometry, plan, &Unwatched);
     let Frame { width, height, .. } = plan.frame;
@@ -24,10 +24,14 @@ pub(super) fn seen(world: &World, plan: &Plan, together: bool) -> (Vec<Rgb>, usi
 #[test]
 fn a_ray_sees_the_same_alone_and_in_a_batch() {
     for world in [varied(), glass::heap()] {
-        let plan = plan(&world, &Origins::default(), &options(24, 18, Antialias::Off));
-        let (together, _) = seen(&world, &plan, true);
-        assert_eq!(together.len(), 24 * 18);
-        assert_eq!(together, seen(&world, &plan, false).0);
+        for alpha in [false, true] {
+            let options = PlanOptions { alpha, ..options(24, 18, Antialias::Off) };
+            let plan = plan(&world, &Origins::default(), &options);
+            let (together, _) = seen(&world, &plan, true);
+            assert_eq!(together.len(), 24 * 18);
+            assert_eq!(together, seen(&world, &plan, false).0);
+            assert_eq!(together.iter().any(|one| one.opacity < 1.0), alpha);
+        }
     }
 }
 

@@ -15,9 +15,12 @@ fn the_film_has_the_same_bits_for_any_number_of_threads() {
     let alone = traced_by(&world, &plan);
     let has = |count| alone.film.samples().any(|samples| samples == count);
     assert!(has(1) && has(16));
-    for threads in [2, 3, 7] {
-        let shared = trace(&world, &plan, &TraceOptions::on_threads(threads), &Unwatched);
-        assert_eq!(shared, alone);
+    let clear = Plan { alpha: true, ..plan.clone() };
+    for (plan, alone) in [(&plan, &alone), (&clear, &traced_by(&world, &clear))] {
+        for threads in [2, 3, 7] {
+            let shared = trace(&world, plan, &TraceOptions::on_threads(threads), &Unwatched);
+            assert_eq!(shared, *alone);
+        }
     }
 }
 

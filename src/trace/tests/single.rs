@@ -27,25 +27,27 @@ fn some(plan: &Plan, world: &World, list: &[(u32, u32)], sampling: Sampling) -> 
 #[test]
 fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
     let world = varied();
-    for (gamma, antialias) in [
-        (Gamma::LINEAR, Antialias::Off),
-        (Gamma::Srgb, Antialias::Grid(3)),
-        (Gamma::LINEAR, Antialias::default()),
-        (Gamma::Power(2.2), Antialias::Adaptive { threshold: 0.01, grid: 2 }),
+    for (gamma, antialias, alpha) in [
+        (Gamma::LINEAR, Antialias::Off, false),
+        (Gamma::Srgb, Antialias::Grid(3), true),
+        (Gamma::LINEAR, Antialias::default(), true),
+        (Gamma::Power(2.2), Antialias::Adaptive { threshold: 0.01, grid: 2 }, false),
     ] {
         let mut world = world.clone();
         world.settings.assumed_gamma = gamma;
-        let mut options = options(43, 31, antialias);
+        let mut options = PlanOptions { alpha, ..options(43, 31, antialias) };
         for region in [options.frame.region, Region { x: 5, y: 0, width: 20, height: 31 }] {
             options.frame.region = region;
             let plan = plan(&world, &Origins::default(), &options);
             let traced = traced_by(&world, &plan);
             let list = scattered(region);
             let single = some(&plan, &world, &list, Sampling::Planned);
-            for (&(x, y), radiance) in list.iter().zip(&single.radiance) {
+            let seen = single.radiance.iter().zip(&single.opacity);
+            for (&(x, y), (&radiance, &opacity)) in list.iter().zip(seen) {
+                let pixel = traced.film.pixels[traced.film.index(x, y)];
                 assert_eq!(
-                    *radiance,
-                    Some(traced.film.radiance(traced.film.index(x, y))),
+                    (radiance, opacity),
+                    (Some(pixel.radiance()), pixel.opacity()),
                     "{x} {y}"
                 );
             }
