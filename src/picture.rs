@@ -93,7 +93,7 @@ impl Format {
         }
     }
 
-    /// Returns the memory that [`write`] takes per pixel, beside a row: the entire image, and the entire file
+    /// Returns the memory that [`write()`] takes per pixel, beside a row: the entire image, and the entire file
     /// for a format that is not written from front to back.
     pub const fn bytes_per_pixel(self, channels: Channels) -> u64 {
         let channels = channels.count() as u64;
@@ -165,7 +165,7 @@ pub fn write(
     })
 }
 
-/// Returns the bytes that [`write`] writes.
+/// Returns the bytes that [`write()`] writes.
 pub fn encode(film: &Film, depth: Depth, format: Format) -> Result<Vec<u8>> {
     let developer = Developer::new(depth, film.assumed_gamma, film.pixels.len());
     let mut bytes = Vec::new();
