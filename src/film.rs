@@ -251,27 +251,27 @@ impl Developer {
     pub fn develop(&self, pixels: &[Pixel], channels: Channels) -> Components {
         let alpha = channels == Channels::Rgba;
         match &self.0 {
-            Tones::Eight(curve) => {
-                let code = |c| curve.code(c) as u8;
-                let part = |part: f64| (255.0 * part).round() as u8;
-                Components::Eight(match alpha {
-                    true => each_straight(pixels, code, part),
-                    false => each(pixels, code),
-                })
-            }
-            Tones::Sixteen(curve) => {
-                let code = |c| curve.code(c) as u16;
-                let part = |part: f64| (65_535.0 * part).round() as u16;
-                Components::Sixteen(match alpha {
-                    true => each_straight(pixels, code, part),
-                    false => each(pixels, code),
-                })
-            }
+            Tones::Eight(curve) => Components::Eight(codes(pixels, alpha, curve, |n| n as u8)),
+            Tones::Sixteen(curve) => Components::Sixteen(codes(pixels, alpha, curve, |n| n as u16)),
             Tones::Linear(gamma) => Components::Linear(match alpha {
                 true => each_multiplied(pixels, *gamma),
                 false => each(pixels, |c| gamma.linear(c) as f32),
             }),
         }
+    }
+}
+
+/// Returns the codes by which a display shows pixels.
+fn codes<T: Copy + Default>(
+    pixels: &[Pixel],
+    alpha: bool,
+    curve: &Curve,
+    narrow: impl Fn(u32) -> T,
+) -> Vec<T> {
+    let code = |c| narrow(curve.code(c));
+    match alpha {
+        true => each_straight(pixels, code, |alpha| narrow(curve.of_alpha(alpha))),
+        false => each(pixels, code),
     }
 }
 

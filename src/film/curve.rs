@@ -44,6 +44,11 @@ impl Curve {
         curve
     }
 
+    /// Returns the code of alpha, which is shown as it is.
+    pub fn of_alpha(&self, alpha: f64) -> u32 {
+        (alpha * f64::from(self.last)).round() as u32
+    }
+
     #[inline]
     pub fn code(&self, component: f64) -> u32 {
         if self.steps.is_empty() {

@@ -127,6 +127,8 @@ impl Geometry {
             let (tree, order) = Tree::build(&boxes.collect::<Vec<_>>());
             (Some(tree), order.into_iter().map(|place| bounded[place as usize]).collect())
         };
+        let solids = unbounded.iter().chain(&order);
+        let parts = solids.map(|&solid| world.parts(solid).len()).sum();
         let mut geometry = Self {
             entries: Vec::with_capacity(unbounded.len() + order.len()),
             grains: Vec::new(),
@@ -134,10 +136,10 @@ impl Geometry {
             tree,
             balls: Vec::new(),
             hulls: Vec::new(),
-            boxes: Vec::new(),
-            ellipsoids: Vec::new(),
-            placed: Vec::new(),
-            wholes: Vec::new(),
+            boxes: Vec::with_capacity(world.boxes.len().min(parts)),
+            ellipsoids: Vec::with_capacity(world.ellipsoids.len().min(parts)),
+            placed: Vec::with_capacity(world.placed.len().min(parts)),
+            wholes: Vec::with_capacity(world.csg_solids.len().min(parts)),
             counts: false,
             instructions: Instructions::best(),
             in_image: None,

@@ -225,7 +225,8 @@ impl Batch {
     /// Folds the last generation into the one before; returns what it may forget of solids, or `None` if it is the
     /// first.
     fn fold(&mut self) -> Option<usize> {
-        let Generation { first, solids, mirrored, .. } = self.generations.pop()?;
+        let Generation { first, packets, solids, mirrored, .. } = self.generations.pop()?;
+        self.packets.truncate(packets);
         if self.has_alpha {
             self.fold_clear(first, mirrored);
         }
