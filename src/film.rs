@@ -106,8 +106,8 @@ impl Pixel {
 }
 
 impl Film {
-    /// Peak memory per pixel while tracing: the film, and the marks of edges.
-    pub const BYTES_PER_PIXEL: u64 = (size_of::<Pixel>() + size_of::<bool>()) as u64;
+    /// Peak memory per pixel while tracing: the film, and the variances of edges.
+    pub const BYTES_PER_PIXEL: u64 = (size_of::<Pixel>() + size_of::<f32>()) as u64;
 
     /// Returns a film without alpha whose pixels are not reached.
     pub fn new(frame: Frame, assumed_gamma: Gamma) -> Self {

@@ -6,7 +6,7 @@
 
 use crate::math::random::Random;
 use crate::plan::{Antialias, Effect, Pilot, Plan, Region};
-use crate::trace::{Counters, Limited, Sampling, TraceOptions, Unwatched, geometry, pixels};
+use crate::trace::{Counters, Limited, Sampling, TraceOptions, Unwatched, aims, geometry, pixels};
 use crate::world::World;
 
 /// Maximum number of traced pixels along the longer side of the region.
@@ -25,8 +25,8 @@ const ENOUGH: usize = 2;
 const DEPTHS: [u32; 5] = [20, 10, 5, 3, 2];
 
 /// Traces some pixels, spread over the picture, and records how many rays each effect sent. With adaptive
-/// antialiasing, traces these pixels and their neighbours as in the full picture, and supersamples those on
-/// an edge. For a regular grid of samples, traces one sample, whose cost is multiplied. If that is too much
+/// antialiasing, traces these pixels and their neighbours as in the full picture, and takes more samples near
+/// edges. For a regular grid of samples, traces one sample, whose cost is multiplied. If that is too much
 /// work, traces fewer pixels and, if even a few are too many, reduces the depth.
 pub fn pilot(world: &World, plan: &mut Plan) {
     pilot_within(world, plan, RAYS);
@@ -43,15 +43,17 @@ fn pilot_within(world: &World, plan: &mut Plan, limit: u64) {
     let places = mixed(spread(plan.frame.region, (width, height)));
     let look = |max_trace_level: u32| {
         let plan = Plan { antialias, max_trace_level, ..plan.clone() };
-        let patience = Limited::to_steps(limit, &Unwatched);
+        // Those for the pixels around are steps, too, but not counted.
+        let steps = if antialias == Antialias::Off { limit } else { 3 * limit };
+        let patience = Limited::to_steps(steps, &Unwatched);
         let (mut counters, mut pixels_done) = (Counters::default(), 0);
         for chunk in places.chunks(CHUNK) {
-            let planned = Sampling::Planned;
-            let seen = pixels(world, &geometry, &plan, chunk, planned, &options, &patience);
-            if seen.radiance.contains(&None) {
+            let aims = aims(chunk, Sampling::Planned);
+            let (seen, these) = pixels(world, &geometry, &plan, &aims, &options, &patience);
+            if seen.contains(&None) {
                 break;
             }
-            counters += seen.counters;
+            counters += these;
             pixels_done += chunk.len();
             if counters.rays() >= limit || counters.work.solving >= SOLVED_A_RAY * limit {
                 break;
@@ -72,15 +74,9 @@ fn pilot_within(world: &World, plan: &mut Plan, limit: u64) {
     }
     let ((counters, pixels_done), depth) = found;
     let camera = counters.camera.max(1) as f64;
-    let edges = match antialias {
-        Antialias::Off | Antialias::Grid(_) => None,
-        Antialias::Adaptive { grid, .. } => {
-            let finer = counters.camera - pixels_done as u64;
-            let each = u64::from(grid.max(1)).pow(2) * pixels_done.max(1) as u64;
-            Some(finer as f64 / each as f64)
-        }
-    };
-    let found = Pilot { width, height, pixels: pixels_done, depth, rays: 1.0, edges };
+    let is_adaptive = antialias != Antialias::Off;
+    let a_pixel = is_adaptive.then_some(camera / pixels_done.max(1) as f64);
+    let found = Pilot { width, height, pixels: pixels_done, depth, rays: 1.0, camera: a_pixel };
     plan.pilot = Some(found);
     let a_pixel = plan.camera_rays_a_pixel();
     let mut all = 1.0;

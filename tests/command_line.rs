@@ -932,7 +932,7 @@ fn accuracy_prints_a_table_with_the_scenes_own_settings_starred() {
     let answer = table.lines().next().expect("a line");
     assert!(answer.starts_with("use --antialias ") || answer.starts_with("keep "), "{table}");
     assert!(table.contains("\na.scene 24×18: 432 audited pixels (seed 1), "), "{table}");
-    assert!(table.contains("\n* adaptive 0.05 4×4 "), "{table}");
+    assert!(table.contains("\n* adaptive 0.05 8×8 "), "{table}");
     assert!(table.lines().all(|line| line.chars().count() <= 100), "{table}");
     assert!(table.contains("\nantialias bought, from off to "), "{table}");
     // Nothing reflects.

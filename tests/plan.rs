@@ -38,7 +38,7 @@ fn written(plan: &Value) -> String {
         "off" => "\nantialias off: one ray a pixel\n".to_owned(),
         "grid" => format!("\nantialias {n}: {n}×{n} rays a pixel\n"),
         _ => format!(
-            "\nantialias adaptive: {n}×{n} rays where neighbours differ by more than {threshold}\n"
+            "\nantialias adaptive: up to {n}×{n} rays near edges, where neighbours differ by more than {threshold}\n"
         ),
     };
     out += &format!("max_trace_level {}\n", plan["max_trace_level"]);
@@ -82,7 +82,7 @@ fn written(plan: &Value) -> String {
             out += &format!("    {}{}\n", quote(place), at(place));
         }
         out += &and_more(places, "    ");
-        let default = text(&antialias["kind"]) == "adaptive" && *n == 4 && *threshold == 0.05;
+        let default = text(&antialias["kind"]) == "adaptive" && *n == 8 && *threshold == 0.05;
         let by = if default { "    by default\n" } else { "    by the options\n" };
         out += if places.is_empty() { by } else { "" };
     }
@@ -155,9 +155,6 @@ fn written(plan: &Value) -> String {
     if let Some(depth) = rays["pilot_depth"].as_u64() {
         let deep = &plan["max_trace_level"];
         out += &format!(", only {depth} of {deep} surfaces deep: there are more rays");
-    }
-    if let Some(edges) = rays["edges"].as_f64() {
-        out += &format!(", {:.1} % of them on an edge", 100.0 * edges);
     }
     out + ")\n"
 }

@@ -120,8 +120,7 @@ fn the_table_of_accuracy_and_the_diagram_are_of_one_run() {
         if rest.starts_with("not tried") || rest.starts_with("the same") || rest.starts_with(' ') {
             continue;
         }
-        let (label, rest) = rest.split_at(rest.char_indices().nth(17).expect("columns").0);
-        let label = label.trim();
+        let (label, rest) = rest.split_once("  ").expect("columns");
         let cpu = rest.split_whitespace().next().expect("seconds");
         let title = format!("<title>{knob} {label}: ");
         let said = svg.split(&title).nth(1).unwrap_or_else(|| panic!("{title} is not drawn"));

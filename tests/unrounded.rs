@@ -2,7 +2,7 @@
 
 use lucarne::color::Rgb;
 use lucarne::plan::{Antialias, Plan, Region};
-use lucarne::trace::{Aim, TraceOptions, Unwatched, geometry, seen, trace};
+use lucarne::trace::{Sampling, TraceOptions, Unwatched, aims, geometry, pixels, trace};
 use lucarne::world::World;
 
 /// Traces a picture, row by row. Only that of adaptive antialiasing comes from a film.
@@ -16,8 +16,11 @@ pub fn radiances(world: &World, plan: &Plan, options: &TraceOptions) -> Vec<Rgb>
     };
     let Region { x, y, width, height } = plan.frame.region;
     let places = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y)));
-    let aims: Vec<Aim> = places.map(|place| Aim { place, side, seed: None }).collect();
-    let geometry = geometry(world, plan, options);
-    let (seen, _) = seen(world, &geometry, plan, &aims, options, &Unwatched);
-    seen.into_iter().map(|seen| seen.expect("not stopped").mean).collect()
+    let aims = aims(&places.collect::<Vec<_>>(), Sampling::Planned);
+    let (seen, _) =
+        pixels(world, &geometry(world, plan, options), plan, &aims, options, &Unwatched);
+    let count = f64::from(side * side);
+    seen.into_iter()
+        .map(|seen| seen.expect("not stopped").sum.radiance.map(|c| c / count))
+        .collect()
 }

@@ -2,12 +2,12 @@
 //! a clock that ticks whenever it is asked, and it is asked the more the more is traced.
 
 use super::reference::{Geometries, Reference, Studio};
-use super::refine::{Canvas, MOST_SIDE, Pace, Spread, Until, is_finest};
+use super::refine::{Canvas, Pace, Spread, is_finest};
 use super::tests::{ONE_THREAD, Ticking, asked, compiled};
 use super::*;
 use crate::film::Film;
 use crate::plan::Antialias;
-use crate::trace::{Traced, Unwatched, trace};
+use crate::trace::{Sampling, Sight, Traced, Unwatched, trace};
 
 /// Clear balls that mirror: every path forks at each surface, as deep as one looks.
 const GLASS: &str = "
@@ -132,8 +132,8 @@ fn pixels_that_turn_out_too_dear_are_made_with_the_cheapest_settings_and_hold_up
         let cheapest = trace(&world, &least, &ONE_THREAD, &Unwatched).film;
         let as_cheap =
             begun.traced.film.radiances().zip(cheapest.radiances()).filter(|(a, b)| a == b);
-        assert!(as_cheap.count() >= begun.rest);
-        begun.rest
+        assert!(as_cheap.count() >= begun.rest.len());
+        begun.rest.len()
     };
     let (short, long) = (begun(2000.0), begun(16_000.0));
     assert!(0 < long && long < short && short < 48 * 36 / 3, "{short} {long}");
@@ -152,7 +152,7 @@ fn a_picture_as_fine_as_it_gets_is_said_to_be_and_takes_no_more_time() {
 #[test]
 fn a_budget_is_kept_and_what_was_given_up_for_it_is_told() {
     let (world, origins) = compiled(GLASS, 5.0);
-    for budget in [6000.0, 30_000.0] {
+    for budget in [12_000.0, 60_000.0] {
         let clock = Ticking::new(1.0);
         let options = Options { budget, ..asked(48, 36) };
         let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("measured");
@@ -260,56 +260,72 @@ fn refined(until: f64) -> (Film, usize) {
     let studio = Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &watch };
     let Traced { film, counters, .. } = studio.picture(&plan, &Unwatched);
     let pace = Pace { seconds: 100.0, samples: film.pixels.len() as f64 };
-    let mut canvas = Canvas::new(film, counters, pace);
-    let time = Until { clock: &clock, until };
-    while let Some(worth) = canvas.worth(&studio) {
-        if !canvas.pass(&studio, &plan, &worth, time) {
-            break;
-        }
-    }
+    let mut canvas = Canvas::new(film, &[], counters, pace);
+    let time = (&clock as &dyn Clock, until);
+    while let Some(expected) = canvas.expected(&studio)
+        && canvas.pass(&studio, &plan, &expected, time)
+    {}
     let finer = canvas.film.samples().filter(|&samples| samples > 1).count();
     (canvas.film, finer)
 }
 
 #[test]
-fn from_any_first_number_of_samples_the_most_is_reached_where_there_is_time() {
-    let (world, origins) = compiled(
-        "camera { location y } light_source { 9, 1 } plane { y, -1 pigment { rgb 1 } }",
-        1.0,
-    );
-    let own = own(&world, Frame::whole(4, 3));
-    let plan = plan(&world, &origins, &PlanOptions { antialias: Antialias::Off, ..own });
-    let geometry = Geometries::default();
-    let studio =
-        Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
-    for side in 2..=MOST_SIDE {
+fn the_most_samples_are_reached_where_there_is_time() {
+    let floor = "camera { location y } light_source { 9, 1 } plane { y, -1 pigment { rgb 1 } }";
+    // A thin bar in one of the pixels.
+    let noisy = "camera { location 5*z look_at 0 } light_source { 9*z, 1 }
+        box { -0.01 + 0.5*x, 0.01 + 0.5*x scale <1, 100, 1> pigment { checker rgb 1 rgb 0 scale 0.01 } }";
+    for (text, width, height) in [(floor, 4, 3), (floor, 1, 1), (noisy, 5, 1), (noisy, 1, 1)] {
+        let (world, origins) = compiled(text, 1.0);
+        let own = own(&world, Frame::whole(width, height));
+        let plan = plan(&world, &origins, &PlanOptions { antialias: Antialias::Off, ..own });
+        let geometry = Geometries::default();
+        let studio =
+            Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
         let clock = Ticking::new(1.0);
         let Traced { film, counters, .. } = studio.picture(&plan, &Unwatched);
-        let pace = Pace { seconds: 1.0, samples: film.pixels.len() as f64 };
-        let mut canvas = Canvas::new(film, counters, pace);
-        assert!(canvas.pilot(&studio, &plan, side, &clock));
-        let time = Until { clock: &clock, until: 1e9 };
-        while let Some(worth) = canvas.worth(&studio)
-            && canvas.pass(&studio, &plan, &worth, time)
+        let (first, pace) =
+            (film.clone(), Pace { seconds: 1.0, samples: film.pixels.len() as f64 });
+        let mut canvas = Canvas::new(film, &[0], counters, pace);
+        let time = (&clock as &dyn Clock, 1e9);
+        while let Some(expected) = canvas.expected(&studio)
+            && canvas.pass(&studio, &plan, &expected, time)
         {}
-        assert!(is_finest(&canvas.film), "{side}: {:?}", canvas.film.pixels);
+        assert!(is_finest(&canvas.film), "{:?}", canvas.film.pixels);
+        // The first sample of a pixel that was traced with cheaper settings is taken anew.
+        for (i, pixel) in first.pixels.iter().enumerate() {
+            let (first, sum) = if i == 0 { (0, Sight::NOTHING) } else { (1, (*pixel).into()) };
+            let aim = (
+                refine::place(canvas.film.frame.region, i),
+                Sampling::Numbered { first, end: 1024, sum },
+            );
+            let seen = studio.pixels(&plan, &[aim]).0[0].expect("not stopped");
+            assert_eq!(seen.mean.pixel(1024), canvas.film.pixels[i], "{i}");
+        }
     }
 }
 
 #[test]
-fn a_refined_pixel_has_the_bits_of_a_whole_picture_of_as_many_samples() {
+fn a_refined_pixel_has_the_bits_of_one_that_has_as_many_samples_at_once() {
     let (film, pixels) = refined(6000.0);
     let counts: std::collections::BTreeSet<u32> = film.samples().collect();
     assert!(counts.len() > 3 && pixels > 100, "{counts:?}");
     let (world, origins) = compiled(GLASS, 3.0);
-    for samples in counts {
-        let side = samples.isqrt();
-        let antialias = Antialias::Grid(side);
-        let options = PlanOptions { antialias, ..own(&world, film.frame) };
-        let whole = trace(&world, &plan(&world, &origins, &options), &ONE_THREAD, &Unwatched).film;
-        for (i, n) in film.samples().enumerate() {
-            assert!(n != samples || film.radiance(i) == whole.radiance(i), "{side} {i}");
-        }
+    let options = PlanOptions { antialias: Antialias::Off, ..own(&world, film.frame) };
+    let plan = plan(&world, &origins, &options);
+    let geometry = Geometries::default();
+    let studio =
+        Studio { world: &world, geometry: &geometry, options: ONE_THREAD, watch: &Unwatched };
+    let first = studio.picture(&plan, &Unwatched).film;
+    let aim = |(i, end): (usize, u32)| {
+        (
+            refine::place(film.frame.region, i),
+            Sampling::Numbered { first: 1, end, sum: first.pixels[i].into() },
+        )
+    };
+    let aims: Vec<_> = film.samples().enumerate().map(aim).collect();
+    for (seen, &pixel) in studio.pixels(&plan, &aims).0.iter().zip(&film.pixels) {
+        assert_eq!(seen.expect("not stopped").mean.pixel(pixel.samples()), pixel);
     }
 }
 

@@ -187,7 +187,7 @@ impl<'a> Tuning<'a> {
         match options.antialias {
             Antialias::Off => 1.0,
             Antialias::Grid(grid) => samples(grid),
-            Antialias::Adaptive { grid, .. } => 9.0 + samples(grid),
+            Antialias::Adaptive { grid, .. } => 25.0 + samples(grid),
         }
     }
 }

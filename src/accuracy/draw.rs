@@ -14,12 +14,12 @@ use super::affordable_reference::{Deadline, LEAST};
 use super::measure::Clock;
 use super::proof::Audit;
 use super::reference::{Studio, clamped, colors_of};
-use super::refine::{Canvas, Worth, place};
+use super::refine::{Canvas, place};
 use super::statistics::{Deviation, Estimate, Metric, weighted};
 use crate::film::Film;
 use crate::math::random::Random;
 use crate::plan::Plan;
-use crate::trace::{Aim, Counters};
+use crate::trace::{Counters, Sampling};
 
 /// Fraction of draws that are uniform over all pixels. It bounds the weight of a pixel by its inverse,
 /// however small the expected error.
@@ -37,8 +37,8 @@ struct Drawn {
     place: (u32, u32),
     /// Weight, 1 on average.
     weight: f64,
-    /// Square root of the number of samples.
-    side: u32,
+    /// Number of samples.
+    count: u32,
 }
 
 /// Draws pixels with replacement.
@@ -52,13 +52,13 @@ pub struct Urn<'a> {
 }
 
 impl<'a> Urn<'a> {
-    /// `worth` must belong to the same `canvas`.
-    pub fn new(canvas: &'a Canvas, worth: &Worth, seed: u64) -> Self {
-        // The error of n × n samples, one in the middle of each part of a pixel: an edge crosses about n of
-        // the parts, and each is then wrong at random; so its square falls with n³.
+    /// `expected` are the variances of the same `canvas`.
+    pub fn new(canvas: &'a Canvas, expected: &[f32], seed: u64) -> Self {
+        // The error of n samples, spread evenly over a pixel: an edge crosses the parts of about √n of them, and each
+        // is then wrong at random; so its square falls with n√n.
         let error = |i: usize| {
-            let n = canvas.side(i) as f32;
-            worth.variances[i] / (n * n * n)
+            let n = canvas.film.pixels[i].samples() as f32;
+            expected[i] / (n * n.sqrt())
         };
         let errors: Vec<f32> = (0..canvas.pixels()).map(error).collect();
         let mut sum = 0.0;
@@ -94,7 +94,7 @@ impl<'a> Urn<'a> {
         Drawn {
             place: place(self.canvas.film.frame.region, i),
             weight: 1.0 / share,
-            side: self.canvas.side(i),
+            count: self.canvas.film.pixels[i].samples(),
         }
     }
 }
@@ -125,21 +125,22 @@ impl Truth {
             let drawn: Vec<Drawn> = (0..block).map(|_| urn.draw()).collect();
             let first = truth.drawn.len() as u64;
             let aims = drawn.iter().zip(first..).flat_map(|(drawn, number)| {
-                let side = side(metric, drawn.side);
-                let half = |half| Aim {
-                    place: drawn.place,
-                    side,
-                    seed: Some(seed.wrapping_add((2 * number + half) << 32)),
+                let side = side(metric, drawn.count);
+                let half = |half| {
+                    let seed = seed.wrapping_add((2 * number + half) << 32);
+                    (drawn.place, Sampling::Jittered { side, seed })
                 };
                 [half(0), half(1)]
             });
             let watch = &Deadline { clock, until: until(truth.drawn.len()), watch: studio.watch };
             let studio = Studio { watch, ..*studio };
-            let (seen, counters) = studio.seen(plan, &aims.collect::<Vec<_>>());
+            let (seen, counters) = studio.pixels(plan, &aims.collect::<Vec<_>>());
             truth.counters += counters;
             let gamma = studio.world.settings.assumed_gamma;
-            let colors: Vec<_> =
-                seen.into_iter().map_while(|seen| Some(clamped(seen?.mean, gamma))).collect();
+            let colors: Vec<_> = seen
+                .into_iter()
+                .map_while(|seen| Some(clamped(seen?.mean.radiance, gamma)))
+                .collect();
             for (drawn, pair) in drawn.iter().zip(colors.chunks_exact(2)) {
                 truth.drawn.push(*drawn);
                 (0..2).for_each(|half| truth.halves[half].push(pair[half]));
@@ -186,10 +187,11 @@ fn resolution(metric: Metric, error: Estimate, noise: f64) -> f64 {
     }
 }
 
-/// Returns the samples along the side of each half of a pixel's reference. For RMSE, a fifth more than the
-/// pixel itself has: their noise is then about as large as its error, which is the most efficient use of a
+/// Returns the samples along the side of each half of the reference of a pixel with `count` samples. For RMSE,
+/// a fifth more than these: their noise is then about as large as its error, which is the most efficient use of a
 /// given time. Other metrics count noise as error and need it to be small.
-fn side(metric: Metric, side: u32) -> u32 {
+fn side(metric: Metric, count: u32) -> u32 {
+    let side = count.isqrt();
     match metric {
         Metric::Rmse => (side + side.div_ceil(10)).max(2),
         Metric::P99 | Metric::Bad => (2 * side).clamp(8, 48),

@@ -11,9 +11,9 @@ use super::measure::Clock;
 use super::reference::Studio;
 use super::refine::{MOST_IN_PART, Spread, place};
 use super::render_settings::Easel;
-use crate::film::{Channels, Film, Pixel};
+use crate::film::{Channels, Film};
 use crate::plan::{Antialias, Plan, PlanOptions, Samples, plan};
-use crate::trace::{Sampling, Traced, Watch};
+use crate::trace::{self, Sampling, Traced, Watch};
 use crate::world::Origins;
 
 /// Fraction of the available time that the first pass may take by prediction; the rest covers errors of the
@@ -43,8 +43,8 @@ pub struct Begun {
     pub least: PlanOptions,
     /// Whether the settings are cheaper than the scene's own.
     pub is_less: bool,
-    /// Number of pixels for which even those took too long; they have the cheapest settings.
-    pub rest: usize,
+    /// Pixels for which even those took too long; they have the cheapest settings.
+    pub rest: Vec<usize>,
     /// CPU and wall-clock seconds.
     pub took: (f64, f64),
 }
@@ -71,8 +71,9 @@ pub fn begin(
     let plan = |settings| plan(studio.world, origins, settings);
     let mut rest = complete(studio, &plan(&settings), &mut traced, (clock, most));
     let took = (clock.cpu() - began.0, clock.wall() - began.1);
-    if rest > 0 && settings != least {
-        rest -= complete(studio, &plan(&least), &mut traced, (clock, until));
+    if !rest.is_empty() && settings != least {
+        complete(studio, &plan(&least), &mut traced, (clock, until));
+        rest.retain(|&i| traced.film.pixels[i].samples() > 0);
     }
     Begun { traced, settings, least, is_less: settings != own, rest, took }
 }
@@ -95,7 +96,7 @@ fn turned<'a>(easel: &'a Easel) -> impl Iterator<Item = &'a Knob> {
     easel.knobs.iter().copied().filter(|knob| !knob.samples_pixels())
 }
 
-/// Traces the unfinished pixels, spread over the picture, and returns how many are left when the clock
+/// Traces the unfinished pixels, spread over the picture, and returns those that are left when the clock
 /// reaches `until`. Each part is limited to a few shares of the time. Parts that took longer are split and
 /// retried with the time left by the others, so that one slow pixel does not delay the others.
 fn complete(
@@ -103,7 +104,7 @@ fn complete(
     plan: &Plan,
     traced: &mut Traced,
     (clock, until): (&dyn Clock, f64),
-) -> usize {
+) -> Vec<usize> {
     let film = &mut traced.film;
     let in_time = Deadline { clock, until, watch: studio.watch };
     let undone = |film: &Film| -> Vec<usize> {
@@ -118,15 +119,14 @@ fn complete(
             let now = clock.wall();
             let share = (until - now) * (shares / (parts.len() + 1) as f64).min(AT_MOST);
             let in_share = Deadline { until: now + share, ..in_time };
-            let places: Vec<_> = part.iter().map(|&i| place(film.frame.region, i)).collect();
+            let aim = |&i| (place(film.frame.region, i), Sampling::Planned);
+            let aims: Vec<_> = part.iter().map(aim).collect();
             let studio = Studio { watch: &in_share, ..*studio };
-            let seen = studio.pixels(plan, &places, Sampling::Planned);
-            traced.counters += seen.counters;
-            for ((&i, radiance), opacity) in part.iter().zip(seen.radiance).zip(seen.opacity) {
-                match radiance {
-                    Some(radiance) => {
-                        film.pixels[i] = Pixel::new(radiance, 1).with_opacity(opacity);
-                    }
+            let (seen, counters) = studio.pixels(plan, &aims);
+            traced.counters += counters;
+            for (&i, seen) in part.iter().zip(seen) {
+                match seen {
+                    Some(seen) => film.pixels[i] = seen.mean.pixel(1),
                     None => shares = IN_DOUBT,
                 }
             }
@@ -140,7 +140,7 @@ fn complete(
         size -= usize::from(size == 1);
     }
     traced.complete = list.is_empty();
-    list.len()
+    list
 }
 
 /// Returns the settings of the first pass: the scene's `own`. If a few pixels show that these do not fit,
@@ -156,7 +156,7 @@ fn affordable(
     let region = own.frame.region;
     let pixels = region.width.saturating_mul(region.height);
     let few = (pixels / ONE_OF).max(LEAST as u32);
-    let list = audit::sets(region, few, 1, seed).remove(0);
+    let list = trace::aims(&audit::sets(region, few, 1, seed)[0], Sampling::Planned);
     let share = list.len() as f64 / f64::from(pixels);
     let fits = |options: &PlanOptions| {
         let plan = plan(studio.world, origins, options);
@@ -166,12 +166,12 @@ fn affordable(
         let look = || {
             // Startup takes time, too, and must not be scaled.
             let before = clock.wall();
-            studio.pixels(&plan, &list[..1], Sampling::Planned);
+            studio.pixels(&plan, &list[..1]);
             let now = clock.wall();
             let allowed = (now - before) + FOR_FIRST * share * (until - now);
             let watch = &Deadline { clock, until: now + 2.0 * allowed, watch: studio.watch };
-            let seen = Studio { watch, ..*studio }.pixels(&plan, &list, Sampling::Planned);
-            match seen.radiance.iter().all(Option::is_some) {
+            let (seen, _) = Studio { watch, ..*studio }.pixels(&plan, &list);
+            match seen.iter().all(Option::is_some) {
                 true => (clock.wall() - now) / allowed,
                 false => f64::INFINITY,
             }

@@ -12,7 +12,7 @@ use super::measure::{Clock, Span};
 use super::reference::Studio;
 use super::trial::{Candidate, Picture};
 use crate::plan::{Antialias, Plan};
-use crate::trace::{Counters, Pixels, Sampling};
+use crate::trace::{Counters, Sampling, aims};
 
 /// Number of pixels traced, enough to distinguish expensive from cheap settings.
 const PIXELS: usize = 64;
@@ -53,10 +53,9 @@ pub fn at_once(
         let in_time = Deadline { clock, until, watch: studio.watch };
         let studio = Studio { watch: &in_time, ..*studio };
         let plan = Plan { antialias, ..candidate.plan.clone() };
-        let Pixels { radiance, counters, .. } =
-            studio.pixels(&plan, &list[..few], Sampling::Planned);
+        let (seen, counters) = studio.pixels(&plan, &aims(&list[..few], Sampling::Planned));
         // Unfinished pixels are estimated from the finished ones.
-        let done = radiance.iter().flatten().count().max(1) as f64;
+        let done = seen.iter().flatten().count().max(1) as f64;
         ((clock.wall() - began) / done, counters.camera as f64 / done)
     };
     // Adds pixels until their time is measurable and exceeds the startup cost.
@@ -69,13 +68,8 @@ pub fn at_once(
     let samples = match candidate.plan.antialias {
         Antialias::Off => 1.0,
         Antialias::Grid(n) => f64::from(n) * f64::from(n),
-        Antialias::Adaptive { threshold, grid } => {
-            // A single pixel also samples its neighbours, which are already sampled in a full picture.
-            let rays = |threshold| {
-                let adaptive = Antialias::Adaptive { threshold, grid };
-                look(adaptive, PIXELS.min(few), clock.wall() + half).1
-            };
-            1.0 + (rays(threshold) - rays(f64::INFINITY)).max(0.0)
+        adaptive @ Antialias::Adaptive { .. } => {
+            look(adaptive, PIXELS.min(few), clock.wall() + half).1.max(1.0)
         }
     };
     a_sample * samples * pixels

@@ -311,7 +311,7 @@ mod tests {
     fn what_render_does_is_a_rung_of_the_ladder() {
         assert!(LADDER.contains(&Antialias::default()));
         let options = PlanOptions::new(Frame::whole(1, 1));
-        assert_eq!((KNOBS[0].label)((KNOBS[0].get)(&options)), "adaptive 0.05 4×4");
+        assert_eq!((KNOBS[0].label)((KNOBS[0].get)(&options)), "adaptive 0.05 8×8");
     }
 
     #[test]

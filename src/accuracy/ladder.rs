@@ -5,10 +5,10 @@ use crate::plan::{Antialias, Samples};
 /// Antialiasing modes, approximately from coarse to fine; the third is the default of `render`.
 pub const LADDER: [Antialias; 14] = [
     Antialias::Off,
-    Antialias::Adaptive { threshold: 0.1, grid: 3 },
-    Antialias::Adaptive { threshold: 0.05, grid: 4 },
-    Antialias::Adaptive { threshold: 0.02, grid: 6 },
-    Antialias::Adaptive { threshold: 0.01, grid: 8 },
+    Antialias::Adaptive { threshold: 0.1, grid: 4 },
+    Antialias::Adaptive { threshold: 0.05, grid: 8 },
+    Antialias::Adaptive { threshold: 0.02, grid: 12 },
+    Antialias::Adaptive { threshold: 0.01, grid: 16 },
     Antialias::Grid(2),
     Antialias::Grid(3),
     Antialias::Grid(4),

@@ -16,7 +16,7 @@ use super::render_settings::Easel;
 use super::statistics::{Estimate, Metric};
 use super::{Options, Quiet};
 use crate::plan::{Antialias, Plan, PlanOptions, plan};
-use crate::trace::{Counters, Sampling, TraceOptions, Traced, Watch};
+use crate::trace::{self, Counters, Sampling, TraceOptions, Traced, Watch};
 use crate::world::{Origins, World};
 
 /// Fraction of the promised error to aim for; leaves room for the randomness of the audit.
@@ -162,9 +162,9 @@ impl<'a> Search<'a> {
         add(&effort, clock.wall() - began, samples, &rough.counters);
         let a_sample = rough.counters.rays() as f64 / samples;
         let plain = PlanOptions { antialias: Antialias::Off, ..easel.own };
-        let plain = studio.pixels(&plan(studio.world, origins, &plain), few, Sampling::Planned);
-        let picture =
-            PICTURE * cost(&plain.counters) / few.len() as f64 * options.frame.region.pixels();
+        let aims = trace::aims(few, Sampling::Planned);
+        let (_, plain) = studio.pixels(&plan(studio.world, origins, &plain), &aims);
+        let picture = PICTURE * cost(&plain) / few.len() as f64 * options.frame.region.pixels();
         let coarsest = f64::from(Reference::samples_at(Reference::COARSEST));
         let worth = picture / (coarsest * cost(&rough.counters) / samples);
         let most = (MOST_RAYS / (a_sample * f64::from(DEAREST))).min(worth.max(ENOUGH));

@@ -12,14 +12,13 @@ use crate::film::Film;
 use crate::geometry::Geometry;
 use crate::plan::{Arithmetic, Plan};
 use crate::trace::{
-    self, Aim, Counters, Pixels, Sampling, Seen, TraceOptions, Traced, Watch, pixels, seen,
-    trace_in,
+    self, Aim, Counters, Sampling, Seen, TraceOptions, Traced, Watch, aims, pixels, trace_in,
 };
 use crate::world::World;
 
 /// Samples along the side of a pixel, for each half. From [`Reference::COARSEST`] on, each step has about
 /// twice the samples of the previous one.
-const SIDES: [u32; 8] = [2, 8, 11, 16, 23, 32, 45, 64];
+const SIDES: [u32; 7] = [2, 11, 16, 23, 32, 45, 64];
 
 /// Number of blocks into which a list is divided. Both halves of a block are traced before the next block,
 /// so that at most one block is lost when stopped.
@@ -72,14 +71,8 @@ impl Studio<'_> {
     }
 
     /// Traces some pixels.
-    pub fn pixels(&self, plan: &Plan, list: &[(u32, u32)], sampling: Sampling) -> Pixels {
-        let geometry = self.geometry(plan);
-        pixels(self.world, &geometry, plan, list, sampling, &self.options, self.watch)
-    }
-
-    /// Traces some pixels, each with its own number of samples.
-    pub fn seen(&self, plan: &Plan, aims: &[Aim]) -> (Vec<Option<Seen>>, Counters) {
-        seen(self.world, &self.geometry(plan), plan, aims, &self.options, self.watch)
+    pub fn pixels(&self, plan: &Plan, aims: &[Aim]) -> (Vec<Option<Seen>>, Counters) {
+        pixels(self.world, &self.geometry(plan), plan, aims, &self.options, self.watch)
     }
 
     /// Returns the colors of the first pixels of a list: all of them, unless stopped.
@@ -89,9 +82,12 @@ impl Studio<'_> {
         list: &[(u32, u32)],
         sampling: Sampling,
     ) -> (Vec<[f64; 3]>, Counters) {
-        let Pixels { radiance, counters, .. } = self.pixels(plan, list, sampling);
+        let (seen, counters) = self.pixels(plan, &aims(list, sampling));
         let gamma = self.world.settings.assumed_gamma;
-        (radiance.into_iter().map_while(|c| Some(clamped(c?, gamma))).collect(), counters)
+        (
+            seen.into_iter().map_while(|seen| Some(clamped(seen?.mean.radiance, gamma))).collect(),
+            counters,
+        )
     }
 
     /// Returns the colors of some pixels, and the work they took. `None` if stopped.

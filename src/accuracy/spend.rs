@@ -10,7 +10,7 @@ use super::first_samples::{Begun, begin};
 use super::measure::Clock;
 use super::proof::Audit;
 use super::reference::{Geometries, Studio};
-use super::refine::{Canvas, MOST_SIDE, Pace, Until, is_finest};
+use super::refine::{Canvas, Pace, is_finest};
 use super::render_settings::Easel;
 use super::{Options, Quiet};
 use crate::film::Film;
@@ -29,11 +29,8 @@ const KEPT: f64 = 0.05;
 /// Fraction of the audit time for a first block of pixels at full depth.
 const FOR_ALL_THE_WAY: f64 = 0.25;
 /// Fraction of the time for more samples that is used before the audit. The rest is used afterwards, guided
-/// by those samples and together with time that the audit did not need. Retraced pixels lose their previous
-/// samples: with 0.8, and 16 for [`PILOT`], errors were a fifth larger than with nearly all and 64.
+/// by those samples and together with time that the audit did not need.
 const BEFORE_AUDIT: f64 = 0.95;
-/// One sample in this many is spread evenly over the pixels, to learn which need more.
-const PILOT: f64 = 64.0;
 /// Factor by which the same work may take longer the second time.
 const SLACK: f64 = 1.2;
 
@@ -91,7 +88,7 @@ pub fn spend(
         traced,
         flags: easel.flags_of_rays(&settings),
         is_less,
-        rest,
+        rest: rest.len(),
         least: easel.flags_of_rays(&least),
         is_finest: false,
         audit: None,
@@ -108,7 +105,7 @@ pub fn spend(
         depths: Depths { origins, deepest: easel.deepest },
         own: easel.own,
         plan: plan(world, origins, &settings),
-        canvas: Canvas::new(film, counters, pace),
+        canvas: Canvas::new(film, &rest, counters, pace),
         options,
         clock,
         all: until - began,
@@ -141,7 +138,7 @@ impl Spending<'_> {
         let now = self.clock.wall();
         let for_audit = (FOR_AUDIT * self.all).min(self.until - now);
         let for_samples = self.until - for_audit - now;
-        self.sample(now + BEFORE_AUDIT * for_samples, self.until - for_audit, true);
+        self.sample(now + BEFORE_AUDIT * for_samples, self.until - for_audit);
         // If the picture cannot be refined further, all of the remaining time is for the audit.
         let for_audit = match is_finest(&self.canvas.film) {
             true => self.until - self.clock.wall(),
@@ -159,7 +156,7 @@ impl Spending<'_> {
         audit(&truth, &self.canvas.film);
         let took = self.clock.wall() - began;
         let until = self.until - SLACK * took;
-        self.sample(until, until, false);
+        self.sample(until, until);
         let left = until - self.clock.wall();
         let more = match is_finest(&self.canvas.film) && left > 2.0 * for_audit {
             true => self.truth(left),
@@ -171,22 +168,12 @@ impl Spending<'_> {
 
     /// Makes passes of more samples, as fine as can be finished when the clock reaches `until`; `latest`
     /// stops them.
-    fn sample(&mut self, until: f64, latest: f64, is_first: bool) {
+    fn sample(&mut self, until: f64, latest: f64) {
         let watch = &Deadline { clock: self.clock, until: latest, watch: self.studio.watch };
         let studio = Studio { watch, ..self.studio };
         let Self { canvas, clock, plan, .. } = self;
-        if is_first {
-            let samples =
-                (until - clock.wall()) / canvas.pace().a_sample() / canvas.pixels() as f64;
-            let side = ((samples / PILOT).max(0.0).sqrt() as u32).min(MOST_SIDE);
-            if side > 1 && !canvas.pilot(&studio, plan, side, *clock) {
-                return;
-            }
-        }
-        loop {
-            let Some(worth) = canvas.worth(&studio) else { return };
-            let time = Until { clock: *clock, until };
-            if !canvas.pass(&studio, plan, &worth, time) || is_first || is_finest(&canvas.film) {
+        while let Some(expected) = canvas.expected(&studio) {
+            if !canvas.pass(&studio, plan, &expected, (*clock, until)) {
                 return;
             }
         }
@@ -199,7 +186,7 @@ impl Spending<'_> {
         let began = clock.wall();
         let most = began + for_audit.max((FOR_FEW * self.all).min(self.until - began));
         let stopped = Deadline { clock: *clock, until: most, watch: studio.watch };
-        let worth = canvas.worth(&Studio { watch: &stopped, ..*studio })?;
+        let expected = canvas.expected(&Studio { watch: &stopped, ..*studio })?;
         let enough = |known: usize| if known < FEW { most } else { began + for_audit };
         let all_the_way = |known: usize| match known {
             0 => began + FOR_ALL_THE_WAY * for_audit,
@@ -217,7 +204,7 @@ impl Spending<'_> {
         };
         let mut found = None;
         for (plan, until) in looks {
-            let mut urn = Urn::new(canvas, &worth, options.seed);
+            let mut urn = Urn::new(canvas, &expected, options.seed);
             let asked = (options.metric, options.seed);
             let truth = Truth::find(studio, plan, &mut urn, asked, (*clock, until));
             if truth.pixels() >= LEAST {

@@ -237,7 +237,7 @@ fn of_a_knob_that_is_not_called_for_it_is_said_why() {
 fn of_every_knob_the_cheap_settings_are_tried_before_the_dear_ones() {
     let (world, origins) = compiled(BALLS, 0.0);
     let mut left = Vec::new();
-    for budget in [2e4, 4e4, 1e5, 4e5] {
+    for budget in [6e4, 1.2e5, 3e5, 1.2e6] {
         let options = Options { budget, knobs: &KNOBS[..3], ..asked(160, 120) };
         let clock = Ticking::new(1.0);
         let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("measured");
@@ -276,7 +276,7 @@ fn what_changes_no_audited_pixel_is_not_timed() {
     let (clock, whole) = (Ticking::new(1.0), 4e5);
     let options = Options { budget: whole, ..asked(160, 120) };
     let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("measured");
-    assert!(clock.wall() < 0.1 * whole, "{}", clock.wall());
+    assert!(clock.wall() < 0.2 * whole, "{}", clock.wall());
     assert_eq!(report.rows.len(), 1, "nothing but the scene's own picture");
     let knob = |name| report.knobs.iter().find(|knob| knob.name == name).expect("called for");
     let antialias = knob("antialias");
@@ -411,7 +411,7 @@ fn a_report_becomes_a_table_a_well_formed_diagram_and_json() {
     let table = table::text(&report, "a.scene", 1, Width::Wide);
     let stars: Vec<&str> = table.lines().filter(|line| line.starts_with("* ")).collect();
     assert_eq!(stars.len(), 3, "{table}");
-    assert!(stars[0].contains("adaptive 0.05 4×4") && stars[1].contains("5 "), "{table}");
+    assert!(stars[0].contains("adaptive 0.05 8×8") && stars[1].contains("5 "), "{table}");
     // What the reference cannot resolve is no number.
     let coarse = Report { floors: [0.1; 3], ..report.clone() };
     assert_eq!(table::error(&coarse, 0), "< 0.400");

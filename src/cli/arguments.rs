@@ -278,8 +278,8 @@ pub struct FrameArguments {
 pub struct PictureArguments {
     #[command(flatten)]
     frame: FrameArguments,
-    /// Antialiasing: `off` traces one ray per pixel; N traces N×N; `adaptive` traces 4×4 where neighbouring
-    /// pixels differ by more than 0.05; `adaptive:T:N` traces N×N where they differ by more than T
+    /// Antialiasing: `off` traces one ray per pixel; N traces N×N; `adaptive` traces up to 8×8 near edges,
+    /// where neighbouring pixels differ by more than 0.05; `adaptive:T:N` up to N×N for differences of T
     #[arg(long, value_name = "off|N|adaptive", value_parser = antialias, default_value = "adaptive")]
     antialias: Antialias,
     /// Maximum recursion depth of rays; overrides max_trace_level in the scene

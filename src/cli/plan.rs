@@ -175,9 +175,6 @@ struct Rays {
     /// Recursion depth of the pilot, if less than that of the plan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pilot_depth: Option<u32>,
-    /// Fraction of the pilot's pixels that adaptive antialiasing supersamples.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    edges: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -310,7 +307,6 @@ impl<'a> Report<'a> {
                 pilot: [pilot.width, pilot.height],
                 pilot_pixels: pilot.pixels,
                 pilot_depth: pilot.depth,
-                edges: pilot.edges,
             }),
         }
     }

@@ -396,7 +396,9 @@ fn antialiasing(antialias: Antialias) -> Decision {
     let cost = match antialias {
         Antialias::Off => return because("one ray through each pixel's centre was asked", None),
         Antialias::Grid(n) => format!("{n} × {n} rays a pixel"),
-        Antialias::Adaptive { grid, .. } => format!("{grid} × {grid} rays a pixel on an edge"),
+        Antialias::Adaptive { grid, .. } => {
+            format!("up to {grid} × {grid} rays a pixel near an edge")
+        }
     };
     Ok((Vec::new(), cost))
 }

@@ -52,6 +52,16 @@ impl Region {
     pub fn pixels(&self) -> f64 {
         f64::from(self.width) * f64::from(self.height)
     }
+
+    /// Returns the places of its pixels, row by row.
+    pub fn places(self) -> impl Iterator<Item = (u32, u32)> {
+        let Self { x, y, width, height } = self;
+        (y..y + height).flat_map(move |y| (x..x + width).map(move |x| (x, y)))
+    }
+
+    pub fn contains(self, (x, y): (u32, u32)) -> bool {
+        (self.x..self.x + self.width).contains(&x) && (self.y..self.y + self.height).contains(&y)
+    }
 }
 
 /// Antialiasing mode.
@@ -61,14 +71,14 @@ pub enum Antialias {
     Off,
     /// N × N rays per pixel, on a regular grid.
     Grid(u32),
-    /// One ray per pixel, then `grid` × `grid` where neighbours differ by more than `threshold` in an
-    /// encoded component.
+    /// One ray per pixel, then 4 to `grid` × `grid` near edges, where neighbours differ by more than `threshold`
+    /// in an encoded component: as many as the pixel's samples call for.
     Adaptive { threshold: f64, grid: u32 },
 }
 
 impl Default for Antialias {
     fn default() -> Self {
-        Self::Adaptive { threshold: 0.05, grid: 4 }
+        Self::Adaptive { threshold: 0.05, grid: 8 }
     }
 }
 
@@ -309,9 +319,8 @@ pub struct Pilot {
     pub depth: Option<u32>,
     /// All rays, per camera ray.
     pub rays: f64,
-    /// Fraction of the pixels that adaptive antialiasing supersamples; `None` if antialiasing is not
-    /// adaptive.
-    pub edges: Option<f64>,
+    /// Camera rays per pixel; `None` if antialiasing is not adaptive.
+    pub camera: Option<f64>,
 }
 
 impl Plan {
@@ -346,10 +355,7 @@ impl Plan {
         match self.antialias {
             Antialias::Off => 1.0,
             Antialias::Grid(n) => squared(n),
-            Antialias::Adaptive { grid, .. } => {
-                let edges = self.pilot.and_then(|pilot| pilot.edges).unwrap_or(0.0);
-                1.0 + edges * squared(grid)
-            }
+            Antialias::Adaptive { .. } => self.pilot.and_then(|pilot| pilot.camera).unwrap_or(1.0),
         }
     }
 }

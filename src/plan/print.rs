@@ -77,7 +77,7 @@ impl Printer<'_> {
             Antialias::Grid(n) => writeln!(out, "antialias {n}: {n}×{n} rays a pixel")?,
             Antialias::Adaptive { threshold, grid } => writeln!(
                 out,
-                "antialias adaptive: {grid}×{grid} rays where neighbours differ by more than {threshold}"
+                "antialias adaptive: up to {grid}×{grid} rays near edges, where neighbours differ by more than {threshold}"
             )?,
         }
         writeln!(out, "max_trace_level {}", plan.max_trace_level)?;
@@ -191,9 +191,6 @@ impl Printer<'_> {
         if let Some(depth) = pilot.depth {
             let all = self.plan.max_trace_level;
             write!(out, ", only {depth} of {all} surfaces deep: there are more rays")?;
-        }
-        if let Some(edges) = pilot.edges {
-            write!(out, ", {:.1} % of them on an edge", 100.0 * edges)?;
         }
         writeln!(out, ")")
     }

@@ -120,6 +120,18 @@ impl Lens {
         Point { u, v, lens: [0.0; 2] }
     }
 
+    /// Returns the point of pixel (`x`, `y`) at a place, 0 … 1 from its left and from its top, a whole multiple of 2⁻³².
+    /// In its centre, it is that of a single sample.
+    #[inline(always)]
+    pub fn at(&self, (x, y): (u32, u32), (right, down): (f64, f64)) -> Point {
+        // Only the division rounds.
+        let place = |pixel: u32, within: f64, pixels: u32| {
+            let n = f64::from(pixels);
+            (2.0 * (f64::from(pixel) + within) - n) / (2.0 * n)
+        };
+        Point { u: place(x, right, self.width), v: -place(y, down, self.height), lens: [0.0; 2] }
+    }
+
     /// Returns a point of pixel (`x`, `y`), 0 … 1 from its left and from its top, and the point of the lens for two
     /// numbers from 0 to 1.
     pub fn point_within(&self, pixel: (u32, u32), within: (f64, f64), lens: [f64; 2]) -> Point {

@@ -13,7 +13,6 @@ mod area;
 mod attenuation;
 mod batch;
 mod behind;
-mod blur;
 mod bumpy;
 mod camera;
 mod counters;
@@ -35,6 +34,8 @@ mod projection;
 mod rainbow;
 mod reflection;
 mod refraction;
+mod rounds;
+mod sampler;
 mod samples;
 mod shade;
 mod shadow;
@@ -56,22 +57,23 @@ mod way;
 use crate::color::{Gamma, Rgb};
 use crate::film::{Channels, Film};
 use crate::geometry::{Geometry, Hit, Occluder};
-use crate::plan::{Antialias, Frame, Plan, Region};
+use crate::plan::{Frame, Plan, Region};
 use crate::world::World;
 
 use antialias::Edges;
 use area::Nodes;
 use batch::{Batch, Onwards};
-use camera::Lens;
 use media::Media;
+use pixels::Screen;
 use shadow::Filters;
-use sight::Sight;
-use tiles::Crew;
 use tracer::Tracer;
 use watch::Patience;
 
+pub(crate) use antialias::{FEW, expected, gain, of_edge};
 pub use counters::{Counters, Evaluations};
-pub use pixels::{Aim, Pixels, Sampling, Seen, pixels, seen};
+pub use pixels::{Aim, Sampling, Seen, aims, pixels};
+pub use sight::Sight;
+pub(crate) use tiles::Crew;
 pub use watch::{Limited, Unwatched, Watch};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -149,9 +151,8 @@ impl Walk {
 
 /// Traces the frame's region.
 ///
-/// Adaptive antialiasing passes over the whole film twice: one ray through each pixel's centre
-/// (and through those of a border one pixel wide around a region), then `grid` × `grid` samples
-/// instead in each pixel that differs from a neighbour.
+/// Adaptive antialiasing passes over the whole film twice: one ray through each pixel's centre (and through those of a
+/// border around a region), then more samples in each pixel near an edge, as many as its samples call for.
 pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Watch) -> Traced {
     trace_in(world, &geometry(world, plan, options), plan, options, watch)
 }
@@ -185,80 +186,35 @@ pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry 
 /// Traces the region. A function of its own, so that its instructions can be counted.
 #[inline(never)]
 fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew) -> Traced {
-    let Frame { width, height, region } = plan.frame;
-    let lens = Lens::new(&tracer.world.camera, width, height).sampled(plan.blur_samples);
-    let channels = Channels::with(plan.alpha);
-    let gamma = tracer.world.settings.assumed_gamma;
-    let empty = |region| Film { channels, ..Film::new(Frame { region, ..plan.frame }, gamma) };
-    let uniform = |film, which, grid| {
+    let (screen, channels) = (Screen::new(tracer, plan), Channels::with(plan.alpha));
+    let pass = |region, which| {
+        let frame = Frame { region, ..plan.frame };
+        let film = Traced::unbegun(frame, tracer.world.settings.assumed_gamma, channels).film;
         crew.pass(film, which, |walk, places, pixels| {
-            sampled(tracer, &lens, walk, places, |_| grid, pixels);
+            screen.sample(walk, places, |i, sums| pixels[i] = sums.pixel());
         })
     };
-    if let Some(focus) = lens.focus() {
-        return crew.pass(empty(region), (0, 1), |walk, places, pixels| {
-            pixels.extend(tracer.blurred(walk, &lens, focus, places));
-        });
-    }
-    match plan.antialias {
-        Antialias::Off => uniform(empty(region), (0, 1), 1),
-        Antialias::Grid(grid) => uniform(empty(region), (0, 1), grid.max(1)),
-        Antialias::Adaptive { threshold, grid } => {
-            let border = grown(region, width, height);
-            let first = uniform(empty(border), (0, 2), 1);
-            let edges = first.complete.then(|| Edges::found_by(crew, &first.film, threshold));
-            let film = first.film.crop(region);
-            let Some(edges) = edges else { return Traced { film, ..first } };
-            let mut second = crew.pass(film, (1, 2), |walk, places, pixels| {
-                let finer = |(x, y)| match edges.has(x, y) {
-                    true => grid.max(1),
-                    false => 0,
-                };
-                sampled(tracer, &lens, walk, places, finer, pixels);
-            });
-            second.counters += first.counters;
-            second
-        }
-    }
+    let region = plan.frame.region;
+    let Some(adaptive) = screen.adaptive() else { return pass(region, (0, 1)) };
+    let first = pass(grown(region, Edges::REACH, plan.frame), (0, 2));
+    let edges = first.complete.then(|| Edges::new(crew, &first.film, adaptive));
+    let film = first.film.crop(region);
+    let Some(edges) = edges else { return Traced { film, ..first } };
+    let mut second = crew.pass(film, (1, 2), |walk, places, pixels| {
+        let before = pixels.to_vec();
+        screen.refine(walk, &edges, places, &before, |i, sums| pixels[i] = sums.pixel());
+    });
+    second.counters += first.counters;
+    second
 }
 
-/// The mean of a pixel's samples, and how many.
-type Sampled = (Sight, u32);
-
-/// Samples pixels side by side: each by `grid` × `grid` samples, whose mean is taken in a fixed order. `None` where
-/// `grid` is 0, and where the watch wanted no more.
-fn sampled(
-    tracer: &Tracer,
-    lens: &Lens,
-    walk: &mut Walk,
-    places: &[(u32, u32)],
-    grid: impl Fn((u32, u32)) -> u32,
-    pixels: &mut Vec<Option<Sampled>>,
-) {
-    let grids: Vec<u32> = places.iter().map(|&place| grid(place)).collect();
-    let points = places.iter().zip(&grids).flat_map(|(&place, &grid)| {
-        (0..grid).flat_map(move |j| (0..grid).map(move |i| lens.point(place, (i, j), grid)))
-    });
-    let mut sum = (Sight::NOTHING, 0);
-    tracer.each_sample(walk, lens, points, |seen| {
-        while grids[pixels.len()] == 0 {
-            pixels.push(None);
-        }
-        let grid = grids[pixels.len()];
-        sum = (sum.0 + seen, sum.1 + 1);
-        if sum.1 == grid * grid {
-            pixels.push(Some((sum.0.mean(f64::from(sum.1)), sum.1)));
-            sum = (Sight::NOTHING, 0);
-        }
-    });
-    pixels.resize(places.len(), None);
-}
-
-/// The region and the pixels around it.
-fn grown(region: Region, width: u32, height: u32) -> Region {
-    let (x, y) = (region.x.saturating_sub(1), region.y.saturating_sub(1));
-    let right = (region.x + region.width + 1).min(width);
-    let bottom = (region.y + region.height + 1).min(height);
+/// The region and the pixels around it that are at most `reach` away.
+fn grown(region: Region, reach: u32, Frame { width, height, .. }: Frame) -> Region {
+    let before = |start: u32| start.saturating_sub(reach);
+    let behind = |end: u32, all: u32| end.saturating_add(reach).min(all);
+    let (x, y) = (before(region.x), before(region.y));
+    let right = behind(region.x + region.width, width);
+    let bottom = behind(region.y + region.height, height);
     Region { x, y, width: right - x, height: bottom - y }
 }
 

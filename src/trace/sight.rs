@@ -7,7 +7,7 @@ use crate::film::Pixel;
 
 /// What is seen along a ray of the camera, or its sum or mean over several.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sight {
+pub struct Sight {
     pub radiance: Rgb,
     /// How much of it is not the background, 0 … 1; 1 if that is not asked for.
     pub opacity: f64,

@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-use super::{Counters, Sampled, TraceOptions, Traced, Walk, Watch};
+use super::{Counters, TraceOptions, Traced, Walk, Watch};
 use crate::film::{Film, Pixel};
 use crate::plan::Region;
 
@@ -23,7 +23,7 @@ const BLOCKS: usize = 2;
 const PART: usize = 16;
 
 /// The threads and who waits for them.
-pub(super) struct Crew<'a> {
+pub struct Crew<'a> {
     /// `None` when the system grants no threads: then the caller's does all.
     pool: Option<rayon::ThreadPool>,
     /// Of a tile, in pixels.
@@ -40,26 +40,22 @@ impl<'a> Crew<'a> {
         Self { pool, side: options.tile_side.unwrap_or(SIDE).max(1) as usize, watch }
     }
 
-    /// Computes something for each thing of a list, begun in the list's order, and the work it was;
-    /// `None` for those that were not done when the watch stopped it.
-    pub fn each<I: Sync, T: Send>(
+    /// Computes something for each thing of a list, some of them at once and begun in the list's order, and the work it
+    /// was; `None` for those that were not done when the watch stopped it.
+    pub(super) fn each<I: Sync, T: Clone + Send>(
         &self,
         list: &[I],
-        one: impl Fn(&mut Walk, &I) -> T + Sync,
+        some: impl Fn(&mut Walk, &[I]) -> Vec<Option<T>> + Sync,
     ) -> (Vec<Option<T>>, Counters) {
         let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
         let work = |(number, part): (usize, &[I])| {
             let mut walk = Walk::default();
-            let mut values = Vec::new();
             walk.patience.is_over = stopped.load(Ordering::Relaxed);
             walk.patience.ask(self.watch);
-            for thing in part {
-                if walk.patience.is_over {
-                    break;
-                }
-                let value = one(&mut walk, thing);
-                values.push((!walk.patience.is_over).then_some(value));
-            }
+            let values = match walk.patience.is_over {
+                true => vec![None; part.len()],
+                false => some(&mut walk, part),
+            };
             stopped.fetch_or(walk.patience.is_over, Ordering::Relaxed);
             let done = done.fetch_add(part.len(), Ordering::Relaxed) + part.len();
             self.watch.progress(done, list.len());
@@ -74,16 +70,15 @@ impl<'a> Crew<'a> {
         parts.sort_unstable_by_key(|&(number, ..)| number);
         let mut all = Vec::with_capacity(list.len());
         let mut counters = Counters::default();
-        for (number, values, these) in parts {
+        for (_, values, these) in parts {
             all.extend(values);
-            all.resize_with(list.len().min(PART * (number + 1)), || None);
             counters += these;
         }
         (all, counters)
     }
 
     /// Computes parts of a list, `length` values long but for the last, each by its number.
-    pub fn bands<T: Send>(
+    pub(super) fn bands<T: Send>(
         &self,
         list: &mut [T],
         length: usize,
@@ -96,13 +91,30 @@ impl<'a> Crew<'a> {
         }
     }
 
-    /// Computes the pixels of `film`, `which.0` being the number of this pass among `which.1`: `sampled` adds what is
-    /// seen of each place of a list; `None` leaves a pixel as it is. Neighbours are next to each other in the list.
-    pub fn pass(
+    /// Computes a value for each number below `count`, `length` of them at once; `None` if the watch stopped it.
+    pub fn map<T: Clone + Default + Send>(
+        &self,
+        count: usize,
+        length: usize,
+        one: impl Fn(usize) -> T + Sync,
+    ) -> Option<Vec<T>> {
+        let mut values = vec![T::default(); count];
+        self.bands(&mut values, length, |number, values| {
+            if !self.watch.should_stop() {
+                let numbered = (number * length..).zip(values);
+                numbered.for_each(|(number, value)| *value = one(number));
+            }
+        });
+        (!self.watch.should_stop()).then_some(values)
+    }
+
+    /// Computes the pixels of `film`, `which.0` being the number of this pass among `which.1`: `sample` changes those at
+    /// the places of a list. Neighbours are next to each other in the list.
+    pub(super) fn pass(
         &self,
         mut film: Film,
         which: (usize, usize),
-        sampled: impl Fn(&mut Walk, &[(u32, u32)], &mut Vec<Option<Sampled>>) + Sync,
+        sample: impl Fn(&mut Walk, &[(u32, u32)], &mut [Pixel]) + Sync,
     ) -> Traced {
         let tiles = tiles(&mut film, self.side);
         let total = tiles.len();
@@ -134,12 +146,12 @@ impl<'a> Crew<'a> {
                         }));
                     }
                 }
-                sampled(walk, &places, &mut pixels);
-                for (place, pixel) in places.iter().zip(&pixels) {
-                    if let Some((mean, samples)) = *pixel {
-                        let row = &mut rows[(place.1 - y) as usize];
-                        row[(place.0 - tile.x) as usize] = mean.pixel(samples);
-                    }
+                let of = |place: (u32, u32)| ((place.1 - y) as usize, (place.0 - tile.x) as usize);
+                let at = places.iter().map(|&place| of(place));
+                pixels.extend(at.clone().map(|(row, column)| rows[row][column]));
+                sample(walk, &places, &mut pixels);
+                for ((row, column), &pixel) in at.zip(&pixels) {
+                    rows[row][column] = pixel;
                 }
             }
             if walk.patience.is_over {

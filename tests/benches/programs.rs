@@ -25,7 +25,7 @@ impl Cost {
     }
 }
 
-/// Renders a scene with one ray a pixel, and on one thread unless the flags say how many.
+/// Renders a scene with one ray a pixel and on one thread, unless the flags say how many.
 ///
 /// # Errors
 /// Returns what the program said where it failed.
@@ -36,9 +36,10 @@ pub fn lucarne(
     flags: &[&str],
 ) -> Result<Cost, String> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_lucarne"));
-    command.args(["render", "--antialias", "off", "--stats=json"]);
-    if !flags.iter().any(|flag| flag.starts_with("--threads")) {
-        command.arg("--threads=1");
+    command.args(["render", "--stats=json"]);
+    for own in ["--antialias=off", "--threads=1"] {
+        let name = own.split('=').next().unwrap_or(own);
+        command.args((!flags.iter().any(|flag| flag.starts_with(name))).then_some(own));
     }
     command.arg(format!("--size={}x{}", size.0, size.1)).args(flags);
     let output = ended(command.arg("-o").args([picture, source]))?;

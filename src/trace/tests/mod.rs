@@ -10,12 +10,13 @@ mod projection;
 mod single;
 mod work;
 
+use super::camera::Lens;
 use super::*;
 use crate::color::{Color, Rgb};
 use crate::math::placement::Map;
 use crate::math::{Matrix, UnitVector, Vector};
 use crate::pattern::{Checker, Gradient, Kind, Setting, Wave};
-use crate::plan::{Effect, PlanOptions, plan};
+use crate::plan::{Antialias, Effect, PlanOptions, plan};
 use crate::shape::{Box_, Plane, Shape, Sphere};
 use crate::texture::space::Start;
 use crate::texture::{Blend, Pattern, Source, Space, Step};
@@ -192,8 +193,8 @@ fn traced(world: &World, width: u32, height: u32, antialias: Antialias) -> Trace
 /// What the camera's central ray sees, before a film rounds it.
 fn centre(world: &World) -> Rgb {
     let plan = plan(world, &Origins::default(), &options(1, 1, Antialias::Off));
-    let aim = Aim { place: (0, 0), side: 1, seed: None };
+    let first = Sampling::Numbered { first: 0, end: 1, sum: Sight::NOTHING };
     let (geometry, threads) = (Geometry::build(world), TraceOptions::on_threads(1));
-    let (seen, _) = seen(world, &geometry, &plan, &[aim], &threads, &Unwatched);
-    seen[0].expect("not stopped").mean
+    let (seen, _) = pixels(world, &geometry, &plan, &[((0, 0), first)], &threads, &Unwatched);
+    seen[0].expect("not stopped").mean.radiance
 }

@@ -13,15 +13,20 @@ fn scattered(region: Region) -> Vec<(u32, u32)> {
         .collect()
 }
 
-fn some(plan: &Plan, world: &World, list: &[(u32, u32)], sampling: Sampling) -> Pixels {
-    let geometry = Geometry::build(world);
-    let threads = TraceOptions::on_threads(1);
-    let alone = pixels(world, &geometry, plan, list, sampling, &threads, &Unwatched);
-    let threads = TraceOptions::on_threads(3);
-    let shared = pixels(world, &geometry, plan, list, sampling, &threads, &Unwatched);
-    assert_eq!(alone, shared, "threads");
-    assert!(alone.radiance.iter().all(Option::is_some));
-    alone
+fn some(
+    plan: &Plan,
+    world: &World,
+    list: &[(u32, u32)],
+    sampling: Sampling,
+) -> (Vec<Sight>, Counters) {
+    let (geometry, aims) = (Geometry::build(world), aims(list, sampling));
+    let by = |threads| {
+        let threads = TraceOptions::on_threads(threads);
+        pixels(world, &geometry, plan, &aims, &threads, &Unwatched)
+    };
+    let (seen, counters) = by(1);
+    assert_eq!((&seen, counters), (&by(3).0, by(3).1), "threads");
+    (seen.into_iter().map(|seen| seen.expect("not stopped").mean).collect(), counters)
 }
 
 #[test]
@@ -41,15 +46,9 @@ fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
             let plan = plan(&world, &Origins::default(), &options);
             let traced = traced_by(&world, &plan);
             let list = scattered(region);
-            let single = some(&plan, &world, &list, Sampling::Planned);
-            let seen = single.radiance.iter().zip(&single.opacity);
-            for (&(x, y), (&radiance, &opacity)) in list.iter().zip(seen) {
-                let pixel = traced.film.pixels[traced.film.index(x, y)];
-                assert_eq!(
-                    (radiance, opacity),
-                    (Some(pixel.radiance()), pixel.opacity()),
-                    "{x} {y}"
-                );
+            let (single, counters) = some(&plan, &world, &list, Sampling::Planned);
+            for (&(x, y), seen) in list.iter().zip(single) {
+                assert_eq!(seen, traced.film.pixels[traced.film.index(x, y)].into(), "{x} {y}");
             }
             let border = matches!(antialias, Antialias::Adaptive { .. }) && region.x > 0;
             // What last shadowed a ray is another where the pixels come in another order.
@@ -58,7 +57,7 @@ fn a_planned_pixel_has_the_films_bits_whatever_the_antialiasing() {
                 evaluations: Evaluations::default(),
                 ..counters
             };
-            assert!(border || sent(single.counters) == sent(traced.counters), "{antialias:?}");
+            assert!(border || sent(counters) == sent(traced.counters), "{antialias:?}");
         }
     }
 }
@@ -68,15 +67,14 @@ fn jittered_samples_agree_with_a_fine_grid_and_differ_by_their_seed() {
     let world = varied();
     let plan = plan(&world, &Origins::default(), &options(16, 12, Antialias::Grid(24)));
     let list = scattered(plan.frame.region);
-    let fine = some(&plan, &world, &list, Sampling::Planned);
+    let (fine, _) = some(&plan, &world, &list, Sampling::Planned);
     let jittered = |seed| some(&plan, &world, &list, Sampling::Jittered { side: 12, seed });
-    let (one, other) = (jittered(1), jittered(2));
-    assert_ne!(one.radiance, other.radiance);
-    assert_eq!(one.counters.camera, list.len() as u64 * 144);
-    let green = |seen: &Option<Rgb>| seen.expect("not stopped").green;
-    let off = |a: &Option<Rgb>, b: &Option<Rgb>| (green(a) - green(b)).powi(2);
-    let rms = |a: &Pixels, b: &Pixels| {
-        let sum: f64 = a.radiance.iter().zip(&b.radiance).map(|(a, b)| off(a, b)).sum();
+    let ((one, counters), (other, _)) = (jittered(1), jittered(2));
+    assert_ne!(one, other);
+    assert_eq!(counters.camera, list.len() as u64 * 144);
+    let rms = |a: &[Sight], b: &[Sight]| {
+        let off = |(a, b): (&Sight, &Sight)| (a.radiance.green - b.radiance.green).powi(2);
+        let sum: f64 = a.iter().zip(b).map(off).sum();
         (sum / list.len() as f64).sqrt()
     };
     let (noise, bias) = (rms(&one, &other), rms(&one, &fine));
