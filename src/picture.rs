@@ -10,10 +10,12 @@ mod tiff;
 
 use std::io::{Cursor, Error, Result, Write};
 
+use image::codecs::bmp::BmpEncoder;
 use image::codecs::hdr::HdrEncoder;
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::qoi::QoiEncoder;
+use image::codecs::tga::TgaEncoder;
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use png::EncodingError;
 
@@ -34,6 +36,10 @@ pub enum Format {
     Ppm,
     /// 8 bits, lossless.
     Qoi,
+    /// Targa: 8 bits, lossless.
+    Tga,
+    /// 8 bits, uncompressed.
+    Bmp,
     /// Radiance: linear light, 8 bits and a shared exponent.
     Hdr,
     /// OpenEXR: linear light, 32-bit floats.
@@ -41,7 +47,8 @@ pub enum Format {
 }
 
 impl Format {
-    pub const ALL: [Self; 6] = [Self::Png, Self::Jpeg, Self::Ppm, Self::Qoi, Self::Hdr, Self::Exr];
+    pub const ALL: [Self; 8] =
+        [Self::Png, Self::Jpeg, Self::Ppm, Self::Qoi, Self::Tga, Self::Bmp, Self::Hdr, Self::Exr];
 
     /// Returns the file name extensions of this format; the first is the usual one.
     pub fn extensions(self) -> &'static [&'static str] {
@@ -50,6 +57,8 @@ impl Format {
             Self::Jpeg => &["jpg", "jpeg"],
             Self::Ppm => &["ppm"],
             Self::Qoi => &["qoi"],
+            Self::Tga => &["tga"],
+            Self::Bmp => &["bmp"],
             Self::Hdr => &["hdr"],
             Self::Exr => &["exr"],
         }
@@ -66,7 +75,8 @@ impl Format {
     pub fn depth(self, bits: Option<u8>) -> Option<Depth> {
         match (self, bits) {
             (Self::Hdr | Self::Exr, None | Some(32)) => Some(Depth::Linear),
-            (Self::Png | Self::Jpeg | Self::Ppm | Self::Qoi, None | Some(8)) => Some(Depth::Eight),
+            (Self::Hdr | Self::Exr, _) => None,
+            (_, None | Some(8)) => Some(Depth::Eight),
             (Self::Png | Self::Ppm, Some(16)) => Some(Depth::Sixteen),
             _ => None,
         }
@@ -75,7 +85,7 @@ impl Format {
     /// Whether a picture of this format can have an alpha channel.
     pub fn holds_alpha(self) -> bool {
         match self {
-            Self::Png | Self::Qoi | Self::Exr => true,
+            Self::Png | Self::Qoi | Self::Tga | Self::Bmp | Self::Exr => true,
             Self::Jpeg | Self::Ppm | Self::Hdr => false,
         }
     }
@@ -89,7 +99,14 @@ impl Format {
             Self::Qoi if u64::from(width) * u64::from(height) > 400_000_000 => {
                 Some("a .qoi picture has at most 400000000 pixels".to_owned())
             }
-            Self::Jpeg | Self::Qoi | Self::Png | Self::Ppm | Self::Hdr | Self::Exr => None,
+            Self::Tga if width.max(height) > 65_535 => {
+                Some("a .tga picture is at most 65535 pixels wide and high".to_owned())
+            }
+            // The size of the file has 32 bits.
+            Self::Bmp if u64::from(width) * u64::from(height) > 1 << 30 => {
+                Some("a .bmp picture has at most 1073741824 pixels".to_owned())
+            }
+            _ => None,
         }
     }
 
@@ -99,7 +116,7 @@ impl Format {
         let channels = channels.count() as u64;
         match self {
             Self::Png | Self::Ppm => 0,
-            Self::Jpeg => channels,
+            Self::Jpeg | Self::Tga | Self::Bmp => channels,
             // The colours of the file may be one byte longer.
             Self::Qoi => channels + (channels + 1),
             Self::Hdr => 4 * channels,
@@ -114,7 +131,7 @@ impl Format {
             (Self::Ppm, Depth::Eight) => ppm_header(width, height, 255).len() as u64 + 3 * pixels,
             (Self::Ppm, _) => ppm_header(width, height, 65_535).len() as u64 + 6 * pixels,
             // A header, and a bit for every hundred pixels or so.
-            (Self::Png | Self::Jpeg | Self::Qoi | Self::Hdr | Self::Exr, _) => 64 + pixels / 1000,
+            _ => 64 + pixels / 1000,
         }
     }
 }
@@ -150,6 +167,8 @@ pub fn write(
         Format::Jpeg => {
             JpegEncoder::new_with_quality(out, 92).write_image(&whole(), width, height, color)
         }
+        Format::Tga => TgaEncoder::new(out).write_image(&whole(), width, height, color),
+        Format::Bmp => BmpEncoder::new(&mut &mut *out).write_image(&whole(), width, height, color),
         Format::Qoi => QoiEncoder::new(out).write_image(&whole(), width, height, color),
         Format::Hdr => HdrEncoder::new(out).write_image(&whole(), width, height, color),
         Format::Exr => {
@@ -242,160 +261,16 @@ fn ppm_header(width: u32, height: u32, last: u32) -> String {
 
 /// Returns whether a file that starts with these bytes is a picture, in one of our formats or another.
 pub fn is_picture(start: &[u8]) -> bool {
-    image::guess_format(start).is_ok()
+    image::guess_format(start).is_ok() || is_tga(start)
+}
+
+/// A TGA has no mark, but no text starts with such numbers: whether there is a palette, the kind of pixels, and their bits.
+///
+/// **Source:** Truevision TGA File Format Specification 2.0, 1991, fields 2, 3 and 5.5.
+fn is_tga(start: &[u8]) -> bool {
+    matches!(start.get(1..3), Some([0 | 1, 1..=3 | 9..=11]))
+        && matches!(start.get(16), Some(8 | 15 | 16 | 24 | 32))
 }
 
 #[cfg(test)]
-mod tests {
-    use std::io::ErrorKind;
-
-    use super::*;
-    use crate::color::{Gamma, Rgb};
-    use crate::film::{Pixel, develop};
-    use crate::plan::Frame;
-
-    /// A film with many colours.
-    fn film() -> Film {
-        let frame = Frame::whole(31, 17);
-        let parts = |i: u32| [i % 256, (i * 7) % 256, (i * 31) % 256].map(|c| f64::from(c) / 255.0);
-        let colors = (0..31 * 17).map(parts).map(|[r, g, b]| Rgb::new(r, g, b));
-        let pixel = |color: Rgb| Pixel::new(color, 1).with_opacity(1.0 - color.blue);
-        let pixels = colors.map(pixel).collect();
-        Film { pixels, ..Film::new(frame, Gamma::LINEAR) }
-    }
-
-    #[test]
-    fn lossless_formats_give_back_every_pixel() {
-        for (format, bits) in [
-            (Format::Png, None),
-            (Format::Png, Some(16)),
-            (Format::Ppm, None),
-            (Format::Ppm, Some(16)),
-            (Format::Qoi, None),
-            (Format::Exr, None),
-        ] {
-            let depth = format.depth(bits).expect("a depth");
-            let image = develop(&film(), depth);
-            let bytes = encode(&film(), depth, format).expect("encodes");
-            let read = image::load_from_memory(&bytes).expect("a picture");
-            assert_eq!((read.width(), read.height()), (image.width, image.height));
-            match image.components {
-                Components::Eight(all) => assert_eq!(read.to_rgb8().into_raw(), all),
-                Components::Sixteen(all) => assert_eq!(read.to_rgb16().into_raw(), all),
-                Components::Linear(all) => assert_eq!(read.to_rgb32f().into_raw(), all),
-            }
-            let film = Film { channels: Channels::Rgba, ..film() };
-            let clear = encode(&film, depth, format);
-            assert_eq!(clear.is_ok(), format.holds_alpha(), "{format:?}");
-            let Ok(bytes) = clear else { continue };
-            let read = image::load_from_memory(&bytes).expect("a picture");
-            match develop(&film, depth).components {
-                Components::Eight(all) => assert_eq!(read.to_rgba8().into_raw(), all),
-                Components::Sixteen(all) => assert_eq!(read.to_rgba16().into_raw(), all),
-                Components::Linear(all) => assert_eq!(read.to_rgba32f().into_raw(), all),
-            }
-        }
-    }
-
-    #[test]
-    fn lossy_formats_give_back_nearly_every_pixel() {
-        let read = encode(&film(), Depth::Linear, Format::Hdr).expect("encodes");
-        let read = image::load_from_memory(&read).expect("a picture").to_rgb32f();
-        for (seen, color) in read.pixels().zip(film().radiances()) {
-            for (a, b) in seen.0.iter().zip(color.components()) {
-                assert!((f64::from(*a) - b).abs() <= color.largest() / 100.0, "{seen:?} {color}");
-            }
-        }
-        let mut flat = film();
-        flat.pixels.fill(Pixel::new(Rgb::new(0.6, 0.1, 0.03), 1));
-        let read = encode(&flat, Depth::Eight, Format::Jpeg).expect("encodes");
-        let read = image::load_from_memory(&read).expect("a picture").to_rgb8();
-        let Components::Eight(all) = develop(&flat, Depth::Eight).components else { panic!() };
-        assert_eq!(read.len(), all.len());
-        assert!(read.iter().zip(&all).all(|(a, b)| a.abs_diff(*b) <= 2));
-    }
-
-    #[test]
-    fn a_png_names_its_curve_and_no_date() {
-        let bytes = encode(&film(), Depth::Eight, Format::Png).expect("encodes");
-        let chunks: Vec<&[u8]> = bytes.windows(4).collect();
-        for name in [b"sRGB", b"gAMA"] {
-            assert!(chunks.contains(&name.as_slice()));
-        }
-        for name in [b"tIME", b"tEXt"] {
-            assert!(!chunks.contains(&name.as_slice()));
-        }
-    }
-
-    #[test]
-    fn the_same_film_gives_the_same_bytes_and_each_is_known_as_a_picture() {
-        for format in Format::ALL {
-            let depth = format.depth(None).expect("a depth");
-            let bytes = encode(&film(), depth, format).expect("encodes");
-            assert_eq!(encode(&film(), depth, format).expect("encodes"), bytes);
-            assert!(is_picture(&bytes), "{format:?}");
-        }
-        assert!(!is_picture(b"sphere { 0, 1 }") && !is_picture(b""));
-    }
-
-    #[test]
-    fn a_format_refuses_what_it_cannot_hold() {
-        assert_eq!(Format::Jpeg.depth(Some(16)), None);
-        assert_eq!(Format::Exr.depth(Some(8)), None);
-        for format in [Format::Jpeg, Format::Qoi, Format::Hdr] {
-            assert!(encode(&film(), Depth::Sixteen, format).is_err());
-        }
-        for format in [Format::Png, Format::Ppm] {
-            assert!(encode(&film(), Depth::Linear, format).is_err());
-        }
-        let film = Film { channels: Channels::Rgba, ..film() };
-        for format in Format::ALL {
-            let depth = format.depth(None).expect("a depth");
-            assert_eq!(encode(&film, depth, format).is_ok(), format.holds_alpha(), "{format:?}");
-        }
-        let wide = Film::new(Frame::whole(70_000, 1), Gamma::LINEAR);
-        assert!(encode(&wide, Depth::Eight, Format::Jpeg).is_err());
-        assert!(Format::Jpeg.too_large(70_000, 1).is_some());
-    }
-
-    #[test]
-    fn the_error_of_the_writer_is_returned() {
-        struct Full;
-        impl Write for Full {
-            fn write(&mut self, _: &[u8]) -> Result<usize> {
-                Err(ErrorKind::StorageFull.into())
-            }
-            fn flush(&mut self) -> Result<()> {
-                Ok(())
-            }
-        }
-        for format in Format::ALL {
-            let depth = format.depth(None).expect("a depth");
-            let developer = Developer::new(depth, Gamma::LINEAR, 0);
-            let error = write(&film(), &developer, format, &mut Full).expect_err("full");
-            assert_eq!(error.kind(), ErrorKind::StorageFull, "{format:?}");
-        }
-    }
-
-    #[test]
-    fn no_file_is_smaller_than_said_and_a_ppm_is_as_large() {
-        for (format, bits) in Format::ALL
-            .map(|format| (format, None))
-            .into_iter()
-            .chain([(Format::Png, Some(16)), (Format::Ppm, Some(16))])
-        {
-            let depth = format.depth(bits).expect("a depth");
-            let size = encode(&film(), depth, format).expect("encodes").len() as u64;
-            let least = format.least_bytes(depth, 31, 17);
-            assert!(least <= size, "{format:?}: {least} {size}");
-            assert!(format != Format::Ppm || least == size, "{least} {size}");
-        }
-    }
-
-    #[test]
-    fn extensions_are_known_in_any_case() {
-        assert_eq!(Format::from_extension("PNG"), Some(Format::Png));
-        assert_eq!(Format::from_extension("jpeg"), Some(Format::Jpeg));
-        assert_eq!(Format::from_extension("gif"), None);
-    }
-}
+mod tests;

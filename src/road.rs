@@ -6,6 +6,7 @@
 
 mod again;
 mod dark;
+mod dialect;
 mod echo;
 mod unread;
 
@@ -18,6 +19,8 @@ use crate::syntax::ast::Ast;
 use crate::syntax::{ParseOptions, legacy, parse};
 use crate::vocabulary::is_standard_include;
 use crate::world::{Origins, World};
+
+pub use dialect::{dialect, sign_of_povray};
 
 /// Options of the compilation.
 #[derive(Debug, Clone)]
@@ -44,15 +47,6 @@ impl Options {
             coinciding: false,
             evaluate,
         }
-    }
-}
-
-/// Returns the dialect of a main file by its name: POV-Ray's for `.pov` and `.inc`, else the native one.
-pub fn dialect(name: &str) -> Dialect {
-    let lower = name.to_lowercase();
-    match lower.ends_with(".pov") || lower.ends_with(".inc") {
-        true => Dialect::Pov,
-        false => Dialect::Scene,
     }
 }
 
@@ -259,12 +253,5 @@ mod tests {
         };
         assert_eq!(world(2), (0, 1));
         assert_eq!(world(100), (3, 0));
-    }
-
-    #[test]
-    fn the_extension_chooses_the_dialect() {
-        assert_eq!(dialect("a.POV"), Dialect::Pov);
-        assert_eq!(dialect("a.scene"), Dialect::Scene);
-        assert_eq!(dialect("pov"), Dialect::Scene);
     }
 }

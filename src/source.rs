@@ -2,8 +2,12 @@
 //!
 //! **Invariant:** a [`Source`] never changes after reading; every [`Span`] indexes into one.
 
+mod encoding;
+
 use std::collections::BTreeMap;
 use std::fmt;
+
+pub use encoding::{UTF_16, decode, is_utf_16, to_latin};
 
 /// Identifies one [`Source`] in [`Sources`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -344,6 +348,24 @@ pub fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\', ':']).next().unwrap_or(path)
 }
 
+/// Finds files by a function that returns the bytes of a name, if it knows it.
+///
+/// ```
+/// use lucarne::{RenderOptions, render};
+///
+/// let files = |name: &str| (name == "radius.inc").then(|| b"#declare Radius = 2;".to_vec());
+/// let text = "#include \"radius.inc\" sphere { 0, Radius pigment { rgb 1 } } camera { location 9*z look_at 0 }
+///     light_source { 9, rgb 1 }";
+/// render(text, &RenderOptions { files: &files, ..RenderOptions::of_size(8, 6) })?;
+/// # Ok::<(), lucarne::Messages>(())
+/// ```
+impl<F: Fn(&str) -> Option<Vec<u8>>> Files for F {
+    fn read(&self, name: &str, _: &str) -> Result<Found, FileError> {
+        let found = self(name).map(|bytes| Found { name: name.to_owned(), bytes });
+        found.ok_or_else(|| FileError::NotFound { searched: Vec::new(), similar: Vec::new() })
+    }
+}
+
 /// Provides no files, for texts that stand alone.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoFiles;
@@ -351,45 +373,6 @@ pub struct NoFiles;
 impl Files for NoFiles {
     fn read(&self, _: &str, _: &str) -> Result<Found, FileError> {
         Err(FileError::NotFound { searched: Vec::new(), similar: Vec::new() })
-    }
-}
-
-/// Typographic characters that Windows has where Latin-1 has none, with their bytes.
-///
-/// **Source:** the code page Windows-1252.
-const TYPOGRAPHY: [(u8, char); 8] = [
-    (0x85, '…'),
-    (0x91, '‘'),
-    (0x92, '’'),
-    (0x93, '“'),
-    (0x94, '”'),
-    (0x95, '•'),
-    (0x96, '–'),
-    (0x97, '—'),
-];
-
-/// Decodes a byte as Latin-1, or as one of the typographic characters of Windows-1252.
-fn from_latin(byte: u8) -> char {
-    TYPOGRAPHY.iter().find(|(own, _)| *own == byte).map_or(char::from(byte), |(_, sign)| *sign)
-}
-
-/// Returns the original bytes of a text that [`decode`] decoded as Latin-1, one per character.
-pub fn to_latin(text: &str) -> Vec<u8> {
-    let byte =
-        |c: char| TYPOGRAPHY.iter().find(|(_, sign)| *sign == c).map_or(c as u8, |own| own.0);
-    text.chars().map(byte).collect()
-}
-
-/// Decodes the bytes of a file as UTF-8 or, failing that, as Latin-1 with the typographic characters of
-/// Windows. The flag is `true` if the text was not UTF-8. Drops a byte order mark.
-pub fn decode(bytes: Vec<u8>) -> (String, bool) {
-    let (text, foreign) = match String::from_utf8(bytes) {
-        Ok(text) => (text, false),
-        Err(error) => (error.into_bytes().iter().map(|&byte| from_latin(byte)).collect(), true),
-    };
-    match text.strip_prefix('\u{feff}') {
-        Some(rest) => (rest.to_owned(), foreign),
-        None => (text, foreign),
     }
 }
 
@@ -416,15 +399,5 @@ mod tests {
         }
         assert_eq!(Source::new("a", "").position(0), Position { line: 1, column: 1 });
         assert_eq!(Source::new("a", "b".repeat(1024)).position(1024).column, 1025);
-    }
-
-    #[test]
-    fn bytes_that_are_not_utf_8_are_read_as_latin_1() {
-        assert_eq!(decode(vec![b'a', 0xe9]), ("aé".to_owned(), true));
-        let all: Vec<u8> = (0..=255).collect();
-        let (text, foreign) = decode(all.clone());
-        assert!(foreign && text.contains("“”"));
-        assert_eq!(to_latin(&text), all);
-        assert_eq!(decode("\u{feff}a".as_bytes().to_vec()), ("a".to_owned(), false));
     }
 }

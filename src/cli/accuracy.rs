@@ -17,7 +17,7 @@ use lucarne::trace::TraceOptions;
 
 use super::arguments::AccuracyArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::DiskFiles;
+use super::files;
 use super::heartbeat::duration;
 use super::messages;
 use super::output::{can_be_made, write_whole};
@@ -47,7 +47,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     let bytes = read_scene(&arguments.file)?;
     let dialect = arguments.scene.dialect(&arguments.file, &bytes);
     let life = progress::life("reading the scene");
-    let files = DiskFiles::of(&arguments.file, &arguments.scene);
+    let files = files::of(&arguments.file, &arguments.scene);
     let mut road = Road::new(&files, arguments.scene.options(dialect, Some(frame)));
     let name = name_of(&arguments.file);
     let (world, origins) = road.compile(&name, bytes);
@@ -56,7 +56,7 @@ pub fn run(arguments: &AccuracyArguments) -> Outcome {
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
-    files.announce(messages.exit() == Exit::Done)?;
+    files::announce(&files, messages.exit() == Exit::Done)?;
     match messages.exit() {
         Exit::Done => {}
         other => return Ok(other),

@@ -70,7 +70,7 @@ pub enum Command {
 pub struct RenderArguments {
     /// Scene to render: `.scene`, or `.pov` for POV-Ray; `-` reads standard input
     pub file: PathBuf,
-    /// Output file; the extension selects the format: png, jpg, ppm, qoi, hdr or exr; `-` writes a PNG to
+    /// Output file; the extension selects the format: png, jpg, ppm, qoi, tga, bmp, hdr or exr; `-` writes a PNG to
     /// standard output [default: the name of the scene with .png, in the current directory]
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
@@ -82,7 +82,7 @@ pub struct RenderArguments {
     #[arg(long, value_parser = clap::value_parser!(u8))]
     pub bits: Option<u8>,
     /// Write how opaque each pixel is, too: 1 where a ray ends on something, 0 where it sees nothing but the
-    /// background (for example `--alpha -o ball.png`); png, qoi and exr only
+    /// background (for example `--alpha -o ball.png`); png, qoi, tga, bmp and exr only
     #[arg(long)]
     pub alpha: bool,
     /// Choose settings that keep the error at or below E (for example 0.01, 1% or 2/255) and verify the

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use lucarne::diagnostic::mend::{apply, mend};
+use lucarne::disk::DiskFiles;
 use lucarne::road::Road;
 use lucarne::scene::Dialect;
 use lucarne::source::{FileId, Sources};
@@ -12,7 +13,7 @@ use lucarne::vocabulary::is_standard_include;
 
 use super::arguments::CheckArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::DiskFiles;
+use super::files;
 use super::language;
 use super::messages::{self, Messages};
 use super::output::write_over;
@@ -46,7 +47,7 @@ fn check(file: &Path, arguments: &CheckArguments, messages: &mut Messages) -> Re
         if arguments.places {
             messages::print(&places(&road.sources))?;
         }
-        files.announce(!road.diagnostics.has_errors())?;
+        files::announce(files, !road.diagnostics.has_errors())?;
         if road.diagnostics.is_empty() && !arguments.quiet {
             messages.nothing(&name_of(file));
         }
@@ -70,7 +71,7 @@ fn compiled<T>(
     arguments: &CheckArguments,
     then: impl FnOnce(&Road, &DiskFiles) -> T,
 ) -> T {
-    let files = DiskFiles::of(file, &arguments.scene);
+    let files = files::of(file, &arguments.scene);
     let mut road = Road::new(&files, arguments.options(file, dialect));
     let id = road.read(&name_of(file), bytes);
     let ast = road.parse(id);

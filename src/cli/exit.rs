@@ -57,12 +57,3 @@ impl Failure {
 
 /// Result of a command.
 pub type Outcome = Result<Exit, Failure>;
-
-/// Returns the operating system's reason as a clause, without the error number: `permission denied`.
-pub fn reason(error: &std::io::Error) -> String {
-    let text = error.to_string();
-    let text = text.split(" (os error").next().unwrap_or(&text);
-    let mut chars = text.chars();
-    let first = chars.next().map(|c| c.to_lowercase().to_string()).unwrap_or_default();
-    first + chars.as_str()
-}

@@ -9,9 +9,10 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use lucarne::diagnostic::{Code, Diagnostic, Severity, json, narrate, render};
+use lucarne::disk::reason;
 use lucarne::source::{Source, Sources, Span};
 
-use super::exit::{Exit, Failure, reason};
+use super::exit::{Exit, Failure};
 use super::text::name_of;
 
 /// Maximum number of errors, and of warnings, printed in the human format; the rest are only counted.

@@ -24,7 +24,6 @@ mod show;
 mod stats;
 mod text;
 mod values;
-mod written;
 
 use std::ffi::OsString;
 use std::panic;

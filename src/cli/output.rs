@@ -9,12 +9,13 @@ use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
+use lucarne::disk::reason;
 use lucarne::film::Depth;
 use lucarne::picture::{Format, is_picture};
 use lucarne::plan::Region;
 use lucarne::source::Sources;
 
-use super::exit::{Failure, reason};
+use super::exit::Failure;
 use super::messages;
 use super::text::is_stdin;
 

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::arguments::PlanArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::DiskFiles;
+use super::files;
 use super::messages;
 use super::text::{name_of, read_scene};
 
@@ -19,7 +19,7 @@ const INCOMPLETE: &str =
 pub fn run(arguments: &PlanArguments) -> Outcome {
     let frame = arguments.picture.frame(&arguments.scene)?;
     let bytes = read_scene(&arguments.file)?;
-    let files = DiskFiles::of(&arguments.file, &arguments.scene);
+    let files = files::of(&arguments.file, &arguments.scene);
     let dialect = arguments.scene.dialect(&arguments.file, &bytes);
     let mut options = arguments.scene.options(dialect, Some(frame));
     options.coinciding = true;
@@ -42,7 +42,7 @@ pub fn run(arguments: &PlanArguments) -> Outcome {
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
-    files.announce(messages.exit() == Exit::Done)?;
+    files::announce(&files, messages.exit() == Exit::Done)?;
     messages::print(&text)?;
     Ok::<Exit, Failure>(messages.exit())
 }

@@ -12,7 +12,7 @@ use lucarne::trace::TraceOptions;
 
 use super::arguments::RenderArguments;
 use super::exit::{Exit, Failure, Outcome};
-use super::files::DiskFiles;
+use super::files;
 use super::messages;
 use super::output::{Output, Picture};
 use super::progress::{self, Progress};
@@ -29,12 +29,12 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
         let bits = arguments.bits.unwrap_or_default();
         let name = format.extensions()[0];
         Failure::usage(format!("a .{name} picture cannot have {bits} bits a channel"))
-            .help("`--bits` may be 8 (png, jpg, ppm, qoi) or 16 (png, ppm)")
+            .help("`--bits` may be 8 (png, jpg, ppm, qoi, tga, bmp) or 16 (png, ppm)")
     })?;
     if arguments.alpha && !format.holds_alpha() {
         let name = format.extensions()[0];
         return Err(Failure::usage(format!("a .{name} picture cannot have an alpha channel"))
-            .help("with `--alpha`, write a .png, .qoi or .exr"));
+            .help("with `--alpha`, write a .png, .qoi, .tga, .bmp or .exr"));
     }
     let frame = arguments.picture.frame(&arguments.scene)?;
     let bytes = read_scene(&arguments.file)?;
@@ -44,7 +44,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
 
     let dialect = arguments.scene.dialect(&arguments.file, &bytes);
     let life = progress::life("reading the scene");
-    let files = DiskFiles::of(&arguments.file, &arguments.scene);
+    let files = files::of(&arguments.file, &arguments.scene);
     let options = arguments.scene.options(dialect, Some(frame));
     let mut road = Road::new(&files, options);
     watch.lap();
@@ -60,7 +60,7 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     messages.picture_on_stdout = output == Output::Stdout;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
-    files.settle(messages.exit() == Exit::Done)?;
+    files::settle(&files, messages.exit() == Exit::Done)?;
     match messages.exit() {
         Exit::Done => {}
         other => return Ok(other),

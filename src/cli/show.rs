@@ -6,7 +6,7 @@ use lucarne::{scene, syntax, world};
 
 use super::arguments::{PictureArguments, ShowArguments, Stage};
 use super::exit::{Exit, Failure, Outcome};
-use super::files::DiskFiles;
+use super::files;
 use super::messages;
 use super::scene::SceneArguments;
 use super::text::{name_of, read_scene};
@@ -24,7 +24,7 @@ pub fn show(
 ) -> Outcome {
     let frame = picture.frame(arguments)?;
     let bytes = read_scene(path)?;
-    let files = DiskFiles::of(path, arguments);
+    let files = files::of(path, arguments);
     let dialect = arguments.dialect(path, &bytes);
     let mut road = Road::new(&files, arguments.options(dialect, Some(frame)));
     let file = road.read(&name_of(path), bytes);
@@ -53,7 +53,7 @@ pub fn show(
     messages.picture_on_stdout = true;
     messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
     messages.summarize();
-    files.announce(messages.exit() == Exit::Done)?;
+    files::announce(&files, messages.exit() == Exit::Done)?;
     messages::print(&text)?;
     Ok::<Exit, Failure>(messages.exit())
 }

@@ -6,12 +6,10 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use lucarne::diagnostic::suggest::closest;
+use lucarne::disk::{LARGEST, or_here, reason};
+use lucarne::source::{UTF_16, is_utf_16};
 
-use super::exit::{Exit, Failure, reason};
-use super::files::or_here;
-
-/// Largest file size that is read, in bytes: text positions have 32 bits.
-pub const LARGEST: u64 = 1 << 30;
+use super::exit::{Exit, Failure};
 
 /// Whether the path is `-`, for standard input.
 pub fn is_stdin(path: &Path) -> bool {
@@ -89,19 +87,6 @@ fn is_binary(bytes: &[u8]) -> bool {
     start.iter().filter(|byte| **byte == 0).count() > 2
 }
 
-pub const UTF_16: &str = "it is UTF-16";
-
-/// Whether the text is UTF-16: it has a byte order mark, or almost every other byte is zero. A picture
-/// starts with letters that identify its format, whatever its samples are.
-pub fn is_utf_16(bytes: &[u8]) -> bool {
-    let pairs = bytes[..bytes.len().min(4096)].as_chunks::<2>().0;
-    let zeros = |at: usize| pairs.iter().filter(|pair| pair[at] == 0).count();
-    let most = pairs.len() - pairs.len() / 8;
-    let is_half_empty = |at: usize| zeros(at) >= most && zeros(1 - at) == 0;
-    matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..])
-        || pairs.len() > 8 && [0, 1].into_iter().any(|at| pairs[0][at] == 0 && is_half_empty(at))
-}
-
 /// Returns a similar name in the same folder, or this name with the extension of a scene.
 fn near(path: &Path) -> Option<String> {
     if let Some(scene) = as_scene(path) {
@@ -126,21 +111,6 @@ pub fn as_scene(path: &Path) -> Option<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn utf_16_is_known_by_its_mark_or_its_zeros() {
-        let wide = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
-        let text = "sphere { 0, 1 } // caf\u{e9} \u{2014}";
-        assert!(is_utf_16(&wide(&format!("\u{feff}{text}"))));
-        assert!(is_utf_16(&wide(text)));
-        let swapped: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
-        assert!(is_utf_16(&swapped));
-        assert!(!is_utf_16(text.as_bytes()) && !is_utf_16(&[0; 64]) && !is_utf_16(b""));
-        // Heights of 8 bits in a picture of 16.
-        let heights = (1..200).flat_map(|height| [height, 0]);
-        let picture: Vec<u8> = b"P5 199 1 65535\n".iter().copied().chain(heights).collect();
-        assert!(!is_utf_16(&picture));
-    }
 
     #[test]
     fn a_folder_is_no_scene() {

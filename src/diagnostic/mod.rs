@@ -11,6 +11,7 @@ mod excerpt;
 pub mod json;
 mod level;
 pub mod mend;
+mod messages;
 pub mod narrate;
 mod quote;
 pub mod render;
@@ -20,6 +21,7 @@ mod wrap;
 pub use allowance::{Allowance, allowances};
 pub use code::Code;
 pub use level::{Level, Levels};
+pub use messages::Messages;
 
 use std::collections::HashMap;
 

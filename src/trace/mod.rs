@@ -74,7 +74,7 @@ pub use counters::{Counters, Evaluations};
 pub use pixels::{Aim, Sampling, Seen, aims, pixels};
 pub use sight::Sight;
 pub(crate) use tiles::Crew;
-pub use watch::{Limited, Unwatched, Watch};
+pub use watch::{Limited, Unwatched, Watch, Watched};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TraceOptions {

@@ -26,6 +26,45 @@ impl Watch for Unwatched {
     }
 }
 
+/// Calls a closure with the part of the work that is done, 0 … 1, now and then and from several threads; it returns
+/// whether to go on.
+///
+/// ```
+/// use std::sync::atomic::{AtomicU32, Ordering};
+/// use lucarne::{RenderOptions, render, trace::Watched};
+///
+/// let calls = AtomicU32::new(0);
+/// let watch = Watched::new(|done| done < 0.5 && calls.fetch_add(1, Ordering::Relaxed) < 1_000_000);
+/// let text = "camera { location 5*z look_at 0 } sphere { 0, 1 pigment { rgb 1 } } light_source { 9, rgb 1 }";
+/// let picture = render(text, &RenderOptions { watch: &watch, ..RenderOptions::of_size(320, 240) })?;
+/// assert!(!picture.complete);
+/// # Ok::<(), lucarne::Messages>(())
+/// ```
+#[derive(Debug, Default)]
+pub struct Watched<F> {
+    call: F,
+    /// The bits of the part that is done.
+    done: AtomicU64,
+}
+
+impl<F: Fn(f64) -> bool + Sync> Watched<F> {
+    pub fn new(call: F) -> Self {
+        Self { call, done: AtomicU64::new(0) }
+    }
+}
+
+impl<F: Fn(f64) -> bool + Sync> Watch for Watched<F> {
+    fn progress(&self, done: usize, total: usize) {
+        let done = done as f64 / total.max(1) as f64;
+        // Numbers that are not negative are ordered as their bits.
+        self.done.fetch_max(done.to_bits(), Ordering::Relaxed);
+    }
+
+    fn should_stop(&self) -> bool {
+        !(self.call)(f64::from_bits(self.done.load(Ordering::Relaxed)))
+    }
+}
+
 /// Stops after so many steps, too: where each piece of work is done by one thread, the same ones on every run.
 pub struct Limited<'a> {
     /// Questions.

@@ -1,8 +1,7 @@
-//! Holds the files that a scene writes until the scene is known to be free of errors.
+//! Holds the files that a scene writes, for whoever writes them to disk once the scene is free of errors.
 //!
-//! **Invariant:** no file outside the current folder is written, whatever path is given and wherever a link
-//! points, and no hidden file. A scene with errors writes nothing; otherwise, each file is written
-//! completely.
+//! **Invariant:** none lies outside the current folder, whatever path is given and wherever a link points, and none is
+//! hidden. Nothing here changes the disk.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,11 +9,8 @@ use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
-use lucarne::source::WriteError;
-
-use super::exit::{Failure, reason};
-use super::messages;
-use super::output::write_whole;
+use super::reason;
+use crate::source::WriteError;
 
 /// Files that one scene has started to write.
 pub struct Written {
@@ -112,37 +108,12 @@ impl Written {
         }
     }
 
-    /// Writes and reports all files if `whole`, that is, if the scene has no errors.
-    pub fn settle(&self, whole: bool) -> Result<(), Failure> {
-        self.each(whole, "by the scene", write_whole)
-    }
-
-    /// Reports what would be written if the scene were rendered.
-    pub fn announce(&self, whole: bool) -> Result<(), Failure> {
-        self.each(whole, "not written: only rendering writes", |_, _| Ok(()))
-    }
-
-    fn each(
-        &self,
-        whole: bool,
-        said: &str,
-        done: impl Fn(&Path, &[u8]) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
-        let Ok(files) = self.files.lock() else { return Ok(()) };
-        if !whole && !files.is_empty() {
-            messages::eprint(
-                "the scene has errors: the files that it writes were left as they are\n",
-            );
-            return Ok(());
-        }
-        for (path, bytes) in files.iter() {
-            done(path, bytes)?;
-            let name = path.strip_prefix(&self.root).unwrap_or(path).display();
-            let count = bytes.len();
-            let s = if count == 1 { "" } else { "s" };
-            messages::eprint(&format!("{name}: {count} byte{s}, {said}\n"));
-        }
-        Ok(())
+    /// Returns the path, the name below the current folder and the contents of each file.
+    pub fn files(&self) -> Vec<(PathBuf, String, Vec<u8>)> {
+        let Ok(files) = self.files.lock() else { return Vec::new() };
+        let name =
+            |path: &Path| path.strip_prefix(&self.root).unwrap_or(path).display().to_string();
+        files.iter().map(|(path, bytes)| (path.clone(), name(path), bytes.clone())).collect()
     }
 }
 
@@ -192,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_on_disk_before_the_scene_is_whole() {
+    fn files_are_held_and_not_written() {
         let (root, written) = place();
         let read = |name: &str| fs::read_to_string(root.path().join(name)).ok();
         let old = written.start("old.txt", true).expect("started");
@@ -200,11 +171,11 @@ mod tests {
         written.add(&old, b" and new");
         written.add(&new, b"new");
         assert_eq!(written.bytes(&old).as_deref(), Some(&b"old and new"[..]));
-        written.settle(false).expect("nothing to do");
         assert_eq!((read("old.txt").as_deref(), read("sub/new.txt")), (Some("old"), None));
-        written.settle(true).expect("written");
-        assert_eq!(read("old.txt").as_deref(), Some("old and new"));
-        assert_eq!(read("sub/new.txt").as_deref(), Some("new"));
+        let files = written.files();
+        let files: Vec<_> =
+            files.iter().map(|(_, name, bytes)| (name.as_str(), &bytes[..])).collect();
+        assert_eq!(files, [("old.txt", &b"old and new"[..]), ("sub/new.txt", b"new")]);
     }
 
     #[test]

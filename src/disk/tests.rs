@@ -158,7 +158,7 @@ fn a_standard_include_names_the_folders_that_are_not_there_too() {
 
 #[test]
 fn the_page_of_the_language_names_the_well_known_folders() {
-    let page = include_str!("../../../docs/language.md");
+    let page = include_str!("../../docs/language.md");
     for folder in WELL_KNOWN {
         assert!(page.contains(&format!("`{folder}`")), "{folder}");
     }
