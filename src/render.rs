@@ -150,7 +150,7 @@ impl Picture {
 /// use lucarne::{RenderOptions, render};
 ///
 /// let messages = render("spere { 0, 1 }", &RenderOptions::default()).unwrap_err();
-/// assert_eq!(messages.lines().next().unwrap(), "scene:1:1: error[unknown-word]: unknown word `spere`");
+/// assert_eq!(messages.lines().next().unwrap(), "scene:1:1: error[unknown-word]: `spere` is not a word at the top level");
 /// ```
 ///
 /// # Errors

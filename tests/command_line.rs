@@ -1,6 +1,8 @@
 //! The program as it is used: real runs, in folders of their own.
 
 mod language;
+#[cfg(unix)]
+mod povray;
 mod reading;
 mod words;
 mod writing;

@@ -1,5 +1,7 @@
 //! All tests that use lucarne from outside, with one module per kind, linked into one program.
 
+#[cfg(unix)]
+mod clients;
 mod command_line;
 mod conformance;
 mod corpus;
@@ -13,6 +15,7 @@ mod house;
 mod language_page;
 mod laws;
 mod layout;
+mod library;
 mod plan;
 mod povray;
 mod programs;

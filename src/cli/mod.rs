@@ -16,6 +16,7 @@ mod language;
 mod messages;
 mod output;
 mod plan;
+mod povray;
 mod progress;
 mod promise;
 mod render;
@@ -39,12 +40,16 @@ use exit::{Exit, Failure, Outcome};
 /// Parses the command line, runs the command and returns its exit code.
 pub fn main() -> ExitCode {
     guarded(|| {
-        parsed(complete(std::env::args_os().collect())).and_then(run).unwrap_or_else(|failure| {
+        let words: Vec<OsString> = std::env::args_os().collect();
+        if let Some(words) = povray::words(&words) {
+            return povray::run(words);
+        }
+        let exit = parsed(complete(words)).and_then(run).unwrap_or_else(|failure| {
             messages::fail(&failure);
             failure.exit
-        })
+        });
+        exit.into()
     })
-    .into()
 }
 
 /// Parses the words. If they are invalid, fails with clap's answer or a more helpful one.
@@ -57,10 +62,11 @@ fn parsed(words: Vec<OsString>) -> Result<Arguments, Failure> {
 }
 
 fn run(arguments: Arguments) -> Outcome {
-    progress::hear_interrupts(match arguments.command {
+    let before_tracing = match arguments.command {
         Command::Render(_) => "interrupted: nothing was written\n",
         _ => "interrupted\n",
-    });
+    };
+    progress::hear_interrupts(before_tracing, Exit::Interrupted as i32);
     if let Some(scene) = arguments.command.scene() {
         files::exist(&scene.include)?;
     }
@@ -81,7 +87,7 @@ fn run(arguments: Arguments) -> Outcome {
 }
 
 /// Runs `work`, and turns a panic into a message on how to report the bug.
-fn guarded(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Exit {
+fn guarded(work: impl FnOnce() -> ExitCode + panic::UnwindSafe) -> ExitCode {
     panic::set_hook(Box::new(|info| {
         messages::eprint(&format!(
             "lucarne {}: internal error: {info}\n",
@@ -93,7 +99,7 @@ fn guarded(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Exit {
             "This is a bug in lucarne, not in your scene. Please report it with the lines above, \
              the command line\nand the scene (the smaller the better), where you got lucarne from.\n",
         );
-        Exit::Panic
+        Exit::Panic.into()
     })
 }
 
@@ -164,8 +170,8 @@ mod tests {
 
     #[test]
     fn a_panic_ends_with_seventy() {
-        assert_eq!(guarded(|| panic!("a planted fault")), Exit::Panic);
-        assert_eq!(guarded(|| Exit::Done), Exit::Done);
+        assert_eq!(guarded(|| panic!("a planted fault")), Exit::Panic.into());
+        assert_eq!(guarded(|| Exit::Done.into()), Exit::Done.into());
         let _ = panic::take_hook();
     }
 }

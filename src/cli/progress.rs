@@ -14,7 +14,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 use lucarne::evaluate::Interrupt;
 use lucarne::trace::Watch;
 
-use super::exit::Exit;
 use super::heartbeat::{Life, NOW_AND_THEN};
 use super::messages;
 use super::stats::cpu_seconds;
@@ -31,8 +30,8 @@ const GRACE: Duration = Duration::from_secs(1);
 
 /// Installs the Ctrl-C handler. While tracing, the first Ctrl-C stops the trace and the second ends the
 /// program. Before tracing, the first one stops a running loop of the scene, or else ends the program with
-/// the message `before_tracing`.
-pub fn hear_interrupts(before_tracing: &'static str) {
+/// the message `before_tracing` and this exit code.
+pub fn hear_interrupts(before_tracing: &'static str, code: i32) {
     // If this fails, Ctrl-C ends the program at once, which is acceptable.
     let _ = ctrlc::set_handler(move || {
         let again = STOP.swap(true, Ordering::SeqCst);
@@ -41,7 +40,7 @@ pub fn hear_interrupts(before_tracing: &'static str) {
         }
         if again || !TRACING.load(Ordering::SeqCst) {
             messages::eprint(if again { "\n" } else { before_tracing });
-            process::exit(Exit::Interrupted as i32);
+            process::exit(code);
         }
     });
 }
@@ -49,6 +48,11 @@ pub fn hear_interrupts(before_tracing: &'static str) {
 /// Returns the flag that Ctrl-C sets.
 pub fn interrupt() -> Interrupt {
     Interrupt(Some(&STOP))
+}
+
+/// From now on, Ctrl-C stops the trace.
+pub fn begin_tracing() {
+    TRACING.store(true, Ordering::SeqCst);
 }
 
 /// Reports progress of work that has no bar, if standard error is not a terminal.
@@ -80,7 +84,7 @@ impl Progress {
         );
         // Updates the elapsed time even while one step takes long.
         bar.enable_steady_tick(TICK);
-        TRACING.store(true, Ordering::SeqCst);
+        begin_tracing();
         Self { bar, life: life(name), started: cpu_seconds(), built: OnceLock::new() }
     }
 

@@ -124,6 +124,11 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
         count(stats.lights, "light"),
         stats.wall_s
     ));
+    if arguments.alpha && film.pixels.iter().all(|pixel| pixel.opacity() == 1.0) {
+        messages::eprint(
+            "note: every pixel is opaque; `background` and `sky_sphere` are, unless their colours `transmit`\n",
+        );
+    }
     if let Some(format) = arguments.stats {
         stats.print(format, output == Output::Stdout)?;
     }

@@ -97,7 +97,7 @@ pub fn antialias(text: &str) -> Result<Antialias, String> {
         ("adaptive", _) => Ok(Antialias::default()),
         (_, Ok(n @ 2..=64)) => Ok(Antialias::Grid(n)),
         _ => adaptive(text).ok_or_else(|| {
-            "expected `off`, `adaptive`, `adaptive:0.02:6`, or a number from 1 to 64".to_owned()
+            "expected `off`, `adaptive`, `adaptive:0.02:8`, or a number from 1 to 64".to_owned()
         }),
     }
 }

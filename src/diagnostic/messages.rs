@@ -14,7 +14,7 @@ pub struct Messages {
 
 impl Messages {
     /// `list` is in reading order; its spans are of these `sources`.
-    pub(crate) fn new(list: Vec<Diagnostic>, sources: Sources) -> Self {
+    pub fn new(list: Vec<Diagnostic>, sources: Sources) -> Self {
         Self { list, sources }
     }
 

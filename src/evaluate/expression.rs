@@ -227,7 +227,10 @@ impl Evaluator<'_> {
             Word::True | Word::On | Word::Yes => number(1.0),
             Word::False | Word::Off | Word::No => number(0.0),
             Word::Clock => number(self.options.clock),
-            Word::ClockOn => number(0.0),
+            Word::ClockOn => {
+                let options = &self.options;
+                number(f64::from(options.animation.is_some() || options.clock != 0.0))
+            }
             Word::Now => number(self.options.now),
             Word::Version => number(self.version),
             _ => Ok(Value::Poison(Poison::new(word, here.site(span)))),

@@ -68,7 +68,7 @@ use crate::syntax::ast::{Ast, DirectiveId};
 
 use crate::vocabulary::{Dialect, PREDECLARED};
 
-pub use options::{EvaluateOptions, Interrupt, Limits};
+pub use options::{Animation, EvaluateOptions, Interrupt, Limits};
 
 use analysis_cache::Remembered;
 use builtin::RandomStreams;
@@ -267,12 +267,10 @@ impl<'a> Evaluator<'a> {
         let predeclared = |name: &str| match name {
             "image_width" => Value::Number(f64::from(options.width)),
             "image_height" => Value::Number(f64::from(options.height)),
-            "frame_number" | "initial_frame" | "final_frame" => Value::Number(options.frame_number),
-            "initial_clock" | "final_clock" => Value::Number(options.clock),
             "input_file_name" => {
                 Value::string(sources.iter().next().map_or("", |(_, source)| source.name.as_str()))
             }
-            _ => Value::Number(0.0),
+            _ => Value::Number(options.animation.map_or(0.0, |animation| animation.number(name))),
         };
         for (name, _) in PREDECLARED {
             let symbol = scopes.intern(name);

@@ -18,11 +18,39 @@ pub struct EvaluateOptions {
     pub clock: f64,
     /// Days since the beginning of the year 2000, UTC: the value of `now`.
     pub now: f64,
-    pub frame_number: f64,
+    /// `None`: a still.
+    pub animation: Option<Animation>,
     pub limits: Limits,
     /// Whether every brace without a partner where it is written pairs at run time.
     pub loose: bool,
     pub interrupt: Interrupt,
+}
+
+/// A frame of an animation; `clock` has its own option.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Animation {
+    pub frame_number: u32,
+    /// Numbers of the first and the last frame.
+    pub frames: (u32, u32),
+    /// Clocks of the first and the last frame.
+    pub clocks: (f64, f64),
+    /// Time between two frames.
+    pub clock_delta: f64,
+}
+
+impl Animation {
+    /// Returns the value of a predeclared identifier.
+    pub(super) fn number(&self, name: &str) -> f64 {
+        match name {
+            "frame_number" => self.frame_number.into(),
+            "initial_frame" => self.frames.0.into(),
+            "final_frame" => self.frames.1.into(),
+            "initial_clock" => self.clocks.0,
+            "final_clock" => self.clocks.1,
+            "clock_delta" => self.clock_delta,
+            _ => 0.0,
+        }
+    }
 }
 
 /// A flag that the caller sets during evaluation to end the loop that is running.
@@ -53,7 +81,7 @@ impl Default for EvaluateOptions {
             declares: Vec::new(),
             clock: 0.0,
             now: 0.0,
-            frame_number: 0.0,
+            animation: None,
             limits: Limits::default(),
             loose: false,
             interrupt: Interrupt::default(),

@@ -153,12 +153,12 @@ pub use words::Word;
 pub const PREDECLARED: &[(&str, &str)] = &[
     ("image_width", "the picture's width in pixels"),
     ("image_height", "the picture's height in pixels"),
-    ("frame_number", "the number of this frame: 0"),
-    ("initial_frame", "the number of the first frame: 0"),
-    ("final_frame", "the number of the last frame: 0"),
-    ("initial_clock", "the clock of the first frame: 0"),
-    ("final_clock", "the clock of the last frame: 0"),
-    ("clock_delta", "the time between two frames: 0"),
+    ("frame_number", "the number of this frame; 0 for a still"),
+    ("initial_frame", "the number of the first frame; 0 for a still"),
+    ("final_frame", "the number of the last frame; 0 for a still"),
+    ("initial_clock", "the clock of the first frame; 0 for a still"),
+    ("final_clock", "the clock of the last frame; 0 for a still"),
+    ("clock_delta", "the time between two frames; 0 for a still"),
     ("input_file_name", "the name of the main file"),
 ];
 

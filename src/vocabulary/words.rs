@@ -494,7 +494,7 @@ vocabulary! {
     }
     Constant {
         Clock "clock" value built "the animation's time, set with `-D clock=…`; default 0";
-        ClockOn "clock_on" value built "1 in an animation, else 0";
+        ClockOn "clock_on" value built "1 in an animation or if the clock is set, else 0";
         False "false" value built "0";
         No "no" value built "0";
         Now "now" value built "the current time, in days since the beginning of 2000 (UTC)";

@@ -1,0 +1,425 @@
+//! `lucarne povray`: takes the options of POV-Ray 3.7, and answers as it does, for programs that call it.
+//!
+//! **Invariant:** all text is ASCII and on standard error; standard output has a picture that was asked for, or nothing.
+//! The exit code is 0, 1, or 2 if interrupted.
+
+mod animation;
+mod settings;
+mod streams;
+mod switches;
+
+use std::env;
+use std::ffi::OsString;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use lucarne::color::Rgb;
+use lucarne::diagnostic::{Code, Diagnostic, Messages, Severity, render};
+use lucarne::disk::DiskFiles;
+use lucarne::evaluate::Animation;
+use lucarne::film::Developer;
+use lucarne::picture;
+use lucarne::plan::{Frame, PlanOptions, Region, plan};
+use lucarne::road::{Options, Road};
+use lucarne::scene::{Dialect, Finish, Scene};
+use lucarne::trace::{TraceOptions, Watch, trace};
+use lucarne::world::World;
+
+use self::settings::{Problem, Settings};
+use self::streams::Stream;
+use super::exit::Failure;
+use super::messages;
+use super::output::{Output, write_whole};
+use super::progress;
+use super::text::{name_of, read_main};
+use super::values::now;
+
+const VERSION: &str = concat!(
+    "POV-Ray 3.7 compatible: lucarne ",
+    env!("CARGO_PKG_VERSION"),
+    "\nThis is no version of POV-Ray, but a program that renders its scenes.\n"
+);
+
+const HELP: &str = "Usage: povray [+/-]option ... [FILE.pov] [FILE.ini[section]] [NAME=VALUE]
+
+  +Iname +Oname +FN   input, output (- is standard output), type: N P T J B E H
+  +Wn +Hn             width and height in pixels
+  +A0.3 +AM2 +R3      antialiasing: threshold, method, depth
+  +UA                 transparent background
+  +KFFn +KIn +KFn     last frame, first and last clock; +SFn +EFn a part; +KC cyclic
+  +SRn +ERn +SCn +ECn rows and columns that are rendered
+  +Lfolder +WTn +Qn   folder of includes, threads, quality
+  Declare=name=value  declares a number
+
+Example: povray +Iscene.pov +Oscene.png +W640 +H480 +A
+`lucarne render --help` describes the options of lucarne itself.
+";
+
+/// Why a frame is not finished.
+enum Stop {
+    /// It was told why.
+    Failed,
+    Interrupted,
+}
+
+/// Returns the words behind `lucarne povray`, or all if the program is called by the name `povray`.
+pub fn words(all: &[OsString]) -> Option<&[OsString]> {
+    let name = Path::new(all.first()?).file_stem()?;
+    match name.eq_ignore_ascii_case("povray") {
+        true => Some(&all[1..]),
+        false => all.get(1).filter(|word| *word == "povray").map(|_| &all[2..]),
+    }
+}
+
+/// Runs the words of a command line, without the program's name.
+pub fn run(words: &[OsString]) -> ExitCode {
+    let words: Vec<String> = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+    let asks = |names: &[&str]| words.iter().any(|word| names.contains(&word.as_str()));
+    if asks(&["--version", "-version", "--benchmark", "-benchmark"]) {
+        messages::eprint(VERSION);
+        return ExitCode::SUCCESS;
+    }
+    if asks(&["--help", "-help", "-h", "-?"]) {
+        messages::eprint(HELP);
+        return ExitCode::SUCCESS;
+    }
+    let problem = |why: &str| {
+        let command = words.join(" ");
+        messages::eprint(&format!("Problem with option setting\npovray {command}\n{why}\n"));
+        ExitCode::FAILURE
+    };
+    let read = |path: &Path| fs::read(path).ok().map(|bytes| lucarne::source::decode(bytes).0);
+    let mut settings = Settings::default();
+    let default = default_ini().and_then(|path| read(&path));
+    let taken = default
+        .map_or(Ok(()), |text| settings.take_text(&text, None, &read))
+        .and_then(|()| settings.take(&words, &read));
+    if let Err(Problem) = taken {
+        return problem("Failed to parse command-line option");
+    }
+    let Some(input) = settings.input.clone() else { return problem("No input file provided") };
+    progress::hear_interrupts("Render cancelled by user\n", 2);
+    settings.streams.begin();
+    let run = Run { input: found(&input, &settings.folders), settings };
+    match run.all() {
+        Ok(()) => {
+            run.say(Stream::Render, "POV-Ray finished\n");
+            ExitCode::SUCCESS
+        }
+        Err(Stop::Failed) => {
+            run.say(Stream::Fatal, "Render failed\n");
+            ExitCode::FAILURE
+        }
+        Err(Stop::Interrupted) => {
+            run.say(Stream::Fatal, "Render cancelled by user\n");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Returns the INI file that is read before the command line: the first of these that there is.
+fn default_ini() -> Option<PathBuf> {
+    let home = env::var_os("HOME").map(PathBuf::from).unwrap_or_default();
+    [
+        env::var_os("POVINI").map(PathBuf::from),
+        Some("povray.ini".into()),
+        Some(home.join(".povray/3.7/povray.ini")),
+        Some("/etc/povray/3.7/povray.ini".into()),
+    ]
+    .into_iter()
+    .flatten()
+    .find(|path| path.is_file())
+}
+
+/// Returns the path of the scene: as named, with `.pov`, or in a folder of includes.
+fn found(input: &str, folders: &[PathBuf]) -> PathBuf {
+    let names = [input.to_owned(), format!("{input}.pov")];
+    let here = names.iter().map(PathBuf::from);
+    let there = folders.iter().flat_map(|folder| names.iter().map(move |name| folder.join(name)));
+    here.chain(there).find(|path| path.is_file()).unwrap_or_else(|| input.into())
+}
+
+struct Run {
+    input: PathBuf,
+    settings: Settings,
+}
+
+impl Run {
+    fn say(&self, stream: Stream, text: &str) {
+        self.settings.streams.say(stream, text);
+    }
+
+    /// Renders a still, or each frame of an animation.
+    fn all(&self) -> Result<(), Stop> {
+        for option in &self.settings.unheard {
+            self.say(Stream::Warning, &format!("lucarne: `{option}` has no effect\n"));
+        }
+        let bytes = read_main(&self.input).map_err(|failure| {
+            self.say(
+                Stream::Fatal,
+                "Parse Error: Cannot open input file.\nFatal error in parser: Cannot parse input.\n",
+            );
+            self.failed(&failure)
+        })?;
+        if self.settings.film.is_still() {
+            return self.frame(&bytes, None, self.settings.clock);
+        }
+        let frames = self.settings.film.frames();
+        for (number, (animation, clock)) in frames.iter().enumerate() {
+            let frame = format!("Rendering frame {} of {}\n", number + 1, frames.len());
+            self.say(Stream::Render, &frame);
+            self.frame(&bytes, Some(*animation), *clock)?;
+        }
+        Ok(())
+    }
+
+    fn failed(&self, failure: &Failure) -> Stop {
+        self.say(Stream::Fatal, &format!("{}\n", failure.sentence));
+        let help = failure.help.iter();
+        help.for_each(|help| self.say(Stream::Fatal, &format!("  help: {help}\n")));
+        Stop::Failed
+    }
+
+    /// Renders one picture.
+    fn frame(&self, bytes: &[u8], animation: Option<Animation>, clock: f64) -> Result<(), Stop> {
+        let Settings { width, height, verbose, .. } = self.settings;
+        let frame = Frame { region: self.region(), ..Frame::whole(width, height) };
+        let output = self.output(animation.map(|animation| animation.frame_number));
+        self.say(
+            Stream::Render,
+            &format!(
+                "Image Output Options\n  Image resolution.....{width} by {height} (rows {} to {}, columns {} to {}).\n",
+                frame.region.y + 1,
+                frame.region.y + frame.region.height,
+                frame.region.x + 1,
+                frame.region.x + frame.region.width,
+            ),
+        );
+        if self.settings.writes {
+            self.say(Stream::Render, &format!("  Output file..........{}\n", output.name()));
+            let checked =
+                output.check(Frame::whole(width, height).region, self.settings.depth(), true);
+            checked.map_err(|failure| self.failed(&failure))?;
+        }
+        self.say(Stream::Render, &header("Parsing"));
+        let files = DiskFiles::new(&self.input, &self.settings.folders).writing();
+        let (mut world, origins) = {
+            let mut road = Road::new(&files, self.options(animation, clock));
+            let file = road.read(&name_of(&self.input), bytes.to_vec());
+            let ast = road.parse(file);
+            let mut scene = road.evaluate(ast);
+            self.finish_at_quality(&mut scene);
+            let compiled = road.lower(scene);
+            let list = road.diagnostics.in_text_order().into_iter().cloned().collect();
+            self.told(&Messages::new(list, road.sources))?;
+            compiled
+        };
+        for (path, _, bytes) in files.written().map(|written| written.files()).unwrap_or_default() {
+            write_whole(&path, &bytes).map_err(|failure| self.failed(&failure))?;
+        }
+        self.light_at_quality(&mut world);
+        let options = PlanOptions {
+            antialias: self.settings.antialias(),
+            alpha: self.settings.alpha,
+            ..PlanOptions::new(frame)
+        };
+        let plan = plan(&world, &origins, &options);
+        self.say(Stream::Render, &header("Rendering"));
+        let threads = TraceOptions { threads: self.settings.threads, ..TraceOptions::default() };
+        let watch = Rendered {
+            run: self,
+            pixels: frame.region.pixels(),
+            shown: AtomicU64::new(0),
+            verbose,
+        };
+        progress::begin_tracing();
+        let traced = trace(&world, &plan, &threads, &watch);
+        if !traced.complete {
+            return Err(Stop::Interrupted);
+        }
+        watch.show(1.0);
+        if verbose {
+            self.say(Stream::Render, "\n");
+        }
+        let counters = &traced.counters;
+        self.say(
+            Stream::Statistic,
+            &format!(
+                "Render Statistics\nImage Resolution {width} x {height}\nPixels: {}   Samples: {}   Rays: {}\n",
+                frame.region.pixels(),
+                counters.camera,
+                counters.rays()
+            ),
+        );
+        if !self.settings.writes {
+            return Ok(());
+        }
+        let film = traced.film.framed();
+        let developer =
+            Developer::new(self.settings.depth(), film.assumed_gamma, film.pixels.len());
+        let written = output.write(&|out: &mut dyn Write| {
+            picture::write(&film, &developer, self.settings.format, out)
+        });
+        written.map_err(|failure| self.failed(&failure))
+    }
+
+    fn options(&self, animation: Option<Animation>, clock: f64) -> Options {
+        let Settings { width, height, .. } = self.settings;
+        let mut options = Options::new(Dialect::Pov);
+        options.picture = Some((width, height));
+        let evaluate = &mut options.evaluate;
+        (evaluate.width, evaluate.height) = (width, height);
+        (evaluate.clock, evaluate.animation) = (clock, animation);
+        evaluate.now = now();
+        evaluate.interrupt = progress::interrupt();
+        evaluate.declares = self.settings.declares.clone();
+        options
+    }
+
+    /// Returns the part of the picture that is rendered.
+    fn region(&self) -> Region {
+        let Settings { width, height, columns, rows, .. } = self.settings;
+        let part = |(first, last): (Option<settings::Edge>, Option<settings::Edge>), all: u32| {
+            let first = first.map_or(0, |edge| edge.first(all)).min(all.saturating_sub(1));
+            (first, last.map_or(all, |edge| edge.end(all)).clamp(first + 1, all))
+        };
+        let ((left, right), (top, bottom)) = (part(columns, width), part(rows, height));
+        Region { x: left, y: top, width: right - left, height: bottom - top }
+    }
+
+    /// Returns where the picture goes: beside the scene, unless another place or name was asked for.
+    fn output(&self, frame_number: Option<u32>) -> Output {
+        let format = self.settings.format;
+        let asked = self.settings.output.as_deref();
+        if asked == Some("-") {
+            return Output::Stdout;
+        }
+        let extension = format.extensions()[0];
+        let stem = self.input.file_stem().unwrap_or_default();
+        let path = match asked {
+            None => self.input.with_file_name(stem),
+            Some(folder) if folder.ends_with(['/', '\\']) || Path::new(folder).is_dir() => {
+                Path::new(folder).join(stem)
+            }
+            Some(path) => {
+                let suffix = format!(".{extension}");
+                let is_there = path.to_lowercase().ends_with(&suffix);
+                let end = path.len() - if is_there { suffix.len() } else { 0 };
+                PathBuf::from(&path[..end])
+            }
+        };
+        let stem = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = match frame_number {
+            Some(number) => self.settings.film.name(&stem, number),
+            None => stem,
+        };
+        Output::File { path: path.with_file_name(format!("{name}.{extension}")), format }
+    }
+
+    /// Leaves out what a quality leaves out: from 7 on, mirrors; from 4 on, areas of lights; from 3 on, shadows; and at
+    /// last all light but the colours' own.
+    ///
+    /// **Source:** POV-Ray 3.7 manual, section 3.2.8.3 "Quality Settings", and the program, measured.
+    fn light_at_quality(&self, world: &mut World) {
+        let quality = self.settings.quality;
+        if quality < 6 {
+            self.say(
+                Stream::Warning,
+                "lucarne: patterns and clear surfaces are shown as at quality 6\n",
+            );
+        }
+        if quality < 5 {
+            world.lights.iter_mut().for_each(|light| light.area = None);
+        }
+        if quality < 4 {
+            world.lights.iter_mut().for_each(|light| light.casts_shadows = false);
+        }
+        if quality < 2 {
+            world.lights.clear();
+        }
+    }
+
+    fn finish_at_quality(&self, scene: &mut Scene) {
+        for finish in &mut scene.finishes {
+            if let Finish::Classic(finish) = finish {
+                if self.settings.quality < 8 {
+                    finish.reflection = None;
+                }
+                if self.settings.quality < 2 {
+                    finish.emission = Rgb::WHITE;
+                }
+            }
+        }
+    }
+
+    /// Prints the messages in POV-Ray's words. Fails if there is an error.
+    fn told(&self, messages: &Messages) -> Result<(), Stop> {
+        let place = |one: &Diagnostic| {
+            one.primary().map_or(String::new(), |label| {
+                let source = messages.sources().get(label.span.file);
+                let line = source.position(label.span.start as usize).line;
+                format!("File '{}' line {line}: ", source.name)
+            })
+        };
+        for one in messages.iter() {
+            match one.severity {
+                Severity::Note => self.say(Stream::Debug, &render::plain(one)),
+                Severity::Warning => {
+                    let text = format!("{}Parse Warning: {}\n", place(one), one.message);
+                    self.say(Stream::Warning, &text);
+                }
+                Severity::Error => {}
+            }
+        }
+        let Some(first) = messages.iter().find(|one| one.is_error()) else { return Ok(()) };
+        let halted = match first.code {
+            Code::AuthorError => "Parse halted by #error directive: ",
+            _ => "",
+        };
+        let text = format!("{}Parse Error: {halted}{}\n", place(first), first.message);
+        self.say(Stream::Fatal, &text);
+        self.say(Stream::Fatal, "Fatal error in parser: Cannot parse input.\n");
+        for one in messages.iter().filter(|one| one.is_error()) {
+            let drawn = render::human(one, messages.sources(), render::Style::PLAIN);
+            self.say(Stream::Fatal, &format!("\n{drawn}"));
+        }
+        Err(Stop::Failed)
+    }
+}
+
+fn header(name: &str) -> String {
+    format!("==== [{name}...] {:=<width$}\n", "", width = 65 - name.len())
+}
+
+/// Tells how many pixels are rendered.
+struct Rendered<'a> {
+    run: &'a Run,
+    pixels: f64,
+    /// The percentage that was printed last.
+    shown: AtomicU64,
+    verbose: bool,
+}
+
+impl Rendered<'_> {
+    fn show(&self, done: f64) {
+        let percent = (100.0 * done) as u64;
+        if self.verbose && self.shown.fetch_max(percent, Ordering::Relaxed) < percent {
+            let (done, all) = ((done * self.pixels) as u64, self.pixels as u64);
+            let text = format!("Rendered {done} of {all} pixels ({percent}%)\r");
+            self.run.say(Stream::Render, &text);
+        }
+    }
+}
+
+impl Watch for Rendered<'_> {
+    fn progress(&self, done: usize, total: usize) {
+        self.show(done as f64 / total.max(1) as f64);
+    }
+
+    fn should_stop(&self) -> bool {
+        progress::interrupt().is_set()
+    }
+}

@@ -1,0 +1,331 @@
+//! What POV-Ray's options ask for, each by the name that it has in an INI file.
+//!
+//! **Source:** POV-Ray 3.7 manual, section 3.2 "Command-Line and INI-File Options", and the program, measured.
+
+use std::path::PathBuf;
+
+use lucarne::film::Depth;
+use lucarne::picture::Format;
+use lucarne::plan::Antialias;
+
+use super::animation::Film;
+use super::streams::Streams;
+
+/// An option that cannot be understood.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Problem;
+
+/// The options of a run, as far as they change what it does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    pub input: Option<String>,
+    pub width: u32,
+    pub height: u32,
+    /// First and last column, and first and last row.
+    pub columns: (Option<Edge>, Option<Edge>),
+    pub rows: (Option<Edge>, Option<Edge>),
+    /// Whether the picture is written.
+    pub writes: bool,
+    pub output: Option<String>,
+    pub format: Format,
+    /// Bits per component.
+    pub bits: u8,
+    pub alpha: bool,
+    /// Includes other than the scene's own.
+    pub folders: Vec<PathBuf>,
+    pub declares: Vec<(String, f64)>,
+    pub clock: f64,
+    pub film: Film,
+    pub threads: Option<usize>,
+    /// 0 to 11.
+    pub quality: u32,
+    pub verbose: bool,
+    pub streams: Streams,
+    /// Options that have no effect here, which is said.
+    pub unheard: Vec<String>,
+    antialias: bool,
+    method: u32,
+    threshold: f64,
+    depth: u32,
+}
+
+/// Where a part of the picture begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Edge {
+    /// Counted from 1.
+    Pixel(u32),
+    /// A fraction of the picture.
+    Fraction(f64),
+}
+
+impl Edge {
+    fn of(value: &str) -> Result<Self, Problem> {
+        let value = number(value)?;
+        Ok(if value < 1.0 { Self::Fraction(value.max(0.0)) } else { Self::Pixel(value as u32) })
+    }
+
+    /// Returns the number of the pixel, counted from 0, of the first row or column.
+    pub fn first(self, all: u32) -> u32 {
+        match self {
+            Self::Pixel(number) => number.saturating_sub(1),
+            Self::Fraction(part) => (part * f64::from(all)) as u32,
+        }
+    }
+
+    /// Returns the number of the pixel behind the last row or column.
+    pub fn end(self, all: u32) -> u32 {
+        match self {
+            Self::Pixel(number) => number,
+            Self::Fraction(part) => (part * f64::from(all)) as u32,
+        }
+    }
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            input: None,
+            width: 320,
+            height: 240,
+            columns: (None, None),
+            rows: (None, None),
+            writes: true,
+            output: None,
+            format: Format::Png,
+            bits: 8,
+            alpha: false,
+            folders: Vec::new(),
+            declares: Vec::new(),
+            clock: 0.0,
+            film: Film::default(),
+            threads: None,
+            quality: 9,
+            verbose: true,
+            streams: Streams::default(),
+            unheard: Vec::new(),
+            antialias: false,
+            method: 1,
+            threshold: 0.3,
+            depth: 3,
+        }
+    }
+}
+
+/// Options that change nothing here, because they are about windows, memory and the search for objects, or because a
+/// picture does not need them.
+const WITHOUT_EFFECT: &[&str] = &[
+    "bounding",
+    "bounding_method",
+    "bounding_threshold",
+    "bsp_basecost",
+    "bsp_childaccesscost",
+    "bsp_isectcost",
+    "bsp_maxdepth",
+    "bsp_misschance",
+    "buffer_output",
+    "buffer_size",
+    "continue_trace",
+    "create_continue_trace_log",
+    "create_histogram",
+    "display",
+    "display_gamma",
+    "dither",
+    "dither_method",
+    "draw_vistas",
+    "high_reproducibility",
+    "histogram_grid_size",
+    "histogram_name",
+    "histogram_type",
+    "jitter",
+    "jitter_amount",
+    "light_buffer",
+    "max_image_buffer_memory",
+    "palette",
+    "pause_when_done",
+    "preview_end_size",
+    "preview_start_size",
+    "real_time_raytracing",
+    "remove_bounds",
+    "render_block_size",
+    "render_block_step",
+    "render_pattern",
+    "split_unions",
+    "stochastic_seed",
+    "test_abort",
+    "test_abort_count",
+    "video_mode",
+    "vista_buffer",
+    "warning_level",
+];
+
+/// Options that this program has no equal of.
+const UNHEARD: &[&str] = &[
+    "antialias_confidence",
+    "antialias_gamma",
+    "create_ini",
+    "field_render",
+    "file_gamma",
+    "grayscale_output",
+    "include_header",
+    "odd_field",
+    "radiosity_file_name",
+    "radiosity_from_file",
+    "radiosity_to_file",
+    "radiosity_vain_pretrace",
+    "version",
+];
+
+impl Settings {
+    /// Sets an option by the name that it has in INI files, in any case.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<(), Problem> {
+        let name = name.to_ascii_lowercase();
+        match name.as_str() {
+            "width" => self.width = pixels(value)?,
+            "height" => self.height = pixels(value)?,
+            "start_column" => self.columns.0 = Some(Edge::of(value)?),
+            "end_column" => self.columns.1 = Some(Edge::of(value)?),
+            "start_row" => self.rows.0 = Some(Edge::of(value)?),
+            "end_row" => self.rows.1 = Some(Edge::of(value)?),
+            "input_file_name" => self.input = Some(value.to_owned()),
+            "output_to_file" => self.writes = switch(value)?,
+            "output_file_name" => self.output = Some(value.to_owned()),
+            "output_file_type" => self.format = format(value)?,
+            "output_alpha" => self.alpha = switch(value)?,
+            "bits_per_color" => self.bits = if number(value)? > 8.0 { 16 } else { 8 },
+            "antialias" => self.antialias = switch(value)?,
+            "sampling_method" => self.method = whole(value)?,
+            "antialias_threshold" => self.threshold = number(value)?.max(0.0),
+            "antialias_depth" => self.depth = whole(value)?.clamp(1, 9),
+            "library_path" => self.folders.push(PathBuf::from(value)),
+            "declare" => {
+                let (name, value) = value.split_once('=').ok_or(Problem)?;
+                self.declares.push((name.trim().to_owned(), number(value)?));
+            }
+            "clock" => self.clock = number(value)?,
+            "initial_frame" => self.film.frames.0 = whole(value)?,
+            "final_frame" => self.film.frames.1 = whole(value)?,
+            "initial_clock" => self.film.clocks.0 = number(value)?,
+            "final_clock" => self.film.clocks.1 = number(value)?,
+            "cyclic_animation" => self.film.is_cyclic = switch(value)?,
+            "frame_step" => self.film.step = whole(value)?.max(1),
+            "subset_start_frame" => self.film.subset.0 = Some(Edge::of(value)?),
+            "subset_end_frame" => self.film.subset.1 = Some(Edge::of(value)?),
+            "work_threads" => self.threads = Some(whole(value)?.max(1) as usize),
+            "quality" => self.quality = whole(value)?.min(11),
+            "verbose" => self.verbose = switch(value)?,
+            name if self.streams.set(name, value)? => {}
+            name if WITHOUT_EFFECT.contains(&name) => {}
+            name if UNHEARD.contains(&name) => self.unheard.push(name.to_owned()),
+            // Programs of the user's: never run.
+            name if name.ends_with("_command") => self.unheard.push(name.to_owned()),
+            name if name.ends_with("_return") => {}
+            _ => return Err(Problem),
+        }
+        Ok(())
+    }
+
+    /// Returns the antialiasing that comes nearest: both look at neighbours first. POV-Ray's first method then takes n × n
+    /// samples, and its second up to 2ⁿ × 2ⁿ where they differ.
+    pub fn antialias(&self) -> Antialias {
+        let grid = match self.method {
+            _ if !self.antialias => return Antialias::Off,
+            2 => 1 << self.depth.min(5),
+            _ => self.depth,
+        };
+        Antialias::Adaptive { threshold: self.threshold, grid }
+    }
+
+    /// Returns the numbers that a component of a pixel has in the file.
+    pub fn depth(&self) -> Depth {
+        let asked = self.format.depth(Some(self.bits));
+        asked.or(self.format.depth(None)).unwrap_or_default()
+    }
+}
+
+/// Returns a number, whatever stands behind its digits.
+pub fn number(value: &str) -> Result<f64, Problem> {
+    let value = value.trim();
+    let of_number = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | 'e' | 'E');
+    let digits = value.find(|c| !of_number(c)).map_or(value, |end| &value[..end]);
+    (0..=digits.len())
+        .rev()
+        .find_map(|end| digits[..end].parse().ok())
+        .filter(|value: &f64| value.is_finite())
+        .ok_or(Problem)
+}
+
+/// Returns a number without its decimals.
+fn whole(value: &str) -> Result<u32, Problem> {
+    Ok(number(value)? as u32)
+}
+
+fn pixels(value: &str) -> Result<u32, Problem> {
+    match whole(value)? {
+        0 => Err(Problem),
+        pixels => Ok(pixels),
+    }
+}
+
+pub fn switch(value: &str) -> Result<bool, Problem> {
+    match value.trim().to_ascii_lowercase().as_str() {
+        "on" | "yes" | "true" | "1" => Ok(true),
+        "off" | "no" | "false" | "0" => Ok(false),
+        _ => Err(Problem),
+    }
+}
+
+fn format(value: &str) -> Result<Format, Problem> {
+    match value.trim().to_ascii_uppercase().as_bytes().first() {
+        // The system's own format.
+        Some(b'N' | b'S') => Ok(Format::Png),
+        Some(b'P') => Ok(Format::Ppm),
+        Some(b'T' | b'C') => Ok(Format::Tga),
+        Some(b'J') => Ok(Format::Jpeg),
+        Some(b'B') => Ok(Format::Bmp),
+        Some(b'E') => Ok(Format::Exr),
+        Some(b'H') => Ok(Format::Hdr),
+        _ => Err(Problem),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_cut_and_names_are_known_in_any_case() {
+        let mut settings = Settings::default();
+        for (name, value) in [("WIDTH", "640.9"), ("Height", "480x"), ("Declare", "A = 2.5")] {
+            assert_eq!(settings.set(name, value), Ok(()), "{name}");
+        }
+        assert_eq!((settings.width, settings.height), (640, 480));
+        assert_eq!(settings.declares, [("A".to_owned(), 2.5)]);
+        for (name, value) in [
+            ("widht", "1"),
+            ("width", ""),
+            ("width", "0"),
+            ("antialias", "perhaps"),
+            ("declare", "A"),
+        ] {
+            assert_eq!(settings.set(name, value), Err(Problem), "{name}={value}");
+        }
+    }
+
+    #[test]
+    fn parts_begin_and_end_at_pixels_or_fractions() {
+        let edge = |value| Edge::of(value).expect("an edge");
+        assert_eq!((edge("4").first(10), edge("8").end(10)), (3, 8));
+        assert_eq!((edge("0.3").first(10), edge("0.5").end(10)), (3, 5));
+    }
+
+    #[test]
+    fn antialiasing_is_off_unless_it_is_asked_for() {
+        let mut settings = Settings::default();
+        assert_eq!(settings.antialias(), Antialias::Off);
+        settings.set("antialias", "on").expect("known");
+        assert_eq!(settings.antialias(), Antialias::Adaptive { threshold: 0.3, grid: 3 });
+        settings.set("sampling_method", "2").expect("known");
+        settings.set("antialias_threshold", "0.1").expect("known");
+        assert_eq!(settings.antialias(), Antialias::Adaptive { threshold: 0.1, grid: 8 });
+    }
+}
