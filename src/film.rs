@@ -5,6 +5,7 @@
 
 mod curve;
 mod develop;
+pub mod saved;
 
 use crate::color::{Gamma, Rgb};
 use crate::plan::{Frame, Region};
@@ -145,6 +146,27 @@ impl Film {
         self.pixels.chunks(self.frame.region.width.max(1) as usize)
     }
 
+    /// Replaces the pixels of a part, with what it holds of them; `None` if it is not a part of this film.
+    pub fn place(&mut self, part: &Self) -> Option<()> {
+        let (all, Region { x, y, width, height }) = (self.frame, part.frame.region);
+        let frame = Frame { region: all.region, ..part.frame };
+        let right = all.region.x.checked_add(all.region.width)?;
+        let bottom = all.region.y.checked_add(all.region.height)?;
+        let fits = x >= all.region.x
+            && y >= all.region.y
+            && x.checked_add(width)? <= right
+            && y.checked_add(height)? <= bottom;
+        let is_alike = self.channels == part.channels && self.assumed_gamma == part.assumed_gamma;
+        if frame != all || !fits || !is_alike {
+            return None;
+        }
+        for (line, row) in (y..).zip(part.rows()) {
+            let start = self.index(x, line);
+            self.pixels[start..start + width as usize].copy_from_slice(row);
+        }
+        Some(())
+    }
+
     /// Returns the film of the whole picture: pixels outside of the region are not reached.
     pub fn framed(self) -> Self {
         let whole = Frame::whole(self.frame.width, self.frame.height);
@@ -152,11 +174,8 @@ impl Film {
             return self;
         }
         let mut all = Self { channels: self.channels, ..Self::new(whole, self.assumed_gamma) };
-        let Region { x, y, width, .. } = self.frame.region;
-        for (line, row) in (y..).zip(self.rows()) {
-            let start = all.index(x, line);
-            all.pixels[start..start + width as usize].copy_from_slice(row);
-        }
+        // It is a part, by its own frame.
+        let _ = all.place(&self);
         all
     }
 

@@ -3,6 +3,7 @@
 //! **In:** a [`Film`]. **Out:** the bytes of a file. **Invariant:** the bytes depend only on the image that the
 //! film is developed to: no date, no name, no thread order.
 
+pub mod animated;
 mod exr;
 pub mod heights;
 pub mod read;

@@ -24,7 +24,8 @@ fn gets_the_same_pictures(client: &str, this: &str, pictures: &[&str]) {
         println!("not checked: {client} is not installed");
         return;
     };
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/clients/{client}.py"));
+    let script =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/clients/{client}_scenes.py"));
     let path = std::env::var("PATH").expect("a path");
     let ours = tempfile::tempdir().expect("a folder");
     let link = ours.path().join("bin");

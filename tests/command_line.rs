@@ -1,6 +1,7 @@
 //! The program as it is used: real runs, in folders of their own.
 
 mod language;
+mod long;
 #[cfg(unix)]
 mod povray;
 mod reading;

@@ -1,6 +1,8 @@
 //! Defines the command line: every command and flag, and the values they accept.
 
+mod animation;
 mod picture;
+mod work;
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +16,9 @@ use super::language::Language;
 use super::messages;
 use super::scene::SceneArguments;
 use super::text::is_include;
+pub use animation::AnimationArguments;
 pub use picture::{FrameArguments, PictureArguments};
+pub use work::{Shard, WorkArguments};
 
 use super::values::{MetricArgument, error, knob, seconds, seed, size, threads};
 
@@ -47,12 +51,15 @@ Exit codes:
     4  a limit was exceeded
     5  `--max-error` or `--time-budget` not met
    70  internal error
+   75  a part is missing or was interrupted: render it again
   130  interrupted";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Render a scene to a picture file
     Render(RenderArguments),
+    /// Make one picture of the parts that `render --shard` wrote
+    Merge(MergeArguments),
     /// Check scenes for errors and warnings without rendering
     Check(CheckArguments),
     /// Format scenes: indentation, spacing and line breaks only
@@ -79,6 +86,10 @@ pub struct RenderArguments {
     pub picture: PictureArguments,
     #[command(flatten)]
     pub scene: SceneArguments,
+    #[command(flatten)]
+    pub animation: AnimationArguments,
+    #[command(flatten)]
+    pub work: WorkArguments,
     /// Bits per channel, 8 or 16; png and ppm only
     #[arg(long, value_parser = clap::value_parser!(u8))]
     pub bits: Option<u8>,
@@ -122,6 +133,23 @@ pub struct RenderArguments {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum StatsFormat {
     Json,
+}
+
+/// For example `lucarne merge picture.*.part -o picture.png`.
+#[derive(Debug, Args)]
+pub struct MergeArguments {
+    /// Parts of one picture, in any order
+    #[arg(required = true, value_name = "PART")]
+    pub parts: Vec<PathBuf>,
+    /// Output file, as of `render`
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Bits per channel, 8 or 16; png and ppm only
+    #[arg(long, value_parser = clap::value_parser!(u8))]
+    pub bits: Option<u8>,
+    /// Overwrite OUT even if it is not a picture or is write-protected
+    #[arg(long)]
+    pub force: bool,
 }
 
 #[derive(Debug, Args)]
@@ -288,7 +316,7 @@ impl Command {
             Self::Show(arguments) => Some(&arguments.scene),
             Self::Plan(arguments) => Some(&arguments.scene),
             Self::Accuracy(arguments) => Some(&arguments.scene),
-            Self::Fmt(_) | Self::Explain(_) => None,
+            Self::Fmt(_) | Self::Merge(_) | Self::Explain(_) => None,
         }
     }
 }

@@ -19,6 +19,8 @@ pub enum Exit {
     Promise = 5,
     /// Internal error.
     Panic = 70,
+    /// The same may succeed another time: a part is missing, or its render was interrupted.
+    Again = 75,
     Interrupted = 130,
 }
 

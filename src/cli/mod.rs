@@ -3,16 +3,20 @@
 //! **Architecture invariant:** this is the only module that prints, accesses disks and exits.
 
 mod accuracy;
+mod animation;
 mod arguments;
 mod budget;
 mod check;
+mod checkpoint;
 mod exit;
 mod explain;
 mod files;
 mod fmt;
+mod frames;
 mod heartbeat;
 mod hint;
 mod language;
+mod merge;
 mod messages;
 mod output;
 mod plan;
@@ -71,12 +75,16 @@ fn run(arguments: Arguments) -> Outcome {
         files::exist(&scene.include)?;
     }
     let exit = match arguments.command {
-        Command::Render(arguments) => render::run(&arguments),
+        Command::Render(arguments) => match arguments.animation.film() {
+            Some(film) => frames::run(&arguments, &film),
+            None => render::run(&arguments),
+        },
         Command::Check(arguments) => check::run(&arguments),
         Command::Fmt(arguments) => fmt::run(&arguments),
         Command::Show(arguments) => show::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
     }?;
     match exit {

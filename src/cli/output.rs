@@ -67,6 +67,13 @@ impl Output {
         }
     }
 
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Stdout => None,
+            Self::File { path, .. } => Some(path),
+        }
+    }
+
     /// Returns the name of the destination for messages.
     pub fn name(&self) -> String {
         match self {
@@ -214,7 +221,7 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Writes a file like [`write_whole`], piece by piece.
-fn write_with(file: &Path, content: Picture) -> Result<(), Failure> {
+pub fn write_with(file: &Path, content: Picture) -> Result<(), Failure> {
     let failed = |error: io::Error| cannot(file, &reason(&error));
     // Keeps a link and replaces its target.
     let path = &fs::canonicalize(file).unwrap_or(file.to_owned());
@@ -237,7 +244,7 @@ fn folder(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-fn cannot(path: &Path, why: &str) -> Failure {
+pub fn cannot(path: &Path, why: &str) -> Failure {
     Failure::file(format!("cannot write `{}`: {why}", path.display()))
 }
 

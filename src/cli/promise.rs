@@ -2,10 +2,10 @@
 //! kept.
 
 use lucarne::accuracy::{self, Audit, KNOBS, Knob, Metric, Options, Step, TooSmall, share, table};
-use lucarne::film::{Channels, Depth};
+use lucarne::film::{Channels, Depth, Film};
 use lucarne::picture::Format;
 use lucarne::plan::{Frame, PlanOptions, plan};
-use lucarne::trace::{TraceOptions, Traced, trace};
+use lucarne::trace::{TraceOptions, Traced, Watch, geometry, trace_on};
 use lucarne::world::{Origins, World};
 
 use super::arguments::RenderArguments;
@@ -52,9 +52,22 @@ pub fn make(
         let options = Options { knobs: &knobs, ..options };
         return Ok(spend((world, origins), &options, seconds, written, clock, progress));
     }
-    let traced = trace(world, &plan(world, origins, plain), &trace_options, progress);
+    Ok(plainly((world, origins), plain, &trace_options, progress, Vec::new()))
+}
+
+/// Renders the picture with these options, from what was begun of it.
+pub fn plainly(
+    (world, origins): (&World, &Origins),
+    options: &PlanOptions,
+    trace_options: &TraceOptions,
+    watch: &dyn Watch,
+    begun: Vec<Film>,
+) -> Made {
+    let plan = plan(world, origins, options);
+    let geometry = geometry(world, &plan, trace_options);
+    let traced = trace_on(world, &geometry, &plan, trace_options, watch, begun);
     let exit = if traced.complete { Exit::Done } else { Exit::Interrupted };
-    Ok(Made { traced, said: String::new(), exit })
+    Made { traced, said: String::new(), exit }
 }
 
 fn keep(

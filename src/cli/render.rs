@@ -1,86 +1,70 @@
 //! `lucarne render`: renders a scene file to a picture file.
 
+use std::cell::RefCell;
 use std::num::NonZero;
+use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 use lucarne::accuracy;
-use lucarne::film::{Channels, Developer, Film};
-use lucarne::picture;
-use lucarne::plan::{PlanOptions, Region};
+use lucarne::diagnostic::{Diagnostic, Severity};
+use lucarne::disk::DiskFiles;
+use lucarne::evaluate::{Animation, EvaluateOptions};
+use lucarne::film::saved::{Digest, Saved, save};
+use lucarne::film::{Channels, Depth, Developer, Film};
+use lucarne::picture::{self, Format};
+use lucarne::plan::{self, PlanOptions, Region};
 use lucarne::road::Road;
-use lucarne::trace::TraceOptions;
+use lucarne::source::{FileError, Files, Found, WriteError};
+use lucarne::trace::{TraceOptions, Traced};
 
-use super::arguments::RenderArguments;
+use super::arguments::{RenderArguments, Shard};
+use super::checkpoint::{self, Checkpoint};
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::messages;
-use super::output::{Output, Picture};
+use super::output::{Output, Picture, write_with};
 use super::progress::{self, Progress};
 use super::promise::{self, Made};
 use super::stats::{Stats, Stopwatch, peak_rss_bytes};
 use super::text::{name_of, read_scene};
 
 pub fn run(arguments: &RenderArguments) -> Outcome {
-    let mut watch = Stopwatch::start();
-    let mut stats = Stats::default();
     let output = Output::from_arguments(&arguments.file, arguments.output.as_deref())?;
-    let format = output.format();
-    let depth = format.depth(arguments.bits).ok_or_else(|| {
-        let bits = arguments.bits.unwrap_or_default();
-        let name = format.extensions()[0];
-        Failure::usage(format!("a .{name} picture cannot have {bits} bits a channel"))
-            .help("`--bits` may be 8 (png, jpg, ppm, qoi, tga, bmp) or 16 (png, ppm)")
-    })?;
-    if arguments.alpha && !format.holds_alpha() {
-        let name = format.extensions()[0];
-        return Err(Failure::usage(format!("a .{name} picture cannot have an alpha channel"))
-            .help("with `--alpha`, write a .png, .qoi, .tga, .bmp or .exr"));
+    picture(arguments, &output, None)
+}
+
+/// A frame of an animation.
+#[derive(Clone, Copy)]
+pub struct Frame<'a> {
+    pub animation: Animation,
+    pub clock: f64,
+    /// The warnings of frames before.
+    pub told: &'a RefCell<Vec<Diagnostic>>,
+}
+
+impl Frame<'_> {
+    /// Whether a message is to be printed: a warning is told once.
+    fn is_new(&self, one: &Diagnostic) -> bool {
+        let mut told = self.told.borrow_mut();
+        let is_new = one.severity != Severity::Warning || !told.contains(one);
+        if is_new && one.severity == Severity::Warning {
+            told.push(one.clone());
+        }
+        is_new
     }
-    let frame = arguments.picture.frame(&arguments.scene)?;
-    let bytes = read_scene(&arguments.file)?;
-    output.check(frame.region, depth, arguments.force)?;
-    let channels = Channels::with(arguments.alpha);
-    fits(frame.region, format.bytes_per_pixel(channels), arguments.time_budget.is_some())?;
+}
 
-    let dialect = arguments.scene.dialect(&arguments.file, &bytes);
-    let life = progress::life("reading the scene");
-    let files = files::of(&arguments.file, &arguments.scene);
-    let options = arguments.scene.options(dialect, Some(frame));
-    let mut road = Road::new(&files, options);
-    watch.lap();
-    let file = road.read(&name_of(&arguments.file), bytes);
-    let ast = road.parse(file);
-    stats.parse_cpu_s = watch.lap();
-    let scene = road.evaluate(ast);
-    stats.evaluate_cpu_s = watch.lap();
-    let (world, origins) = road.lower(scene);
-    stats.lower_cpu_s = watch.lap();
-
-    let mut messages = arguments.scene.messages();
-    messages.picture_on_stdout = output == Output::Stdout;
-    messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
-    messages.summarize();
-    files::settle(&files, messages.exit() == Exit::Done)?;
-    match messages.exit() {
-        Exit::Done => {}
-        other => return Ok(other),
+/// Renders one picture to its place: a still, or a frame.
+pub fn picture(arguments: &RenderArguments, output: &Output, frame: Option<Frame>) -> Outcome {
+    let mut job = Job::new(arguments, output.format())?;
+    output.check(job.frame.region, job.depth, arguments.force)?;
+    let Made { traced, said, exit } = match job.make(arguments, output, frame)? {
+        Ok(made) => made,
+        Err(exit) => return Ok(exit),
+    };
+    if let Some(part) = job.part(arguments, output) {
+        return job.write_part(&part, traced);
     }
-    output.keeps(&road.sources)?;
-
-    let picture = &arguments.picture;
-    let options = PlanOptions { alpha: arguments.alpha, ..picture.options(frame) };
-    watch.lap();
-    drop(life);
-    let progress = Progress::start("rendering");
-    let threads = arguments.threads.map(|wanted| usize::from(wanted).min(most_threads()));
-    let threads = TraceOptions { threads, count_work: arguments.stats.is_some(), tile_side: None };
-    let (scene, written) = ((&world, &origins), (depth, format));
-    let made = promise::make(arguments, scene, &options, threads, written, (&watch, &progress));
-    progress.end();
-    let Made { traced, said, exit } = made?;
-    stats.build_cpu_s = progress.build_cpu_seconds();
-    stats.trace_cpu_s = (watch.lap() - stats.build_cpu_s).max(0.0);
-
     let film = &traced.film;
     let pixels = film.pixels.len();
     let done = film.samples().filter(|samples| *samples > 0).count();
@@ -91,15 +75,19 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
         false => output.partial().or_else(|| (exit == Exit::Limit).then(|| output.clone())),
     };
     if let Some(place) = &written {
-        let developer = Developer::new(depth, film.assumed_gamma, pixels);
-        let picture: Picture = &|out| picture::write(film, &developer, format, out);
+        let developer = Developer::new(job.depth, film.assumed_gamma, pixels);
+        let picture: Picture = &|out| picture::write(film, &developer, output.format(), out);
         place.write(picture).map_err(|failure| output.rescue(place, picture, failure))?;
     }
-    stats.encode_cpu_s = watch.lap();
-    stats.wall_s = watch.wall_seconds();
-    stats.peak_rss_bytes = peak_rss_bytes();
-    (stats.objects, stats.lights) = (world.objects.len(), world.lights.len());
-    stats.count(&traced.counters);
+    if traced.complete
+        && let Some(path) = job.checkpoint(arguments, output)
+    {
+        checkpoint::remove(&path)?;
+    }
+    job.stats.encode_cpu_s = job.watch.lap();
+    job.stats.wall_s = job.watch.wall_seconds();
+    job.stats.peak_rss_bytes = peak_rss_bytes();
+    job.stats.count(&traced.counters);
 
     if !traced.complete && exit == Exit::Interrupted {
         messages::eprint(&match written {
@@ -108,16 +96,21 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
                     100 => "one ray of each pixel, and a part of the smooth edges, are".to_owned(),
                     share => format!("the {share} % that are done are"),
                 };
-                format!("interrupted: {what} in {}\n", place.name())
+                let resume = match job.checkpoint(arguments, output) {
+                    Some(path) if path.exists() => "; `--resume` goes on from there",
+                    _ => "",
+                };
+                format!("interrupted: {what} in {}{resume}\n", place.name())
             }
             None => "interrupted: nothing was written\n".to_owned(),
         });
         return Ok(Exit::Interrupted);
     }
+    let Job { stats, frame, .. } = &job;
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     messages::eprint(&format!(
         "{}: {}×{}, {}, {}, {:.2} s\n{said}",
-        written.as_ref().unwrap_or(&output).name(),
+        written.as_ref().unwrap_or(output).name(),
         frame.region.width,
         frame.region.height,
         count(stats.objects, "object"),
@@ -130,9 +123,204 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
         );
     }
     if let Some(format) = arguments.stats {
-        stats.print(format, output == Output::Stdout)?;
+        stats.print(format, *output == Output::Stdout)?;
     }
     Ok(exit)
+}
+
+/// What is known of a picture before it is rendered, and what it took.
+pub struct Job {
+    pub frame: plan::Frame,
+    /// The region that the parts cover.
+    whole: Region,
+    /// Differs for other scenes and options, once the scene is compiled.
+    key: u64,
+    pub depth: Depth,
+    format: Format,
+    bytes: Vec<u8>,
+    stats: Stats,
+    watch: Stopwatch,
+}
+
+impl Job {
+    /// Reads the scene, and fails for what is known to be impossible.
+    pub fn new(arguments: &RenderArguments, format: Format) -> Result<Self, Failure> {
+        let watch = Stopwatch::start();
+        let depth = format.depth(arguments.bits).ok_or_else(|| {
+            let bits = arguments.bits.unwrap_or_default();
+            let name = format.extensions()[0];
+            Failure::usage(format!("a .{name} picture cannot have {bits} bits a channel"))
+                .help("`--bits` may be 8 (png, jpg, ppm, qoi, tga, bmp) or 16 (png, ppm)")
+        })?;
+        if arguments.alpha && !format.holds_alpha() {
+            let name = format.extensions()[0];
+            let sentence = format!("a .{name} picture cannot have an alpha channel");
+            return Err(Failure::usage(sentence)
+                .help("with `--alpha`, write a .png, .qoi, .tga, .bmp or .exr"));
+        }
+        let mut frame = arguments.picture.frame(&arguments.scene)?;
+        let whole = frame.region;
+        if let Some(shard) = arguments.still_shard() {
+            frame.region = shard.of(whole)?;
+        }
+        let bytes = read_scene(&arguments.file)?;
+        let channels = Channels::with(arguments.alpha);
+        let writing = format.bytes_per_pixel(channels);
+        fits(frame.region, writing, arguments.time_budget.is_some())?;
+        Ok(Self { frame, whole, key: 0, depth, format, bytes, stats: Stats::default(), watch })
+    }
+
+    /// Compiles and traces the scene; returns the exit code instead if its messages forbid that.
+    pub fn make(
+        &mut self,
+        arguments: &RenderArguments,
+        output: &Output,
+        frame: Option<Frame>,
+    ) -> Result<Result<Made, Exit>, Failure> {
+        let place = self.checkpoint(arguments, output);
+        let Self { stats, watch, .. } = self;
+        let dialect = arguments.scene.dialect(&arguments.file, &self.bytes);
+        let life = progress::life("reading the scene");
+        let files = files::of(&arguments.file, &arguments.scene);
+        let read = Digested::new(&files);
+        let mut options = arguments.scene.options(dialect, Some(self.frame));
+        if let Some(Frame { animation, clock, .. }) = frame {
+            options.evaluate.animation = Some(animation);
+            options.evaluate.clock = clock;
+        }
+        let decided = format!("{:?}", EvaluateOptions { now: 0.0, ..options.evaluate.clone() });
+        let mut road = Road::new(&read, options);
+        watch.lap();
+        let file = road.read(&name_of(&arguments.file), self.bytes.clone());
+        let ast = road.parse(file);
+        stats.parse_cpu_s = watch.lap();
+        let scene = road.evaluate(ast);
+        stats.evaluate_cpu_s = watch.lap();
+        let (world, origins) = road.lower(scene);
+        stats.lower_cpu_s = watch.lap();
+
+        let mut messages = arguments.scene.messages();
+        messages.picture_on_stdout = *output == Output::Stdout;
+        let is_new = |one: &&Diagnostic| frame.is_none_or(|frame| frame.is_new(one));
+        let list = road.diagnostics.in_text_order().into_iter().filter(is_new);
+        messages.print(list, &road.sources)?;
+        messages.summarize();
+        files::settle(&files, messages.exit() == Exit::Done)?;
+        match messages.exit() {
+            Exit::Done => {}
+            other => return Ok(Err(other)),
+        }
+        output.keeps(&road.sources)?;
+
+        let options = arguments.picture.options(self.frame);
+        let options = PlanOptions { alpha: arguments.alpha, ..options };
+        let whole = plan::Frame { region: self.whole, ..self.frame };
+        self.key = checkpoint::key(|digest| {
+            digest.add(&self.bytes);
+            read.add_to(digest);
+            digest
+                .add(format!("{decided} {:?}", PlanOptions { frame: whole, ..options }).as_bytes());
+        });
+        watch.lap();
+        drop(life);
+        let progress = Progress::start("rendering");
+        let threads = arguments.threads.map(|wanted| usize::from(wanted).min(most_threads()));
+        let threads =
+            TraceOptions { threads, count_work: arguments.stats.is_some(), tile_side: None };
+        let written = (self.depth, self.format);
+        let scene = (&world, &origins);
+        let made = match &place {
+            Some(path) => {
+                let begun = match arguments.work.resume {
+                    true => checkpoint::resumed(path, self.key)?,
+                    false => Vec::new(),
+                };
+                let every = arguments.work.checkpoint();
+                let of = (self.key, self.whole);
+                let saving = Checkpoint::new(&progress, path.clone(), of, every);
+                let made = promise::plainly(scene, &options, &threads, &saving, begun);
+                if !made.traced.complete {
+                    saving.save();
+                }
+                Ok(made)
+            }
+            None => promise::make(arguments, scene, &options, threads, written, (watch, &progress)),
+        };
+        progress.end();
+        stats.build_cpu_s = progress.build_cpu_seconds();
+        stats.trace_cpu_s = (watch.lap() - stats.build_cpu_s).max(0.0);
+        (stats.objects, stats.lights) = (world.objects.len(), world.lights.len());
+        made.map(Ok)
+    }
+
+    /// Returns where the part goes that this process renders, if it is one.
+    fn part(&self, arguments: &RenderArguments, output: &Output) -> Option<PathBuf> {
+        let Shard { number, all } = arguments.still_shard()?;
+        let path = output.path().map_or("picture".into(), Path::to_owned);
+        Some(path.with_extension(format!("{number}-of-{all}.part")))
+    }
+
+    /// Returns where the picture or part is saved now and then, unless it has a promise to keep.
+    fn checkpoint(&self, arguments: &RenderArguments, output: &Output) -> Option<PathBuf> {
+        let is_promised = arguments.max_error.is_some() || arguments.time_budget.is_some();
+        let path = self.part(arguments, output).or(output.path().map(Path::to_owned));
+        path.filter(|_| !is_promised).map(|path| checkpoint::beside(&path))
+    }
+
+    fn write_part(&self, path: &Path, traced: Traced) -> Outcome {
+        let name = path.display();
+        if !traced.complete {
+            messages::eprint(&format!("interrupted: {name} is not written; `--resume` goes on\n"));
+            return Ok(Exit::Again);
+        }
+        let part = Saved { key: self.key, region: self.whole, films: vec![traced.film] };
+        write_with(path, &|out| save(&part, out))?;
+        checkpoint::remove(&checkpoint::beside(path))?;
+        let Region { y, height, .. } = self.frame.region;
+        messages::eprint(&format!("{name}: rows {y} to {}\n", y + height - 1));
+        Ok(Exit::Done)
+    }
+}
+
+impl RenderArguments {
+    /// Returns the part of a still that is rendered; of an animation, a part is some of its frames.
+    fn still_shard(&self) -> Option<Shard> {
+        self.work.shard.filter(|_| self.animation.film().is_none())
+    }
+}
+
+/// Files whose names and contents are added up.
+struct Digested<'a> {
+    files: &'a DiskFiles,
+    read: RefCell<Digest>,
+}
+
+impl<'a> Digested<'a> {
+    fn new(files: &'a DiskFiles) -> Self {
+        Self { files, read: RefCell::default() }
+    }
+
+    fn add_to(&self, digest: &mut Digest) {
+        digest.add(&self.read.borrow().get().to_le_bytes());
+    }
+}
+
+impl Files for Digested<'_> {
+    fn read(&self, name: &str, from: &str) -> Result<Found, FileError> {
+        let found = self.files.read(name, from);
+        let mut read = self.read.borrow_mut();
+        read.add(name.as_bytes());
+        found.iter().for_each(|found| read.add(&found.bytes));
+        found
+    }
+
+    fn start(&self, name: &str, append: bool) -> Result<String, WriteError> {
+        self.files.start(name, append)
+    }
+
+    fn add(&self, name: &str, bytes: &[u8]) {
+        self.files.add(name, bytes);
+    }
 }
 
 /// Fails if there is clearly too little memory for the picture; a failed allocation would abort the program.

@@ -55,7 +55,7 @@ mod watch;
 mod way;
 
 use crate::color::{Gamma, Rgb};
-use crate::film::{Channels, Film};
+use crate::film::{Channels, Film, Pixel};
 use crate::geometry::{Geometry, Hit, Occluder};
 use crate::plan::{Frame, Plan, Region};
 use crate::world::World;
@@ -166,11 +166,24 @@ pub fn trace_in(
     options: &TraceOptions,
     watch: &dyn Watch,
 ) -> Traced {
+    trace_on(world, geometry, plan, options, watch, Vec::new())
+}
+
+/// As [`trace_in`], going on from the films of the passes that were [begun](Watch::begins) before: the picture is the same
+/// to the bit.
+pub fn trace_on(
+    world: &World,
+    geometry: &Geometry,
+    plan: &Plan,
+    options: &TraceOptions,
+    watch: &dyn Watch,
+    begun: Vec<Film>,
+) -> Traced {
     let world = &*world.within_julia_iterations(plan.julia_iterations);
     let tracer = Tracer::new(world, geometry, plan, watch);
     watch.built();
     let crew = Crew::new(options, watch);
-    frame(&tracer, plan, &crew)
+    frame(&tracer, plan, &crew, begun)
 }
 
 /// The World's geometry in the Plan's arithmetic.
@@ -185,13 +198,20 @@ pub fn geometry(world: &World, plan: &Plan, options: &TraceOptions) -> Geometry 
 
 /// Traces the region. A function of its own, so that its instructions can be counted.
 #[inline(never)]
-fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew) -> Traced {
+fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew, begun: Vec<Film>) -> Traced {
     let (screen, channels) = (Screen::new(tracer, plan), Channels::with(plan.alpha));
-    let pass = |region, which| {
+    let gamma = tracer.world.settings.assumed_gamma;
+    let goes_on = !begun.is_empty();
+    let mut begun = begun.into_iter();
+    let mut pass = |region, which| {
         let frame = Frame { region, ..plan.frame };
-        let film = Traced::unbegun(frame, tracer.world.settings.assumed_gamma, channels).film;
-        crew.pass(film, which, |walk, places, pixels| {
-            screen.sample(walk, places, |i, sums| pixels[i] = sums.pixel());
+        let film = begun.next().filter(|film| film.frame == frame);
+        let film = film.unwrap_or_else(|| Traced::unbegun(frame, gamma, channels).film);
+        crew.pass(film, which, |walk, places, pixels| match goes_on {
+            false => screen.sample(walk, places, |i, sums| pixels[i] = sums.pixel()),
+            true => each_open(places, pixels, 0, |places, _, done| {
+                screen.sample(walk, places, |i, sums| done(i, sums.pixel()));
+            }),
         })
     };
     let region = plan.frame.region;
@@ -200,12 +220,27 @@ fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew) -> Traced {
     let edges = first.complete.then(|| Edges::new(crew, &first.film, adaptive));
     let film = first.film.crop(region);
     let Some(edges) = edges else { return Traced { film, ..first } };
+    let film = begun.next().filter(|begun| begun.frame == film.frame).unwrap_or(film);
     let mut second = crew.pass(film, (1, 2), |walk, places, pixels| {
-        let before = pixels.to_vec();
-        screen.refine(walk, &edges, places, &before, |i, sums| pixels[i] = sums.pixel());
+        each_open(places, pixels, 1, |places, before, done| {
+            screen.refine(walk, &edges, places, before, |i, sums| done(i, sums.pixel()));
+        });
     });
     second.counters += first.counters;
     second
+}
+
+/// Lets `trace` change those pixels that have so many samples: others were done before.
+fn each_open(
+    places: &[(u32, u32)],
+    pixels: &mut [Pixel],
+    samples: u32,
+    trace: impl FnOnce(&[(u32, u32)], &[Pixel], &mut dyn FnMut(usize, Pixel)),
+) {
+    let open: Vec<usize> = (0..pixels.len()).filter(|&i| pixels[i].samples() == samples).collect();
+    let places: Vec<_> = open.iter().map(|&i| places[i]).collect();
+    let before: Vec<_> = open.iter().map(|&i| pixels[i]).collect();
+    trace(&places, &before, &mut |i, pixel| pixels[open[i]] = pixel);
 }
 
 /// The region and the pixels around it that are at most `reach` away.

@@ -116,6 +116,7 @@ impl<'a> Crew<'a> {
         which: (usize, usize),
         sample: impl Fn(&mut Walk, &[(u32, u32)], &mut [Pixel]) + Sync,
     ) -> Traced {
+        self.watch.begins(which.0, &film);
         let tiles = tiles(&mut film, self.side);
         let total = tiles.len();
         let counters = Mutex::new(Counters::default());
@@ -154,8 +155,9 @@ impl<'a> Crew<'a> {
                     rows[row][column] = pixel;
                 }
             }
-            if walk.patience.is_over {
-                stopped.store(true, Ordering::Relaxed);
+            match walk.patience.is_over || stopped.load(Ordering::Relaxed) {
+                true => stopped.store(true, Ordering::Relaxed),
+                false => self.watch.traced(which.0, (tile.x, tile.y), &tile.rows),
             }
             *counters.lock().unwrap_or_else(PoisonError::into_inner) +=
                 std::mem::take(&mut walk.counters);

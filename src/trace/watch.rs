@@ -4,10 +4,16 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::film::{Film, Pixel};
+
 /// Whoever waits for the film. Called from several threads at once.
 pub trait Watch: Sync {
     /// The tree of boxes stands, and tracing begins. Called once.
     fn built(&self) {}
+    /// A pass over a film begins, of which this much is done.
+    fn begins(&self, _pass: usize, _film: &Film) {}
+    /// The rows of a tile are done, of which this is the top left pixel.
+    fn traced(&self, _pass: usize, _place: (u32, u32), _rows: &[&mut [Pixel]]) {}
     /// `done` of `total` pieces of work are done.
     fn progress(&self, done: usize, total: usize);
     /// Asked before each piece, and now and then within one; once it says yes, no further piece is

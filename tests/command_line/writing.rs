@@ -104,3 +104,60 @@ fn alpha_is_written_where_the_format_holds_it_and_refused_where_not() {
         place.run(&format!("a.scene --alpha -o b.{name}")).ends(2, &[&said, "write a .png"]);
     }
 }
+
+// ── animations ──
+
+const FILM: &str = "\
+camera { location <0, 1, 6> look_at 0 }
+light_source { <4, 8, 6>, rgb 1 }
+sphere { clock*x, 1 pigment { color rgb <1, 0, 0> } }
+#if (frame_number > 0) #debug concat(str(frame_number, 0, 0), \" of \", str(final_frame, 0, 0), \"\\n\") #end
+#warning \"the same in all frames\"
+";
+
+#[test]
+fn frames_are_numbered_pictures_with_the_bytes_of_each_alone() {
+    let place = Place::new();
+    place.write("film.scene", FILM);
+    let run = place.run("film.scene --size 32x24 --frames 1..11/5 --clocks 0..2 -o f.png");
+    let run = run.ends(0, &["1 of 11\n", "6 of 11\n", "f11.png: 32×24"]);
+    assert_eq!(run.stderr().matches("author-warning").count(), 1, "{}", run.stderr());
+    let pictures: Vec<String> =
+        place.names().into_iter().filter(|name| name.ends_with(".png")).collect();
+    assert_eq!(pictures, ["f01.png", "f06.png", "f11.png"]);
+    place.run("film.scene --size 32x24 -D clock=1 -o alone.png").ends(0, &[]);
+    assert_eq!(place.read("alone.png"), place.read("f06.png"));
+    let part = "film.scene --size 32x24 --frames 1..11 --only 6..6 --clocks 0..2 -o part.png";
+    place.run(part).ends(0, &["part06.png"]);
+    assert_eq!(place.read("part06.png"), place.read("f06.png"));
+}
+
+#[test]
+fn an_animated_picture_has_all_frames_and_so_has_standard_output() {
+    let place = Place::new();
+    place.write("film.scene", FILM);
+    for name in ["f.gif", "f.apng"] {
+        let words = format!("film.scene --size 32x24 --frames 1..3 --cyclic --fps 10 -o {name}");
+        place.run(&words).ends(0, &["frame 3 of 3", &format!("{name}: 3 frames")]);
+    }
+    let mut gif = gif::DecodeOptions::new()
+        .read_info(fs::File::open(place.path("f.gif")).expect("there"))
+        .expect("a GIF");
+    let mut frames = 0;
+    while let Some(frame) = gif.read_next_frame().expect("a frame") {
+        assert_eq!((frame.width, frame.height, frame.delay), (32, 24, 10));
+        frames += 1;
+    }
+    assert_eq!(frames, 3);
+    let apng = place.read("f.apng");
+    assert_eq!(apng.windows(4).filter(|name| *name == b"fcTL").count(), 3);
+    let raw = place.run("film.scene --size 32x24 --frames 1..3 -o -").ends(0, &["frame 3 of 3"]);
+    assert_eq!(raw.0.stdout.len(), 3 * (b"P6\n32 24\n255\n".len() + 3 * 32 * 24));
+    // A frame with a mistake ends it, and leaves no half of a file.
+    place.write("half.scene", &format!("{FILM} #if (frame_number = 2) spere #end"));
+    place.run("half.scene --size 32x24 --frames 1..3 -o half.gif").ends(1, &["frame 1 of 3"]);
+    assert!(!place.names().iter().any(|name| name.starts_with("half.gif")), "{:?}", place.names());
+    for wrong in ["5..1", "1", "1..2/0"] {
+        place.run(&format!("film.scene --frames {wrong}")).ends(2, &["expected frames such as"]);
+    }
+}

@@ -3,7 +3,6 @@
 //! **Invariant:** all text is ASCII and on standard error; standard output has a picture that was asked for, or nothing.
 //! The exit code is 0, 1, or 2 if interrupted.
 
-mod animation;
 mod settings;
 mod streams;
 mod switches;
@@ -30,6 +29,7 @@ use lucarne::world::World;
 
 use self::settings::{Problem, Settings};
 use self::streams::Stream;
+use super::animation::Edge;
 use super::exit::Failure;
 use super::messages;
 use super::output::{Output, write_whole};
@@ -282,7 +282,7 @@ impl Run {
     /// Returns the part of the picture that is rendered.
     fn region(&self) -> Region {
         let Settings { width, height, columns, rows, .. } = self.settings;
-        let part = |(first, last): (Option<settings::Edge>, Option<settings::Edge>), all: u32| {
+        let part = |(first, last): (Option<Edge>, Option<Edge>), all: u32| {
             let first = first.map_or(0, |edge| edge.first(all)).min(all.saturating_sub(1));
             (first, last.map_or(all, |edge| edge.end(all)).clamp(first + 1, all))
         };

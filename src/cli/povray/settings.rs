@@ -8,8 +8,8 @@ use lucarne::film::Depth;
 use lucarne::picture::Format;
 use lucarne::plan::Antialias;
 
-use super::animation::Film;
 use super::streams::Streams;
+use crate::cli::animation::{Edge, Film};
 
 /// An option that cannot be understood.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,38 +47,6 @@ pub struct Settings {
     method: u32,
     threshold: f64,
     depth: u32,
-}
-
-/// Where a part of the picture begins or ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Edge {
-    /// Counted from 1.
-    Pixel(u32),
-    /// A fraction of the picture.
-    Fraction(f64),
-}
-
-impl Edge {
-    fn of(value: &str) -> Result<Self, Problem> {
-        let value = number(value)?;
-        Ok(if value < 1.0 { Self::Fraction(value.max(0.0)) } else { Self::Pixel(value as u32) })
-    }
-
-    /// Returns the number of the pixel, counted from 0, of the first row or column.
-    pub fn first(self, all: u32) -> u32 {
-        match self {
-            Self::Pixel(number) => number.saturating_sub(1),
-            Self::Fraction(part) => (part * f64::from(all)) as u32,
-        }
-    }
-
-    /// Returns the number of the pixel behind the last row or column.
-    pub fn end(self, all: u32) -> u32 {
-        match self {
-            Self::Pixel(number) => number,
-            Self::Fraction(part) => (part * f64::from(all)) as u32,
-        }
-    }
 }
 
 impl Default for Settings {
@@ -182,10 +150,10 @@ impl Settings {
         match name.as_str() {
             "width" => self.width = pixels(value)?,
             "height" => self.height = pixels(value)?,
-            "start_column" => self.columns.0 = Some(Edge::of(value)?),
-            "end_column" => self.columns.1 = Some(Edge::of(value)?),
-            "start_row" => self.rows.0 = Some(Edge::of(value)?),
-            "end_row" => self.rows.1 = Some(Edge::of(value)?),
+            "start_column" => self.columns.0 = Some(edge(value)?),
+            "end_column" => self.columns.1 = Some(edge(value)?),
+            "start_row" => self.rows.0 = Some(edge(value)?),
+            "end_row" => self.rows.1 = Some(edge(value)?),
             "input_file_name" => self.input = Some(value.to_owned()),
             "output_to_file" => self.writes = switch(value)?,
             "output_file_name" => self.output = Some(value.to_owned()),
@@ -208,8 +176,8 @@ impl Settings {
             "final_clock" => self.film.clocks.1 = number(value)?,
             "cyclic_animation" => self.film.is_cyclic = switch(value)?,
             "frame_step" => self.film.step = whole(value)?.max(1),
-            "subset_start_frame" => self.film.subset.0 = Some(Edge::of(value)?),
-            "subset_end_frame" => self.film.subset.1 = Some(Edge::of(value)?),
+            "subset_start_frame" => self.film.subset.0 = Some(edge(value)?),
+            "subset_end_frame" => self.film.subset.1 = Some(edge(value)?),
             "work_threads" => self.threads = Some(whole(value)?.max(1) as usize),
             "quality" => self.quality = whole(value)?.min(11),
             "verbose" => self.verbose = switch(value)?,
@@ -252,6 +220,14 @@ pub fn number(value: &str) -> Result<f64, Problem> {
         .find_map(|end| digits[..end].parse().ok())
         .filter(|value: &f64| value.is_finite())
         .ok_or(Problem)
+}
+
+fn edge(value: &str) -> Result<Edge, Problem> {
+    let value = number(value)?;
+    Ok(match value < 1.0 {
+        true => Edge::Fraction(value.max(0.0)),
+        false => Edge::Number(value as u32),
+    })
 }
 
 /// Returns a number without its decimals.
@@ -313,7 +289,7 @@ mod tests {
 
     #[test]
     fn parts_begin_and_end_at_pixels_or_fractions() {
-        let edge = |value| Edge::of(value).expect("an edge");
+        let edge = |value| edge(value).expect("an edge");
         assert_eq!((edge("4").first(10), edge("8").end(10)), (3, 8));
         assert_eq!((edge("0.3").first(10), edge("0.5").end(10)), (3, 5));
     }

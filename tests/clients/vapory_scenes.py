@@ -1,8 +1,4 @@
 """A scene of vapory, as a file and as pixels from standard output."""
-import sys
-
-# This file has the name of the package.
-sys.path.pop(0)
 from PIL import Image
 from vapory import Background, Box, Camera, Finish, LightSource, Pigment, Plane, Scene, Sphere, Texture
 

@@ -4,7 +4,32 @@
 
 use lucarne::evaluate::Animation;
 
-use super::settings::Edge;
+/// Where a part of a picture, or of an animation, begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Edge {
+    /// Counted from 1.
+    Number(u32),
+    /// A fraction of all.
+    Fraction(f64),
+}
+
+impl Edge {
+    /// Returns the number of the pixel, counted from 0, of the first row or column.
+    pub fn first(self, all: u32) -> u32 {
+        match self {
+            Self::Number(number) => number.saturating_sub(1),
+            Self::Fraction(part) => (part * f64::from(all)) as u32,
+        }
+    }
+
+    /// Returns the number of the pixel behind the last row or column.
+    pub fn end(self, all: u32) -> u32 {
+        match self {
+            Self::Number(number) => number,
+            Self::Fraction(part) => (part * f64::from(all)) as u32,
+        }
+    }
+}
 
 /// An animation, or a still if its last frame is its first.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +59,7 @@ impl Film {
         let (first, last) = self.frames;
         let of = |edge: Option<Edge>, default: u32| match edge {
             None => default,
-            Some(Edge::Pixel(number)) => number,
+            Some(Edge::Number(number)) => number,
             Some(Edge::Fraction(part)) => (part * f64::from(last)) as u32,
         };
         let (start, end) = (of(self.subset.0, first).max(first), of(self.subset.1, last).min(last));
@@ -78,7 +103,7 @@ mod tests {
 
     #[test]
     fn a_part_of_the_frames_has_the_clocks_that_they_have_in_all() {
-        let subset = (Some(Edge::Pixel(3)), Some(Edge::Fraction(0.5)));
+        let subset = (Some(Edge::Number(3)), Some(Edge::Fraction(0.5)));
         let film = Film { frames: (1, 12), clocks: (0.0, 11.0), subset, ..Film::default() };
         assert_eq!(clocks(&film), [(3, 2.0), (4, 3.0), (5, 4.0), (6, 5.0)]);
         assert_eq!(film.name("a", 3), "a03");

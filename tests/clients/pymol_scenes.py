@@ -1,8 +1,6 @@
 """Sticks and spheres of PyMOL, by its ray tracing with POV-Ray."""
-import sys
+import shutil
 
-# This file has the name of the package.
-sys.path.pop(0)
 import pymol
 
 ATOMS = [("C", -0.75, 0, 0), ("C", 0.75, 0, 0), ("H", -1.15, 1, 0), ("H", -1.15, -0.5, 0.87), ("O", 1.3, -1, 0.5)]
@@ -15,5 +13,6 @@ pymol.cmd.show("sticks")
 pymol.cmd.show("spheres")
 pymol.cmd.set("sphere_scale", 0.3)
 pymol.cmd.ray(160, 120, renderer=1)
-pymol.cmd.png("1.png")
+# What `povray` wrote.
+shutil.copy("tmp_pymol.png", "1.png")
 pymol.cmd.quit()

@@ -1,9 +1,5 @@
 """A smooth and a clear mesh of VTK's exporter."""
 import subprocess
-import sys
-
-# This file has the name of the package.
-sys.path.pop(0)
 import vtk
 
 renderer = vtk.vtkRenderer()

@@ -1,8 +1,4 @@
 """A scene of fdray, as pixels with a transparent background."""
-import sys
-
-# This file has the name of the package.
-sys.path.pop(0)
 from PIL import Image
 from fdray import Box, Camera, Color, Curve, LightSource, Renderer, Scene, Sphere
 
