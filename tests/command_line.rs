@@ -4,6 +4,7 @@ mod language;
 mod long;
 #[cfg(unix)]
 mod povray;
+mod programs;
 mod reading;
 mod words;
 mod writing;

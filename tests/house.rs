@@ -128,7 +128,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("libm", &["math/elementary.rs"]),
     ("miette", &["diagnostic/render"]),
     ("serde", &["diagnostic/json.rs", "accuracy/json.rs", "cli/"]),
-    ("serde_json", &["diagnostic/json.rs", "accuracy/json.rs", "cli/"]),
+    ("serde_json", &["diagnostic/json.rs", "diagnostic/sarif.rs", "accuracy/json.rs", "cli/"]),
     // Lists that are mostly short, where crossings are found.
     ("rustc_hash", &["lower/"]),
     (
@@ -157,6 +157,8 @@ const DOORS: &[(&str, &[&str])] = &[
     ("rayon", &["trace/"]),
     ("stl_io", &["mesh_file/stl.rs"]),
     ("clap", &["cli/", "main.rs"]),
+    ("clap_complete", &["cli/"]),
+    ("clap_mangen", &["cli/"]),
     ("indicatif", &["cli/"]),
     ("ctrlc", &["cli/"]),
     ("nix", &["cli/"]),

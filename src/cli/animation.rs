@@ -31,9 +31,12 @@ impl Edge {
     }
 }
 
-/// An animation, or a still if its last frame is its first.
+/// The largest number of a frame.
+pub const LAST: u32 = 999_999;
+
+/// The frames of an animation, or a still if its last frame is its first.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Film {
+pub struct FrameRange {
     pub frames: (u32, u32),
     pub clocks: (f64, f64),
     /// The last frame is as long before the first as any is before the next.
@@ -43,13 +46,13 @@ pub struct Film {
     pub step: u32,
 }
 
-impl Default for Film {
+impl Default for FrameRange {
     fn default() -> Self {
         Self { frames: (1, 1), clocks: (0.0, 1.0), is_cyclic: false, subset: (None, None), step: 1 }
     }
 }
 
-impl Film {
+impl FrameRange {
     pub fn is_still(&self) -> bool {
         self.frames.0 == self.frames.1
     }
@@ -64,7 +67,7 @@ impl Film {
         };
         let (start, end) = (of(self.subset.0, first).max(first), of(self.subset.1, last).min(last));
         // A cyclic animation has one more frame, which is its first again.
-        let all = last + u32::from(self.is_cyclic);
+        let all = last.saturating_add(u32::from(self.is_cyclic));
         let clock_delta =
             (self.clocks.1 - self.clocks.0) / f64::from(all.saturating_sub(first).max(1));
         let frame = |number: u32| {
@@ -74,7 +77,11 @@ impl Film {
                 Animation { frame_number: number, frames, clocks: self.clocks, clock_delta };
             (animation, clock)
         };
-        (start..=end).step_by(self.step as usize).map(frame).collect()
+        let all = (first..=last).step_by(self.step as usize);
+        all.skip_while(|number| *number < start)
+            .take_while(|number| *number <= end)
+            .map(frame)
+            .collect()
     }
 
     /// Returns the name of a frame's picture: with as many digits as the last frame has.
@@ -88,24 +95,35 @@ impl Film {
 mod tests {
     use super::*;
 
-    fn clocks(film: &Film) -> Vec<(u32, f64)> {
-        film.frames().iter().map(|(frame, clock)| (frame.frame_number, *clock)).collect()
+    fn clocks(range: &FrameRange) -> Vec<(u32, f64)> {
+        range.frames().iter().map(|(frame, clock)| (frame.frame_number, *clock)).collect()
     }
 
     #[test]
     fn the_clock_runs_from_the_first_frame_to_the_last() {
-        let film = Film { frames: (2, 5), clocks: (1.0, 2.5), ..Film::default() };
-        assert_eq!(clocks(&film), [(2, 1.0), (3, 1.5), (4, 2.0), (5, 2.5)]);
-        let film = Film { frames: (1, 4), is_cyclic: true, ..Film::default() };
-        assert_eq!(clocks(&film), [(1, 0.0), (2, 0.25), (3, 0.5), (4, 0.75)]);
-        assert_eq!(film.frames()[0].0.frames, (1, 5));
+        let range = FrameRange { frames: (2, 5), clocks: (1.0, 2.5), ..FrameRange::default() };
+        assert_eq!(clocks(&range), [(2, 1.0), (3, 1.5), (4, 2.0), (5, 2.5)]);
+        let range = FrameRange { frames: (1, 4), is_cyclic: true, ..FrameRange::default() };
+        assert_eq!(clocks(&range), [(1, 0.0), (2, 0.25), (3, 0.5), (4, 0.75)]);
+        assert_eq!(range.frames()[0].0.frames, (1, 5));
+    }
+
+    #[test]
+    fn a_part_of_every_second_frame_has_those_of_the_whole() {
+        let subset = (Some(Edge::Number(4)), Some(Edge::Number(8)));
+        let range = FrameRange { frames: (1, 9), step: 2, subset, ..FrameRange::default() };
+        assert_eq!(
+            range.frames().iter().map(|(frame, _)| frame.frame_number).collect::<Vec<_>>(),
+            [5, 7]
+        );
     }
 
     #[test]
     fn a_part_of_the_frames_has_the_clocks_that_they_have_in_all() {
         let subset = (Some(Edge::Number(3)), Some(Edge::Fraction(0.5)));
-        let film = Film { frames: (1, 12), clocks: (0.0, 11.0), subset, ..Film::default() };
-        assert_eq!(clocks(&film), [(3, 2.0), (4, 3.0), (5, 4.0), (6, 5.0)]);
-        assert_eq!(film.name("a", 3), "a03");
+        let range =
+            FrameRange { frames: (1, 12), clocks: (0.0, 11.0), subset, ..FrameRange::default() };
+        assert_eq!(clocks(&range), [(3, 2.0), (4, 3.0), (5, 4.0), (6, 5.0)]);
+        assert_eq!(range.name("a", 3), "a03");
     }
 }

@@ -60,6 +60,10 @@ pub enum Command {
     Render(RenderArguments),
     /// Make one picture of the parts that `render --shard` wrote
     Merge(MergeArguments),
+    /// Print completions of the command line for a shell
+    Completions(CompletionsArguments),
+    /// Print the manual page, for `man`
+    Man,
     /// Check scenes for errors and warnings without rendering
     Check(CheckArguments),
     /// Format scenes: indentation, spacing and line breaks only
@@ -90,6 +94,9 @@ pub struct RenderArguments {
     pub animation: AnimationArguments,
     #[command(flatten)]
     pub work: WorkArguments,
+    /// Write a rule for make to this file: OUT depends on the scene and on all files that it reads
+    #[arg(long, value_name = "FILE", conflicts_with = "frames")]
+    pub deps: Option<PathBuf>,
     /// Bits per channel, 8 or 16; png and ppm only
     #[arg(long, value_parser = clap::value_parser!(u8))]
     pub bits: Option<u8>,
@@ -133,6 +140,13 @@ pub struct RenderArguments {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum StatsFormat {
     Json,
+}
+
+/// For example `lucarne completions bash > ~/.local/share/bash-completion/completions/lucarne`.
+#[derive(Debug, Args)]
+pub struct CompletionsArguments {
+    /// Shell
+    pub shell: clap_complete::Shell,
 }
 
 /// For example `lucarne merge picture.*.part -o picture.png`.
@@ -316,7 +330,9 @@ impl Command {
             Self::Show(arguments) => Some(&arguments.scene),
             Self::Plan(arguments) => Some(&arguments.scene),
             Self::Accuracy(arguments) => Some(&arguments.scene),
-            Self::Fmt(_) | Self::Merge(_) | Self::Explain(_) => None,
+            Self::Fmt(_) | Self::Merge(_) | Self::Completions(_) | Self::Man | Self::Explain(_) => {
+                None
+            }
         }
     }
 }

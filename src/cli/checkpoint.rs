@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use lucarne::disk::reason;
-use lucarne::film::saved::{Digest, Saved, load, save};
+use lucarne::film::saved::{Digest, Purpose, Saved, load, save};
 use lucarne::film::{Film, Pixel};
 use lucarne::plan::Region;
 use lucarne::trace::Watch;
@@ -17,6 +17,9 @@ use super::exit::Failure;
 use super::messages;
 use super::output::{cannot, write_with};
 use super::progress::Progress;
+
+/// Memory per pixel: a copy of the film of each pass.
+pub const BYTES_PER_PIXEL: u64 = 2 * size_of::<Pixel>() as u64;
 
 /// Returns the place of the checkpoint of a picture.
 pub fn beside(path: &Path) -> PathBuf {
@@ -46,6 +49,7 @@ pub fn resumed(path: &Path, key: u64) -> Result<Vec<Film>, Failure> {
             .help("without `--resume`, the picture is rendered from its beginning")
     };
     match load(&bytes) {
+        Ok(Saved { purpose: Purpose::Part, .. }) => Err(wrong("it is a part for `lucarne merge`")),
         Ok(Saved { key: found, films, .. }) if found == key => Ok(films),
         Ok(_) => Err(wrong("it is of another scene, or of other options")),
         Err(damage) => Err(wrong(&damage.to_string())),
@@ -78,14 +82,15 @@ struct State {
 }
 
 impl<'a> Checkpoint<'a> {
-    /// The first is saved after twice the time between two.
+    /// The first is saved after twice the time between two. `begun` is what a checkpoint had.
     pub fn new(
         progress: &'a Progress,
         path: PathBuf,
         (key, region): (u64, Region),
         every: Duration,
+        begun: Vec<Film>,
     ) -> Self {
-        let saved = Saved { key, region, films: Vec::new() };
+        let saved = Saved { purpose: Purpose::Checkpoint, key, region, films: begun };
         let next = Instant::now() + 2 * every;
         Self { progress, path, every, state: Mutex::new(State { saved, next, is_told: false }) }
     }
@@ -113,8 +118,11 @@ impl Watch for Checkpoint<'_> {
 
     fn begins(&self, pass: usize, film: &Film) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        state.saved.films.truncate(pass);
-        state.saved.films.push(film.clone());
+        // A pass that goes on keeps those after it.
+        match state.saved.films.get_mut(pass) {
+            Some(place) => place.clone_from(film),
+            None => state.saved.films.push(film.clone()),
+        }
     }
 
     fn traced(&self, pass: usize, (x, y): (u32, u32), rows: &[&mut [Pixel]]) {

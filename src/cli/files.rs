@@ -1,8 +1,12 @@
 //! The files of a scene as the command line allows them: which folders are searched, and what is written.
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use lucarne::disk::DiskFiles;
+use lucarne::film::saved::Digest;
+use lucarne::source::{FileError, Files, Found, WriteError};
 
 use super::exit::Failure;
 use super::messages;
@@ -44,6 +48,50 @@ fn each(
         messages::eprint(&format!("{name}: {count} byte{s}, {said}\n"));
     }
     Ok(())
+}
+
+/// Files whose names and contents are recorded.
+pub struct Recorded<'a> {
+    files: &'a DiskFiles,
+    read: RefCell<Digest>,
+    names: RefCell<BTreeSet<String>>,
+}
+
+impl<'a> Recorded<'a> {
+    pub fn new(files: &'a DiskFiles) -> Self {
+        Self { files, read: RefCell::default(), names: RefCell::default() }
+    }
+
+    /// Adds what was read to a digest.
+    pub fn add_to(&self, digest: &mut Digest) {
+        digest.add(&self.read.borrow().get().to_le_bytes());
+    }
+
+    /// Returns the names of the files that were found.
+    pub fn names(&self) -> BTreeSet<String> {
+        self.names.borrow().clone()
+    }
+}
+
+impl Files for Recorded<'_> {
+    fn read(&self, name: &str, from: &str) -> Result<Found, FileError> {
+        let found = self.files.read(name, from);
+        let mut read = self.read.borrow_mut();
+        read.add(name.as_bytes());
+        if let Ok(found) = &found {
+            read.add(&found.bytes);
+            self.names.borrow_mut().insert(found.name.clone());
+        }
+        found
+    }
+
+    fn start(&self, name: &str, append: bool) -> Result<String, WriteError> {
+        self.files.start(name, append)
+    }
+
+    fn add(&self, name: &str, bytes: &[u8]) {
+        self.files.add(name, bytes);
+    }
 }
 
 /// Fails if one of the given folders is not a folder.

@@ -3,8 +3,9 @@
 //! **Invariant:** the picture has the bytes of one that was rendered at once.
 
 use std::fs;
+use std::io::ErrorKind;
 
-use lucarne::film::saved::{Saved, load};
+use lucarne::film::saved::{Damage, Purpose, Saved, load};
 use lucarne::film::{Developer, Film};
 use lucarne::picture;
 
@@ -24,10 +25,18 @@ pub fn run(arguments: &MergeArguments) -> Outcome {
     for path in &arguments.parts {
         let name = path.display();
         let wrong = |why: &str| Failure::file(format!("cannot merge `{name}`: {why}"));
-        let bytes = fs::read(path).map_err(|error| again(wrong(&reason(&error))))?;
-        // What is incomplete will be there when its render has run again.
-        let Saved { key, region, films } =
-            load(&bytes).map_err(|damage| again(wrong(&damage.to_string())))?;
+        // What is missing or incomplete will be there when its render has run again.
+        let bytes = fs::read(path).map_err(|error| match error.kind() {
+            ErrorKind::NotFound => again(wrong(&reason(&error))),
+            _ => wrong(&reason(&error)),
+        })?;
+        let saved = load(&bytes).map_err(|damage| match damage {
+            Damage::Broken => again(wrong(&damage.to_string())),
+            Damage::Foreign => wrong(&damage.to_string()),
+        })?;
+        let Saved { purpose: Purpose::Part, key, region, films } = saved else {
+            return Err(again(wrong("it is a checkpoint: its part is not finished")));
+        };
         let [part] = &films[..] else { return Err(wrong("it is not a part of a picture")) };
         let (expected, film) = whole.get_or_insert_with(|| {
             let frame = lucarne::plan::Frame { region, ..part.frame };
@@ -69,7 +78,7 @@ pub fn run(arguments: &MergeArguments) -> Outcome {
     Ok(Exit::Done)
 }
 
-/// A failure that may be none another time.
+/// A failure of what may succeed another time.
 fn again(failure: Failure) -> Failure {
     Failure { exit: Exit::Again, ..failure }
 }

@@ -3,12 +3,13 @@
 //! **Invariant:** messages for people go to standard error, messages for programs (`json`) to standard
 //! output. A closed pipe is not an error.
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
 use clap::ValueEnum;
-use lucarne::diagnostic::{Code, Diagnostic, Severity, json, narrate, render};
+use lucarne::diagnostic::{Code, Diagnostic, Severity, json, narrate, render, sarif};
 use lucarne::disk::reason;
 use lucarne::source::{Source, Sources, Span};
 
@@ -31,6 +32,10 @@ pub enum Format {
     Narrated,
     /// One JSON object per line, on standard output
     Json,
+    /// A SARIF log, for code scanning services, on standard output
+    Sarif,
+    /// Commands of GitHub's workflows, which show messages beside their lines, on standard output
+    Github,
 }
 
 /// Ends the text with a newline, so that output the scene author prints in pieces occupies its own line.
@@ -46,6 +51,8 @@ pub struct Messages {
     deny_warnings: bool,
     /// Whether standard output is reserved for a picture.
     pub picture_on_stdout: bool,
+    /// What a SARIF log has so far.
+    results: RefCell<Vec<serde_json::Value>>,
     style: render::Style,
     errors: usize,
     warnings: usize,
@@ -63,6 +70,7 @@ impl Messages {
             format,
             deny_warnings,
             picture_on_stdout: false,
+            results: RefCell::default(),
             style,
             errors: 0,
             warnings: 0,
@@ -122,13 +130,19 @@ impl Messages {
                 }
                 Format::Short => out.push_str(&(render::short(diagnostic, sources) + "\n")),
                 Format::Json => out.push_str(&(json::line(diagnostic, sources) + "\n")),
+                Format::Sarif => {
+                    self.results.borrow_mut().push(sarif::result(diagnostic, sources));
+                }
+                Format::Github => {
+                    out.push_str(&(sarif::workflow_command(diagnostic, sources) + "\n"));
+                }
             }
         }
         end_line(&mut out);
         if more > 0 {
             out.push_str(&format!("… and {more} more; `--message-format short` shows them all\n"));
         }
-        match self.format == Format::Json && !self.picture_on_stdout {
+        match self.is_for_programs() && !self.picture_on_stdout {
             true => print(&out),
             false => {
                 eprint(&out);
@@ -139,7 +153,7 @@ impl Messages {
 
     /// Reports why a file could not be read, in the selected format.
     pub fn fail(&mut self, file: &Path, failure: &Failure) -> Result<(), Failure> {
-        if self.format != Format::Json {
+        if !self.is_for_programs() {
             fail(failure);
             return Ok(());
         }
@@ -150,20 +164,31 @@ impl Messages {
         self.print(std::iter::once(&told.at(start, "")), &sources)
     }
 
-    /// Prints the totals (`2 errors, 1 warning`) in the formats for people.
+    fn is_for_programs(&self) -> bool {
+        matches!(self.format, Format::Json | Format::Sarif | Format::Github)
+    }
+
+    /// Prints the totals (`2 errors, 1 warning`) in the formats for people, and the log of SARIF.
     pub fn summarize(&self) {
+        if self.format == Format::Sarif {
+            let log = sarif::log(&self.results.take()) + "\n";
+            match self.picture_on_stdout {
+                true => eprint(&log),
+                false => drop(print(&log)),
+            }
+        }
         let summary = render::summary(self.errors + self.limits, self.warnings);
         if let (Format::Human | Format::Narrated, Some(summary)) = (self.format, summary) {
             eprint(&format!("{summary}\n"));
         }
-        for code in self.not_allowed.iter().filter(|_| self.format != Format::Json) {
+        for code in self.not_allowed.iter().filter(|_| !self.is_for_programs()) {
             eprint(&format!(
                 "note: `--allow {}` silences warnings, and these are errors\n",
                 code.name()
             ));
         }
         let warnings_alone = self.errors + self.limits == 0 && self.exit() != Exit::Done;
-        if warnings_alone && self.format != Format::Json {
+        if warnings_alone && !self.is_for_programs() {
             eprint("error: warnings are errors here (--deny-warnings)\n");
         }
     }

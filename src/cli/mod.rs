@@ -16,6 +16,7 @@ mod frames;
 mod heartbeat;
 mod hint;
 mod language;
+mod manual;
 mod merge;
 mod messages;
 mod output;
@@ -70,13 +71,16 @@ fn run(arguments: Arguments) -> Outcome {
         Command::Render(_) => "interrupted: nothing was written\n",
         _ => "interrupted\n",
     };
-    progress::hear_interrupts(before_tracing, Exit::Interrupted as i32);
+    let is_part = |command: &Command| matches!(command, Command::Render(arguments) if arguments.work.shard.is_some());
+    // A part is rendered again by whoever divided the picture.
+    let interrupted = if is_part(&arguments.command) { Exit::Again } else { Exit::Interrupted };
+    progress::hear_interrupts(before_tracing, interrupted as i32);
     if let Some(scene) = arguments.command.scene() {
         files::exist(&scene.include)?;
     }
     let exit = match arguments.command {
-        Command::Render(arguments) => match arguments.animation.film() {
-            Some(film) => frames::run(&arguments, &film),
+        Command::Render(arguments) => match arguments.animation.range() {
+            Some(range) => frames::run(&arguments, &range),
             None => render::run(&arguments),
         },
         Command::Check(arguments) => check::run(&arguments),
@@ -85,11 +89,13 @@ fn run(arguments: Arguments) -> Outcome {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Merge(arguments) => merge::run(&arguments),
+        Command::Completions(arguments) => manual::completions(&arguments),
+        Command::Man => manual::man(),
         Command::Explain(arguments) => explain::run(&arguments),
     }?;
     match exit {
         // The limit was Ctrl-C.
-        Exit::Limit if progress::interrupt().is_set() => Ok(Exit::Interrupted),
+        Exit::Limit | Exit::Interrupted if progress::interrupt().is_set() => Ok(interrupted),
         exit => Ok(exit),
     }
 }

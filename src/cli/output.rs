@@ -5,6 +5,7 @@
 //! complete or absent, and keeps its permissions. A file the scene was read from is never overwritten. If a
 //! picture cannot be written to its destination, it is saved elsewhere.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
@@ -129,12 +130,13 @@ impl Output {
         }
     }
 
-    /// Fails if the picture would overwrite a file that the scene was read from.
-    pub fn keeps(&self, sources: &Sources) -> Result<(), Failure> {
+    /// Fails if the picture would overwrite a file that the scene was read from, or another one that it reads.
+    pub fn keeps(&self, sources: &Sources, others: &BTreeSet<String>) -> Result<(), Failure> {
         let Self::File { path, .. } = self else { return Ok(()) };
         let Ok(truth) = fs::canonicalize(path) else { return Ok(()) };
         let is = |name: &str| fs::canonicalize(name).is_ok_and(|other| other == truth);
-        match sources.iter().any(|(_, source)| is(&source.name)) {
+        let texts = sources.iter().map(|(_, source)| source.name.as_str());
+        match texts.chain(others.iter().map(String::as_str)).any(is) {
             true => Err(Failure::file(format!(
                 "`{}` is a part of the scene: not overwritten",
                 path.display()
@@ -249,7 +251,7 @@ pub fn cannot(path: &Path, why: &str) -> Failure {
 }
 
 /// Creates a temporary file in the folder of `path`; it is deleted unless renamed.
-fn temporary(path: &Path) -> Result<tempfile::NamedTempFile, Failure> {
+pub fn temporary(path: &Path) -> Result<tempfile::NamedTempFile, Failure> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".lucarne-");
     #[cfg(unix)]

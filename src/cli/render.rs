@@ -1,28 +1,27 @@
 //! `lucarne render`: renders a scene file to a picture file.
 
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 use lucarne::accuracy;
 use lucarne::diagnostic::{Diagnostic, Severity};
-use lucarne::disk::DiskFiles;
-use lucarne::evaluate::{Animation, EvaluateOptions};
-use lucarne::film::saved::{Digest, Saved, save};
+use lucarne::evaluate::{Animation, EvaluateOptions, Interrupt};
+use lucarne::film::saved::{Purpose, Saved, save};
 use lucarne::film::{Channels, Depth, Developer, Film};
 use lucarne::picture::{self, Format};
 use lucarne::plan::{self, PlanOptions, Region};
 use lucarne::road::Road;
-use lucarne::source::{FileError, Files, Found, WriteError};
 use lucarne::trace::{TraceOptions, Traced};
 
 use super::arguments::{RenderArguments, Shard};
 use super::checkpoint::{self, Checkpoint};
 use super::exit::{Exit, Failure, Outcome};
-use super::files;
+use super::files::{self, Recorded};
 use super::messages;
-use super::output::{Output, Picture, write_with};
+use super::output::{Output, Picture, write_whole, write_with};
 use super::progress::{self, Progress};
 use super::promise::{self, Made};
 use super::stats::{Stats, Stopwatch, peak_rss_bytes};
@@ -30,7 +29,10 @@ use super::text::{name_of, read_scene};
 
 pub fn run(arguments: &RenderArguments) -> Outcome {
     let output = Output::from_arguments(&arguments.file, arguments.output.as_deref())?;
-    picture(arguments, &output, None)
+    if arguments.work.shard.is_some() && output == Output::Stdout {
+        return Err(Failure::usage("a part cannot be written to standard output"));
+    }
+    picture(arguments, &output, &read_scene(&arguments.file)?, None)
 }
 
 /// A frame of an animation.
@@ -55,9 +57,15 @@ impl Frame<'_> {
 }
 
 /// Renders one picture to its place: a still, or a frame.
-pub fn picture(arguments: &RenderArguments, output: &Output, frame: Option<Frame>) -> Outcome {
-    let mut job = Job::new(arguments, output.format())?;
+pub fn picture(
+    arguments: &RenderArguments,
+    output: &Output,
+    scene: &[u8],
+    frame: Option<Frame>,
+) -> Outcome {
+    let mut job = Job::new(arguments, output.format(), scene)?;
     output.check(job.frame.region, job.depth, arguments.force)?;
+    job.fits(arguments)?;
     let Made { traced, said, exit } = match job.make(arguments, output, frame)? {
         Ok(made) => made,
         Err(exit) => return Ok(exit),
@@ -144,7 +152,7 @@ pub struct Job {
 
 impl Job {
     /// Reads the scene, and fails for what is known to be impossible.
-    pub fn new(arguments: &RenderArguments, format: Format) -> Result<Self, Failure> {
+    pub fn new(arguments: &RenderArguments, format: Format, bytes: &[u8]) -> Result<Self, Failure> {
         let watch = Stopwatch::start();
         let depth = format.depth(arguments.bits).ok_or_else(|| {
             let bits = arguments.bits.unwrap_or_default();
@@ -163,11 +171,14 @@ impl Job {
         if let Some(shard) = arguments.still_shard() {
             frame.region = shard.of(whole)?;
         }
-        let bytes = read_scene(&arguments.file)?;
-        let channels = Channels::with(arguments.alpha);
-        let writing = format.bytes_per_pixel(channels);
-        fits(frame.region, writing, arguments.time_budget.is_some())?;
-        Ok(Self { frame, whole, key: 0, depth, format, bytes, stats: Stats::default(), watch })
+        let (bytes, stats) = (bytes.to_vec(), Stats::default());
+        Ok(Self { frame, whole, key: 0, depth, format, bytes, stats, watch })
+    }
+
+    /// Fails if there is clearly too little memory.
+    pub fn fits(&self, arguments: &RenderArguments) -> Result<(), Failure> {
+        let writing = self.format.bytes_per_pixel(Channels::with(arguments.alpha));
+        fits(self.frame.region, writing, arguments.time_budget.is_some())
     }
 
     /// Compiles and traces the scene; returns the exit code instead if its messages forbid that.
@@ -182,13 +193,16 @@ impl Job {
         let dialect = arguments.scene.dialect(&arguments.file, &self.bytes);
         let life = progress::life("reading the scene");
         let files = files::of(&arguments.file, &arguments.scene);
-        let read = Digested::new(&files);
+        let read = Recorded::new(&files);
         let mut options = arguments.scene.options(dialect, Some(self.frame));
         if let Some(Frame { animation, clock, .. }) = frame {
             options.evaluate.animation = Some(animation);
             options.evaluate.clock = clock;
         }
-        let decided = format!("{:?}", EvaluateOptions { now: 0.0, ..options.evaluate.clone() });
+        let now = options.evaluate.now;
+        // Neither changes a picture, but for `now` where the scene asks for it.
+        let interrupt = Interrupt::default();
+        let decided = EvaluateOptions { now: 0.0, interrupt, ..options.evaluate.clone() };
         let mut road = Road::new(&read, options);
         watch.lap();
         let file = road.read(&name_of(&arguments.file), self.bytes.clone());
@@ -206,11 +220,15 @@ impl Job {
         messages.print(list, &road.sources)?;
         messages.summarize();
         files::settle(&files, messages.exit() == Exit::Done)?;
+        if let Some(rule) = &arguments.deps {
+            let names = [output.name(), name_of(&arguments.file).into_owned()];
+            write_whole(rule, rule_for_make(&names, &read.names()).as_bytes())?;
+        }
         match messages.exit() {
             Exit::Done => {}
             other => return Ok(Err(other)),
         }
-        output.keeps(&road.sources)?;
+        output.keeps(&road.sources, &read.names())?;
 
         let options = arguments.picture.options(self.frame);
         let options = PlanOptions { alpha: arguments.alpha, ..options };
@@ -218,8 +236,11 @@ impl Job {
         self.key = checkpoint::key(|digest| {
             digest.add(&self.bytes);
             read.add_to(digest);
-            digest
-                .add(format!("{decided} {:?}", PlanOptions { frame: whole, ..options }).as_bytes());
+            let asked = PlanOptions { frame: whole, ..options };
+            digest.add(format!("{decided:?} {asked:?}").as_bytes());
+            if road.sources.iter().any(|(_, source)| has_word(&source.text, "now")) {
+                digest.add(&now.to_bits().to_le_bytes());
+            }
         });
         watch.lap();
         drop(life);
@@ -237,7 +258,7 @@ impl Job {
                 };
                 let every = arguments.work.checkpoint();
                 let of = (self.key, self.whole);
-                let saving = Checkpoint::new(&progress, path.clone(), of, every);
+                let saving = Checkpoint::new(&progress, path.clone(), of, every, begun.clone());
                 let made = promise::plainly(scene, &options, &threads, &saving, begun);
                 if !made.traced.complete {
                     saving.save();
@@ -263,8 +284,9 @@ impl Job {
     /// Returns where the picture or part is saved now and then, unless it has a promise to keep.
     fn checkpoint(&self, arguments: &RenderArguments, output: &Output) -> Option<PathBuf> {
         let is_promised = arguments.max_error.is_some() || arguments.time_budget.is_some();
+        let is_frame = arguments.animation.range().is_some();
         let path = self.part(arguments, output).or(output.path().map(Path::to_owned));
-        path.filter(|_| !is_promised).map(|path| checkpoint::beside(&path))
+        path.filter(|_| !is_promised && !is_frame).map(|path| checkpoint::beside(&path))
     }
 
     fn write_part(&self, path: &Path, traced: Traced) -> Outcome {
@@ -273,7 +295,12 @@ impl Job {
             messages::eprint(&format!("interrupted: {name} is not written; `--resume` goes on\n"));
             return Ok(Exit::Again);
         }
-        let part = Saved { key: self.key, region: self.whole, films: vec![traced.film] };
+        let part = Saved {
+            purpose: Purpose::Part,
+            key: self.key,
+            region: self.whole,
+            films: vec![traced.film],
+        };
         write_with(path, &|out| save(&part, out))?;
         checkpoint::remove(&checkpoint::beside(path))?;
         let Region { y, height, .. } = self.frame.region;
@@ -285,48 +312,31 @@ impl Job {
 impl RenderArguments {
     /// Returns the part of a still that is rendered; of an animation, a part is some of its frames.
     fn still_shard(&self) -> Option<Shard> {
-        self.work.shard.filter(|_| self.animation.film().is_none())
+        self.work.shard.filter(|_| self.animation.range().is_none())
     }
 }
 
-/// Files whose names and contents are added up.
-struct Digested<'a> {
-    files: &'a DiskFiles,
-    read: RefCell<Digest>,
+fn has_word(text: &str, word: &str) -> bool {
+    let of_word = |c: char| c.is_alphanumeric() || c == '_';
+    text.split(|c| !of_word(c)).any(|other| other == word)
 }
 
-impl<'a> Digested<'a> {
-    fn new(files: &'a DiskFiles) -> Self {
-        Self { files, read: RefCell::default() }
-    }
-
-    fn add_to(&self, digest: &mut Digest) {
-        digest.add(&self.read.borrow().get().to_le_bytes());
-    }
-}
-
-impl Files for Digested<'_> {
-    fn read(&self, name: &str, from: &str) -> Result<Found, FileError> {
-        let found = self.files.read(name, from);
-        let mut read = self.read.borrow_mut();
-        read.add(name.as_bytes());
-        found.iter().for_each(|found| read.add(&found.bytes));
-        found
-    }
-
-    fn start(&self, name: &str, append: bool) -> Result<String, WriteError> {
-        self.files.start(name, append)
-    }
-
-    fn add(&self, name: &str, bytes: &[u8]) {
-        self.files.add(name, bytes);
-    }
+/// Returns a rule by which `make` knows what a picture depends on: the scene, and other files.
+fn rule_for_make([picture, scene]: &[String; 2], others: &BTreeSet<String>) -> String {
+    let escaped = |name: &str| {
+        name.replace('$', "$$").replace('#', "\\#").replace(' ', "\\ ").replace(':', "\\:")
+    };
+    let files = std::iter::once(scene).chain(others).map(|name| escaped(name));
+    let files = files.collect::<Vec<_>>().join(" \\\n  ");
+    // Files that are gone do not stop it.
+    let phony: String = others.iter().map(|name| format!("\n{}:\n", escaped(name))).collect();
+    format!("{}: {files}\n{phony}", escaped(picture))
 }
 
 /// Fails if there is clearly too little memory for the picture; a failed allocation would abort the program.
-fn fits(part: Region, writing: u64, refined: bool) -> Result<(), Failure> {
+pub fn fits(part: Region, writing: u64, refined: bool) -> Result<(), Failure> {
     let pixels = u64::from(part.width) * u64::from(part.height);
-    let refining = if refined { accuracy::BYTES_PER_PIXEL } else { 0 };
+    let refining = if refined { accuracy::BYTES_PER_PIXEL } else { checkpoint::BYTES_PER_PIXEL };
     let a_pixel = Film::BYTES_PER_PIXEL + refining.max(writing);
     let bytes = pixels.saturating_mul(a_pixel);
     let reserved =
@@ -344,6 +354,6 @@ fn fits(part: Region, writing: u64, refined: bool) -> Result<(), Failure> {
 }
 
 /// Largest useful number of threads; more only add startup cost, as the picture does not depend on it.
-fn most_threads() -> usize {
+pub fn most_threads() -> usize {
     4 * available_parallelism().map_or(1, NonZero::get)
 }

@@ -7,7 +7,7 @@
 use serde::Serialize;
 
 use super::{Diagnostic, Severity};
-use crate::source::{Position, Sources, Span};
+use crate::source::{FileId, Position, Sources, Span};
 
 #[derive(Serialize)]
 struct Message<'a> {
@@ -43,21 +43,33 @@ struct Fix<'a> {
     text: &'a str,
 }
 
+/// A span by its lines and columns.
 #[derive(Serialize)]
-struct Place<'a> {
-    file: &'a str,
-    line: usize,
-    column: usize,
-    end_line: usize,
-    end_column: usize,
+pub(super) struct Place<'a> {
+    pub file: &'a str,
+    pub line: usize,
+    pub column: usize,
+    pub end_line: usize,
+    pub end_column: usize,
 }
 
 impl<'a> Place<'a> {
-    fn of(span: Span, sources: &'a Sources) -> Self {
+    pub fn of(span: Span, sources: &'a Sources) -> Self {
         let source = sources.get(span.file);
         let Position { line, column } = source.position(span.start as usize);
         let end = source.position(span.end as usize);
         Self { file: &source.name, line, column, end_line: end.line, end_column: end.column }
+    }
+}
+
+impl<'a> Place<'a> {
+    /// Returns where a message is: about the scene as a unit, at the start of the main file.
+    pub fn primary(diagnostic: &Diagnostic, sources: &'a Sources) -> Self {
+        let span = diagnostic.primary().map_or(Span::new(FileId(0), 0, 0), |label| label.span);
+        match sources.iter().next() {
+            Some(_) => Self::of(span, sources),
+            None => Self { file: "", line: 1, column: 1, end_line: 1, end_column: 1 },
+        }
     }
 }
 

@@ -15,6 +15,7 @@ mod messages;
 pub mod narrate;
 mod quote;
 pub mod render;
+pub mod sarif;
 pub mod suggest;
 mod wrap;
 

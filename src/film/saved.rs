@@ -10,13 +10,32 @@ use super::{Channels, Film, Pixel};
 use crate::color::Gamma;
 use crate::plan::{Frame, Region};
 
-const FIRST_LINE: &str = "lucarne film 1";
+const FIRST_LINE: &str = "lucarne film 1 ";
 /// Bytes of a pixel.
 const PIXEL: usize = 16;
+
+/// What films are saved for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// To go on from: the films of the passes so far.
+    Checkpoint,
+    /// To be merged: a finished part of a picture.
+    Part,
+}
+
+impl Purpose {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Checkpoint => "checkpoint",
+            Self::Part => "part",
+        }
+    }
+}
 
 /// Films, and what they are of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Saved {
+    pub purpose: Purpose,
     /// Equal for films of the same picture.
     pub key: u64,
     /// The part of the picture that is to be rendered in all.
@@ -76,13 +95,16 @@ impl fmt::Write for Digest {
 
 /// Writes films.
 pub fn save(saved: &Saved, out: &mut dyn Write) -> Result<()> {
-    let Saved { key, region: Region { x, y, width, height }, films } = saved;
+    let Saved { purpose, key, region: Region { x, y, width, height }, films } = saved;
+    let purpose = purpose.name();
     let mut digest = Digest::default();
     let mut write = |bytes: &[u8]| {
         digest.add(bytes);
         out.write_all(bytes)
     };
-    write(format!("{FIRST_LINE}\nkey {key:x}\nregion {x} {y} {width} {height}\n").as_bytes())?;
+    write(
+        format!("{FIRST_LINE}{purpose}\nkey {key:x}\nregion {x} {y} {width} {height}\n").as_bytes(),
+    )?;
     for film in films {
         let Frame { width, height, region: Region { x, y, width: w, height: h } } = film.frame;
         let alpha = u8::from(film.channels == Channels::Rgba);
@@ -123,7 +145,10 @@ fn read(content: &[u8]) -> Option<Saved> {
     let end = content.windows(2).position(|two| two == b"\n\n")?;
     let header = std::str::from_utf8(&content[..end]).ok()?;
     let mut pixels = content[end + 2..].as_chunks::<PIXEL>().0.iter();
-    let mut lines = header.lines().skip(1);
+    let mut lines = header.lines();
+    let purpose = lines.next()?.strip_prefix(FIRST_LINE)?;
+    let purpose =
+        [Purpose::Checkpoint, Purpose::Part].into_iter().find(|one| one.name() == purpose)?;
     let key = u64::from_str_radix(lines.next()?.strip_prefix("key ")?, 16).ok()?;
     let mut words = lines.next()?.strip_prefix("region ")?.split(' ');
     let mut number = || words.next()?.parse::<u32>().ok();
@@ -147,7 +172,7 @@ fn read(content: &[u8]) -> Option<Saved> {
         let frame = Frame { width, height, region: part };
         films.push(Film { frame, assumed_gamma, channels, pixels: list });
     }
-    Some(Saved { key, region, films })
+    Some(Saved { purpose, key, region, films })
 }
 
 fn bytes(pixel: &Pixel) -> [u8; PIXEL] {
@@ -178,7 +203,7 @@ mod tests {
             *pixel = Pixel::new(Rgb::gray(0.1 * i as f64), i as u32).with_opacity(0.3);
         }
         let other = Film { channels: Channels::Rgba, ..Film::new(Frame::whole(2, 2), Gamma::Srgb) };
-        let saved = Saved { key: 77, region, films: vec![film, other] };
+        let saved = Saved { purpose: Purpose::Part, key: 77, region, films: vec![film, other] };
         let mut bytes = Vec::new();
         save(&saved, &mut bytes).expect("written");
         (saved, bytes)

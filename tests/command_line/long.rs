@@ -76,6 +76,7 @@ fn a_checkpoint_of_another_scene_or_of_other_options_is_refused() {
     place.write("slow.scene", &SLOW.replace("40", "41"));
     place.run(&resume).ends(3, &other);
     place.write("slow.scene", SLOW);
+    place.run("merge a.png.checkpoint -o b.png").ends(75, &["it is a checkpoint"]);
     let bytes = place.read("a.png.checkpoint");
     fs::write(place.path("a.png.checkpoint"), &bytes[..bytes.len() / 2]).expect("written");
     place.run(&resume).ends(3, &["it is incomplete or was changed"]);
@@ -113,9 +114,22 @@ fn merged_parts_are_the_picture() {
     fs::write(place.path("a.2-of-3.part"), &bytes[..bytes.len() - 9]).expect("written");
     let run = place.run("merge a.1-of-3.part a.2-of-3.part a.3-of-3.part -o d.png");
     run.ends(75, &["it is incomplete or was changed"]);
-    place.run("merge a.scene -o d.png").ends(75, &["it is not a film"]);
+    place.run("merge a.scene -o d.png").ends(3, &["it is not a film"]);
+    place.run("merge none.part -o d.png").ends(75, &["no such file"]);
     place.run("slow.scene --size 40x3 --shard 1/4").ends(2, &["3 rows cannot be divided"]);
     assert!(!place.path("d.png").exists());
+}
+
+#[test]
+fn parts_of_a_scene_that_asks_for_the_time_are_not_mixed() {
+    let place = Place::new();
+    place.write("now.scene", &SCENE.replace("<1, 0, 0>", "<mod(now, 1), 0, 0>"));
+    for part in [1, 2] {
+        place.run(&format!("now.scene --size 8x6 -o a.png --shard {part}/2")).ends(0, &[]);
+    }
+    let run = place.run("merge a.1-of-2.part a.2-of-2.part -o a.png");
+    run.ends(3, &["it is of another picture"]);
+    place.run("a.scene --shard 1/2 -o -").ends(2, &["a part cannot be written to standard output"]);
 }
 
 #[test]

@@ -117,6 +117,23 @@ fn an_animation_has_a_picture_for_each_frame() {
 }
 
 #[test]
+fn files_that_the_scene_reads_are_not_overwritten() {
+    let place = place();
+    place.run("a.scene --size 8x6 -o map.png").ends(0, &[]);
+    let map = place.read("map.png");
+    place.write("map.pov", &POV.replace("color rgb <1, 0, 0>", "image_map { png \"map.png\" }"));
+    place
+        .run("povray map.pov +W8 +H6")
+        .ends(1, &["`map.png` is a part of the scene", "Render failed"]);
+    assert_eq!(place.read("map.png"), map);
+    place.run("map.pov --size 8x6").ends(3, &["is a part of the scene: not overwritten"]);
+    place
+        .run("povray a.pov +W8 +H6 +GDa.pov")
+        .ends(1, &["A stream cannot be written to the scene"]);
+    assert_eq!(place.read("a.pov"), POV.as_bytes());
+}
+
+#[test]
 fn called_by_the_name_povray_it_is_povray() {
     let place = place();
     let link = place.path("povray");

@@ -153,6 +153,12 @@ fn an_animated_picture_has_all_frames_and_so_has_standard_output() {
     assert_eq!(apng.windows(4).filter(|name| *name == b"fcTL").count(), 3);
     let raw = place.run("film.scene --size 32x24 --frames 1..3 -o -").ends(0, &["frame 3 of 3"]);
     assert_eq!(raw.0.stdout.len(), 3 * (b"P6\n32 24\n255\n".len() + 3 * 32 * 24));
+    place.run("film.scene --frames 1..3 --only 5..6").ends(2, &["leaves none of the frames"]);
+    place.run("film.scene --frames 1..3 --alpha -o -").ends(2, &["cannot have an alpha channel"]);
+    place.write("notes.gif", "my notes");
+    place
+        .run("film.scene --frames 1..3 -o notes.gif")
+        .ends(3, &["is not a picture: not overwritten"]);
     // A frame with a mistake ends it, and leaves no half of a file.
     place.write("half.scene", &format!("{FILM} #if (frame_number = 2) spere #end"));
     place.run("half.scene --size 32x24 --frames 1..3 -o half.gif").ends(1, &["frame 1 of 3"]);

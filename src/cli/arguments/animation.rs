@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::cli::animation::{Edge, Film};
+use crate::cli::animation::{Edge, FrameRange, LAST};
 
 /// Frames of an animation, instead of a still.
 #[derive(Debug, Args)]
@@ -29,13 +29,13 @@ pub struct AnimationArguments {
 
 impl AnimationArguments {
     /// Returns the animation, if one was asked for.
-    pub fn film(&self) -> Option<Film> {
+    pub fn range(&self) -> Option<FrameRange> {
         let (first, last, step) = self.frames?;
         let subset = self.only.map_or((None, None), |(first, last)| {
             (Some(Edge::Number(first)), Some(Edge::Number(last)))
         });
         let (clocks, is_cyclic) = (self.clocks, self.cyclic);
-        Some(Film { frames: (first, last), clocks, is_cyclic, subset, step })
+        Some(FrameRange { frames: (first, last), clocks, is_cyclic, subset, step })
     }
 }
 
@@ -50,11 +50,11 @@ fn frames(text: &str) -> Result<(u32, u32, u32), String> {
 }
 
 fn part(text: &str) -> Result<(u32, u32), String> {
-    let wrong = "expected two numbers of frames, such as `1..24`";
+    let wrong = "expected two numbers of frames up to 999999, such as `1..24`";
     let numbers = text.split_once("..").and_then(|(first, last)| {
         Some((first.trim().parse().ok()?, last.trim_start_matches('=').trim().parse().ok()?))
     });
-    numbers.filter(|(first, last)| first <= last).ok_or_else(|| wrong.to_owned())
+    numbers.filter(|(first, last)| first <= last && *last <= LAST).ok_or_else(|| wrong.to_owned())
 }
 
 fn clocks(text: &str) -> Result<(f64, f64), String> {

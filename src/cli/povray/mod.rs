@@ -3,6 +3,7 @@
 //! **Invariant:** all text is ASCII and on standard error; standard output has a picture that was asked for, or nothing.
 //! The exit code is 0, 1, or 2 if interrupted.
 
+mod rendered;
 mod settings;
 mod streams;
 mod switches;
@@ -13,27 +14,29 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use lucarne::color::Rgb;
 use lucarne::diagnostic::{Code, Diagnostic, Messages, Severity, render};
 use lucarne::disk::DiskFiles;
 use lucarne::evaluate::Animation;
-use lucarne::film::Developer;
+use lucarne::film::{Channels, Developer};
 use lucarne::picture;
 use lucarne::plan::{Frame, PlanOptions, Region, plan};
 use lucarne::road::{Options, Road};
 use lucarne::scene::{Dialect, Finish, Scene};
-use lucarne::trace::{TraceOptions, Watch, trace};
+use lucarne::trace::{TraceOptions, trace};
 use lucarne::world::World;
 
+use self::rendered::Rendered;
 use self::settings::{Problem, Settings};
 use self::streams::Stream;
 use super::animation::Edge;
 use super::exit::Failure;
+use super::files::Recorded;
 use super::messages;
 use super::output::{Output, write_whole};
 use super::progress;
+use super::render::{fits, most_threads};
 use super::text::{name_of, read_main};
 use super::values::now;
 
@@ -102,8 +105,11 @@ pub fn run(words: &[OsString]) -> ExitCode {
     }
     let Some(input) = settings.input.clone() else { return problem("No input file provided") };
     progress::hear_interrupts("Render cancelled by user\n", 2);
-    settings.streams.begin();
     let run = Run { input: found(&input, &settings.folders), settings };
+    if run.settings.streams.overwrite(&run.input) {
+        return problem("A stream cannot be written to the scene");
+    }
+    run.settings.streams.begin();
     match run.all() {
         Ok(()) => {
             run.say(Stream::Render, "POV-Ray finished\n");
@@ -154,7 +160,7 @@ impl Run {
 
     /// Renders a still, or each frame of an animation.
     fn all(&self) -> Result<(), Stop> {
-        for option in &self.settings.unheard {
+        for option in &self.settings.ineffective {
             self.say(Stream::Warning, &format!("lucarne: `{option}` has no effect\n"));
         }
         let bytes = read_main(&self.input).map_err(|failure| {
@@ -164,10 +170,10 @@ impl Run {
             );
             self.failed(&failure)
         })?;
-        if self.settings.film.is_still() {
+        if self.settings.range.is_still() {
             return self.frame(&bytes, None, self.settings.clock);
         }
-        let frames = self.settings.film.frames();
+        let frames = self.settings.range.frames();
         for (number, (animation, clock)) in frames.iter().enumerate() {
             let frame = format!("Rendering frame {} of {}\n", number + 1, frames.len());
             self.say(Stream::Render, &frame);
@@ -204,15 +210,23 @@ impl Run {
                 output.check(Frame::whole(width, height).region, self.settings.depth(), true);
             checked.map_err(|failure| self.failed(&failure))?;
         }
+        let writing = self.settings.format.bytes_per_pixel(Channels::with(self.settings.alpha));
+        fits(Frame::whole(width, height).region, writing, false)
+            .map_err(|failure| self.failed(&failure))?;
         self.say(Stream::Render, &header("Parsing"));
         let files = DiskFiles::new(&self.input, &self.settings.folders).writing();
+        let read = Recorded::new(&files);
         let (mut world, origins) = {
-            let mut road = Road::new(&files, self.options(animation, clock));
+            let mut road = Road::new(&read, self.options(animation, clock));
             let file = road.read(&name_of(&self.input), bytes.to_vec());
             let ast = road.parse(file);
             let mut scene = road.evaluate(ast);
             self.finish_at_quality(&mut scene);
             let compiled = road.lower(scene);
+            if self.settings.writes {
+                let kept = output.keeps(&road.sources, &read.names());
+                kept.map_err(|failure| self.failed(&failure))?;
+            }
             let list = road.diagnostics.in_text_order().into_iter().cloned().collect();
             self.told(&Messages::new(list, road.sources))?;
             compiled
@@ -228,13 +242,9 @@ impl Run {
         };
         let plan = plan(&world, &origins, &options);
         self.say(Stream::Render, &header("Rendering"));
-        let threads = TraceOptions { threads: self.settings.threads, ..TraceOptions::default() };
-        let watch = Rendered {
-            run: self,
-            pixels: frame.region.pixels(),
-            shown: AtomicU64::new(0),
-            verbose,
-        };
+        let threads = self.settings.threads.map(|wanted| wanted.min(most_threads()));
+        let threads = TraceOptions { threads, ..TraceOptions::default() };
+        let watch = Rendered::new(&self.settings, frame.region);
         progress::begin_tracing();
         let traced = trace(&world, &plan, &threads, &watch);
         if !traced.complete {
@@ -313,7 +323,7 @@ impl Run {
         };
         let stem = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let name = match frame_number {
-            Some(number) => self.settings.film.name(&stem, number),
+            Some(number) => self.settings.range.name(&stem, number),
             None => stem,
         };
         Output::File { path: path.with_file_name(format!("{name}.{extension}")), format }
@@ -374,6 +384,9 @@ impl Run {
                 Severity::Error => {}
             }
         }
+        if progress::interrupt().is_set() {
+            return Err(Stop::Interrupted);
+        }
         let Some(first) = messages.iter().find(|one| one.is_error()) else { return Ok(()) };
         let halted = match first.code {
             Code::AuthorError => "Parse halted by #error directive: ",
@@ -392,34 +405,4 @@ impl Run {
 
 fn header(name: &str) -> String {
     format!("==== [{name}...] {:=<width$}\n", "", width = 65 - name.len())
-}
-
-/// Tells how many pixels are rendered.
-struct Rendered<'a> {
-    run: &'a Run,
-    pixels: f64,
-    /// The percentage that was printed last.
-    shown: AtomicU64,
-    verbose: bool,
-}
-
-impl Rendered<'_> {
-    fn show(&self, done: f64) {
-        let percent = (100.0 * done) as u64;
-        if self.verbose && self.shown.fetch_max(percent, Ordering::Relaxed) < percent {
-            let (done, all) = ((done * self.pixels) as u64, self.pixels as u64);
-            let text = format!("Rendered {done} of {all} pixels ({percent}%)\r");
-            self.run.say(Stream::Render, &text);
-        }
-    }
-}
-
-impl Watch for Rendered<'_> {
-    fn progress(&self, done: usize, total: usize) {
-        self.show(done as f64 / total.max(1) as f64);
-    }
-
-    fn should_stop(&self) -> bool {
-        progress::interrupt().is_set()
-    }
 }

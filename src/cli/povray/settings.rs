@@ -9,7 +9,7 @@ use lucarne::picture::Format;
 use lucarne::plan::Antialias;
 
 use super::streams::Streams;
-use crate::cli::animation::{Edge, Film};
+use crate::cli::animation::{Edge, FrameRange, LAST};
 
 /// An option that cannot be understood.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,14 +35,16 @@ pub struct Settings {
     pub folders: Vec<PathBuf>,
     pub declares: Vec<(String, f64)>,
     pub clock: f64,
-    pub film: Film,
+    pub range: FrameRange,
     pub threads: Option<usize>,
     /// 0 to 11.
     pub quality: u32,
     pub verbose: bool,
     pub streams: Streams,
     /// Options that have no effect here, which is said.
-    pub unheard: Vec<String>,
+    pub ineffective: Vec<String>,
+    /// How many INI files include the one that is read.
+    pub(super) nesting: u32,
     antialias: bool,
     method: u32,
     threshold: f64,
@@ -65,12 +67,13 @@ impl Default for Settings {
             folders: Vec::new(),
             declares: Vec::new(),
             clock: 0.0,
-            film: Film::default(),
+            range: FrameRange::default(),
             threads: None,
             quality: 9,
             verbose: true,
             streams: Streams::default(),
-            unheard: Vec::new(),
+            ineffective: Vec::new(),
+            nesting: 0,
             antialias: false,
             method: 1,
             threshold: 0.3,
@@ -127,7 +130,7 @@ const WITHOUT_EFFECT: &[&str] = &[
 ];
 
 /// Options that this program has no equal of.
-const UNHEARD: &[&str] = &[
+const INEFFECTIVE: &[&str] = &[
     "antialias_confidence",
     "antialias_gamma",
     "create_ini",
@@ -170,22 +173,22 @@ impl Settings {
                 self.declares.push((name.trim().to_owned(), number(value)?));
             }
             "clock" => self.clock = number(value)?,
-            "initial_frame" => self.film.frames.0 = whole(value)?,
-            "final_frame" => self.film.frames.1 = whole(value)?,
-            "initial_clock" => self.film.clocks.0 = number(value)?,
-            "final_clock" => self.film.clocks.1 = number(value)?,
-            "cyclic_animation" => self.film.is_cyclic = switch(value)?,
-            "frame_step" => self.film.step = whole(value)?.max(1),
-            "subset_start_frame" => self.film.subset.0 = Some(edge(value)?),
-            "subset_end_frame" => self.film.subset.1 = Some(edge(value)?),
+            "initial_frame" => self.range.frames.0 = frame(value)?,
+            "final_frame" => self.range.frames.1 = frame(value)?,
+            "initial_clock" => self.range.clocks.0 = number(value)?,
+            "final_clock" => self.range.clocks.1 = number(value)?,
+            "cyclic_animation" => self.range.is_cyclic = switch(value)?,
+            "frame_step" => self.range.step = whole(value)?.max(1),
+            "subset_start_frame" => self.range.subset.0 = Some(edge(value)?),
+            "subset_end_frame" => self.range.subset.1 = Some(edge(value)?),
             "work_threads" => self.threads = Some(whole(value)?.max(1) as usize),
             "quality" => self.quality = whole(value)?.min(11),
             "verbose" => self.verbose = switch(value)?,
             name if self.streams.set(name, value)? => {}
             name if WITHOUT_EFFECT.contains(&name) => {}
-            name if UNHEARD.contains(&name) => self.unheard.push(name.to_owned()),
-            // Programs of the user's: never run.
-            name if name.ends_with("_command") => self.unheard.push(name.to_owned()),
+            name if INEFFECTIVE.contains(&name) => self.ineffective.push(name.to_owned()),
+            // Shell commands are never run.
+            name if name.ends_with("_command") => self.ineffective.push(name.to_owned()),
             name if name.ends_with("_return") => {}
             _ => return Err(Problem),
         }
@@ -233,6 +236,10 @@ fn edge(value: &str) -> Result<Edge, Problem> {
 /// Returns a number without its decimals.
 fn whole(value: &str) -> Result<u32, Problem> {
     Ok(number(value)? as u32)
+}
+
+fn frame(value: &str) -> Result<u32, Problem> {
+    whole(value).and_then(|frame| if frame <= LAST { Ok(frame) } else { Err(Problem) })
 }
 
 fn pixels(value: &str) -> Result<u32, Problem> {

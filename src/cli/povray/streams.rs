@@ -3,6 +3,7 @@
 //! **Invariant:** nothing goes to standard output, and all is ASCII.
 
 use std::io::Write;
+use std::path::Path;
 
 use super::settings::{Problem, switch};
 use crate::cli::messages;
@@ -60,6 +61,13 @@ impl Streams {
             }
         }
         Ok(true)
+    }
+
+    /// Whether a stream is written to this file.
+    pub fn overwrite(&self, scene: &Path) -> bool {
+        let Ok(scene) = std::fs::canonicalize(scene) else { return false };
+        let is_it = |file: &String| std::fs::canonicalize(file).is_ok_and(|file| file == scene);
+        self.files.iter().flatten().any(is_it)
     }
 
     /// Empties the files, once the options are known.

@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::settings::{Problem, Settings};
 
+/// INI files include each other at most so deep.
+const MOST_NESTED: u32 = 16;
+
 /// How a switch is read: `+` or `-`, a name, and what stands behind it.
 enum Kind {
     /// Sets an option to what stands behind.
@@ -178,7 +181,13 @@ impl Settings {
             .iter()
             .find_map(|path| read(path))
             .ok_or(Problem)?;
-        self.take_text(&text, section, read)
+        if self.nesting == MOST_NESTED {
+            return Err(Problem);
+        }
+        self.nesting += 1;
+        let taken = self.take_text(&text, section, read);
+        self.nesting -= 1;
+        taken
     }
 
     /// Reads the text of an INI file: what stands before all sections, and what stands in this one.
@@ -265,6 +274,7 @@ mod tests {
         let read = |path: &Path| {
             let text = match path.to_str()? {
                 "big.ini" => "; a comment\nWidth=1000 ; px\n[small]\nHeight=10\n[Other]\n+UA -V\n",
+                "endless.ini" => "Include_Ini=endless\n",
                 "nested.ini" => "Include_Ini=big\nOutput_File_Name=\"a;b.png\"\n",
                 _ => return None,
             };
@@ -282,7 +292,7 @@ mod tests {
         assert_eq!(settings.format, Format::Jpeg);
         let sizes = taken(&["a.pov", "Width=3", "+KFF12", "-D", "+Q11", "-P", "+Lsome/folder"]);
         let sizes = sizes.expect("known");
-        assert_eq!((sizes.width, sizes.film.frames, sizes.quality), (3, (1, 12), 11));
+        assert_eq!((sizes.width, sizes.range.frames, sizes.quality), (3, (1, 12), 11));
         assert_eq!(sizes.folders, [PathBuf::from("some/folder")]);
         assert!(!taken(&["+F", "-F"]).expect("known").writes);
         assert_eq!(taken(&["+FN16"]).expect("known").bits, 16);
@@ -311,7 +321,7 @@ mod tests {
 
     #[test]
     fn what_is_unknown_is_a_problem() {
-        for word in ["+Zfoo", "none.ini", "+W", "+?", "Widht=3", "+"] {
+        for word in ["+Zfoo", "none.ini", "endless.ini", "+W", "+?", "Widht=3", "+"] {
             assert_eq!(taken(&[word]), Err(Problem), "{word}");
         }
     }
