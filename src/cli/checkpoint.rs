@@ -18,9 +18,6 @@ use super::messages;
 use super::output::{cannot, write_with};
 use super::progress::Progress;
 
-/// Memory per pixel: a copy of the film of each pass.
-pub const BYTES_PER_PIXEL: u64 = 2 * size_of::<Pixel>() as u64;
-
 /// Returns the place of the checkpoint of a picture.
 pub fn beside(path: &Path) -> PathBuf {
     PathBuf::from(format!("{}.checkpoint", path.display()))
@@ -75,14 +72,19 @@ pub struct Checkpoint<'a> {
 }
 
 struct State {
-    /// With the film of each pass.
+    /// With the film of each pass, once there is one: a render that is soon done takes no memory for it.
     saved: Saved,
+    /// The films of the passes so far, without pixels.
+    shapes: Vec<Film>,
     next: Instant,
+    /// Whether the films are copied.
+    copies: bool,
     is_told: bool,
 }
 
 impl<'a> Checkpoint<'a> {
-    /// The first is saved after twice the time between two. `begun` is what a checkpoint had.
+    /// The first is saved after twice the time between two, and has what is done from then on. `begun` is what a
+    /// checkpoint had.
     pub fn new(
         progress: &'a Progress,
         path: PathBuf,
@@ -90,24 +92,44 @@ impl<'a> Checkpoint<'a> {
         every: Duration,
         begun: Vec<Film>,
     ) -> Self {
+        let (copies, next) = (!begun.is_empty(), Instant::now() + 2 * every);
         let saved = Saved { purpose: Purpose::Checkpoint, key, region, films: begun };
-        let next = Instant::now() + 2 * every;
-        Self { progress, path, every, state: Mutex::new(State { saved, next, is_told: false }) }
+        let state = State { saved, shapes: Vec::new(), next, copies, is_told: false };
+        Self { progress, path, every, state: Mutex::new(state) }
     }
 
-    /// Saves what is done.
+    /// Saves what is done, if that is worth it.
     pub fn save(&self) {
-        self.write(&mut self.state.lock().unwrap_or_else(PoisonError::into_inner));
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        if state.copies {
+            self.write(&mut state);
+        }
     }
 
     /// A full disk does not end the render, and is told once.
-    fn write(&self, State { saved, next, is_told }: &mut State) {
+    fn write(&self, State { saved, next, is_told, .. }: &mut State) {
         if let Err(failure) = write_with(&self.path, &|out| save(saved, out))
             && !std::mem::replace(is_told, true)
         {
             messages::eprint(&format!("note: no checkpoint: {}\n", failure.sentence));
         }
         *next = Instant::now() + self.every;
+    }
+}
+
+impl State {
+    /// Makes a film for each pass so far that has none; false if there is no memory.
+    fn make_films(&mut self) -> bool {
+        for shape in &self.shapes[self.saved.films.len().min(self.shapes.len())..] {
+            let count = shape.frame.region.width as usize * shape.frame.region.height as usize;
+            let mut pixels = Vec::new();
+            if pixels.try_reserve_exact(count).is_err() {
+                return false;
+            }
+            pixels.resize(count, Pixel::default());
+            self.saved.films.push(Film { pixels, ..shape.clone() });
+        }
+        true
     }
 }
 
@@ -118,21 +140,29 @@ impl Watch for Checkpoint<'_> {
 
     fn begins(&self, pass: usize, film: &Film) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        // A pass that goes on keeps those after it.
-        match state.saved.films.get_mut(pass) {
-            Some(place) => place.clone_from(film),
-            None => state.saved.films.push(film.clone()),
+        let Film { frame, assumed_gamma, channels, .. } = *film;
+        state.shapes.truncate(pass);
+        state.shapes.push(Film { frame, assumed_gamma, channels, pixels: Vec::new() });
+        if state.copies && !state.make_films() {
+            state.copies = false;
         }
     }
 
     fn traced(&self, pass: usize, (x, y): (u32, u32), rows: &[&mut [Pixel]]) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_due = Instant::now() >= state.next;
+        if is_due && !state.copies {
+            state.copies = state.make_films();
+        }
+        if !state.copies {
+            return;
+        }
         let Some(film) = state.saved.films.get_mut(pass) else { return };
         for (line, row) in (y..).zip(rows) {
             let start = film.index(x, line);
             film.pixels[start..start + row.len()].copy_from_slice(row);
         }
-        if Instant::now() >= state.next {
+        if is_due {
             self.write(&mut state);
         }
     }

@@ -336,7 +336,7 @@ fn rule_for_make([picture, scene]: &[String; 2], others: &BTreeSet<String>) -> S
 /// Fails if there is clearly too little memory for the picture; a failed allocation would abort the program.
 pub fn fits(part: Region, writing: u64, refined: bool) -> Result<(), Failure> {
     let pixels = u64::from(part.width) * u64::from(part.height);
-    let refining = if refined { accuracy::BYTES_PER_PIXEL } else { checkpoint::BYTES_PER_PIXEL };
+    let refining = if refined { accuracy::BYTES_PER_PIXEL } else { 0 };
     let a_pixel = Film::BYTES_PER_PIXEL + refining.max(writing);
     let bytes = pixels.saturating_mul(a_pixel);
     let reserved =

@@ -220,7 +220,11 @@ fn frame(tracer: &Tracer, plan: &Plan, crew: &Crew, begun: Vec<Film>) -> Traced 
     let edges = first.complete.then(|| Edges::new(crew, &first.film, adaptive));
     let film = first.film.crop(region);
     let Some(edges) = edges else { return Traced { film, ..first } };
-    let film = begun.next().filter(|begun| begun.frame == film.frame).unwrap_or(film);
+    let mut film = film;
+    if let Some(begun) = begun.next().filter(|begun| begun.frame == film.frame) {
+        let both = film.pixels.iter_mut().zip(begun.pixels);
+        both.filter(|(_, begun)| begun.samples() > 1).for_each(|(pixel, begun)| *pixel = begun);
+    }
     let mut second = crew.pass(film, (1, 2), |walk, places, pixels| {
         each_open(places, pixels, 1, |places, before, done| {
             screen.refine(walk, &edges, places, before, |i, sums| done(i, sums.pixel()));
