@@ -186,16 +186,8 @@ impl RenderOptions<'_> {
             _ if sign_of_povray(text.as_bytes()).is_some() => Dialect::Pov,
             _ => Dialect::Scene,
         });
-        let mut options = Options::new(dialect);
-        let (width, height) = self.size;
-        (options.evaluate.width, options.evaluate.height) = (width, height);
-        options.picture = Some(self.size);
         let declares = self.declares.iter().map(|&(name, value)| (name.to_owned(), value));
-        options.evaluate.declares = declares.collect();
-        if let Some(&(_, clock)) = self.declares.iter().rfind(|(name, _)| *name == "clock") {
-            options.evaluate.clock = clock;
-        }
-        options
+        Options::new(dialect).for_picture(self.size).declaring(declares.collect())
     }
 }
 

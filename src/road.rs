@@ -48,6 +48,22 @@ impl Options {
             evaluate,
         }
     }
+
+    /// Sets the size of the picture, in pixels.
+    pub fn for_picture(mut self, (width, height): (u32, u32)) -> Self {
+        self.picture = Some((width, height));
+        (self.evaluate.width, self.evaluate.height) = (width, height);
+        self
+    }
+
+    /// Declares numbers before the scene is evaluated. `clock`, a keyword and not an identifier, sets the clock.
+    pub fn declaring(mut self, declares: Vec<(String, f64)>) -> Self {
+        if let Some((_, clock)) = declares.iter().rfind(|(name, _)| name == "clock") {
+            self.evaluate.clock = *clock;
+        }
+        self.evaluate.declares = declares;
+        self
+    }
 }
 
 /// A scene in the pipeline, with its sources and diagnostics so far.

@@ -79,7 +79,7 @@ struct State {
     next: Instant,
     /// Whether the films are copied.
     copies: bool,
-    is_told: bool,
+    is_noted: bool,
 }
 
 impl<'a> Checkpoint<'a> {
@@ -94,7 +94,7 @@ impl<'a> Checkpoint<'a> {
     ) -> Self {
         let (copies, next) = (!begun.is_empty(), Instant::now() + 2 * every);
         let saved = Saved { purpose: Purpose::Checkpoint, key, region, films: begun };
-        let state = State { saved, shapes: Vec::new(), next, copies, is_told: false };
+        let state = State { saved, shapes: Vec::new(), next, copies, is_noted: false };
         Self { progress, path, every, state: Mutex::new(state) }
     }
 
@@ -106,10 +106,10 @@ impl<'a> Checkpoint<'a> {
         }
     }
 
-    /// A full disk does not end the render, and is told once.
-    fn write(&self, State { saved, next, is_told, .. }: &mut State) {
+    /// Writes the checkpoint. If that fails, prints a note once; the render goes on.
+    fn write(&self, State { saved, next, is_noted, .. }: &mut State) {
         if let Err(failure) = write_with(&self.path, &|out| save(saved, out))
-            && !std::mem::replace(is_told, true)
+            && !std::mem::replace(is_noted, true)
         {
             messages::eprint(&format!("note: no checkpoint: {}\n", failure.sentence));
         }

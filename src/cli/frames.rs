@@ -45,7 +45,7 @@ fn is_one_file(out: &Path) -> bool {
 fn numbered(arguments: &RenderArguments, range: &FrameRange) -> Outcome {
     let whole = Output::from_arguments(&arguments.file, arguments.output.as_deref())?;
     let Output::File { path, format } = whole else { return raw(arguments, range) };
-    let told = RefCell::default();
+    let printed = RefCell::default();
     let Shard { number, all } = arguments.work.shard.unwrap_or(Shard { number: 1, all: 1 });
     let scene = read_scene(&arguments.file)?;
     let mine = frames(range)?.into_iter().skip(number as usize - 1).step_by(all as usize);
@@ -54,7 +54,12 @@ fn numbered(arguments: &RenderArguments, range: &FrameRange) -> Outcome {
         let extension = path.extension().unwrap_or_default().to_string_lossy();
         let name = format!("{}.{extension}", range.name(&stem, animation.frame_number));
         let output = Output::File { path: path.with_file_name(name), format };
-        match picture(arguments, &output, &scene, Some(Frame { animation, clock, told: &told }))? {
+        match picture(
+            arguments,
+            &output,
+            &scene,
+            Some(Frame { animation, clock, printed: &printed }),
+        )? {
             Exit::Done => {}
             exit => return Ok(exit),
         }
@@ -128,11 +133,11 @@ fn each(
     output: &Output,
     pass: &mut dyn FnMut(&Film) -> Result<(), Failure>,
 ) -> Outcome {
-    let (frames, told) = (frames(range)?, RefCell::default());
+    let (frames, printed) = (frames(range)?, RefCell::default());
     let scene = read_scene(&arguments.file)?;
     let format = if *output == Output::Stdout { Format::Ppm } else { Format::Png };
     for (number, &(animation, clock)) in frames.iter().enumerate() {
-        let frame = Frame { animation, clock, told: &told };
+        let frame = Frame { animation, clock, printed: &printed };
         let mut job = Job::new(arguments, format, &scene)?;
         job.fits(arguments)?;
         let Made { traced, said, exit } = match job.make(arguments, output, Some(frame))? {

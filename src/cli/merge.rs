@@ -6,21 +6,18 @@ use std::fs;
 use std::io::ErrorKind;
 
 use lucarne::film::saved::{Damage, Purpose, Saved, load};
-use lucarne::film::{Developer, Film};
+use lucarne::film::{Channels, Developer, Film};
 use lucarne::picture;
 
 use super::arguments::MergeArguments;
 use super::exit::{Exit, Failure, Outcome};
 use super::messages;
-use super::output::{Output, Picture};
+use super::output::{Output, Picture, depth_of};
 use lucarne::disk::reason;
 
 pub fn run(arguments: &MergeArguments) -> Outcome {
     let output = Output::from_arguments(&arguments.output, Some(&arguments.output))?;
     let format = output.format();
-    let depth = format.depth(arguments.bits).ok_or_else(|| {
-        Failure::usage(format!("a .{} picture cannot have so many bits", format.extensions()[0]))
-    })?;
     let mut whole: Option<(u64, Film)> = None;
     for path in &arguments.parts {
         let name = path.display();
@@ -59,11 +56,7 @@ pub fn run(arguments: &MergeArguments) -> Outcome {
         let sentence = format!("parts are missing: {} rows, from {first} to {last}", missing.len());
         return Err(again(Failure::file(sentence)).help("render them, and merge again"));
     }
-    if film.channels == lucarne::film::Channels::Rgba && !format.holds_alpha() {
-        let sentence =
-            format!("a .{} picture cannot have an alpha channel", format.extensions()[0]);
-        return Err(Failure::usage(sentence));
-    }
+    let depth = depth_of(format, arguments.bits, film.channels == Channels::Rgba)?;
     output.check(region, depth, arguments.force)?;
     let developer = Developer::new(depth, film.assumed_gamma, film.pixels.len());
     let picture: Picture = &|out| picture::write(&film, &developer, format, out);

@@ -189,6 +189,20 @@ impl Output {
     }
 }
 
+/// Returns the numbers that a component has in a picture file. Fails if the format has no so many bits, or no alpha.
+pub fn depth_of(format: Format, bits: Option<u8>, alpha: bool) -> Result<Depth, Failure> {
+    let name = format.extensions()[0];
+    if alpha && !format.holds_alpha() {
+        return Err(Failure::usage(format!("a .{name} picture cannot have an alpha channel"))
+            .help("with `--alpha`, write a .png, .qoi, .tga, .bmp or .exr"));
+    }
+    format.depth(bits).ok_or_else(|| {
+        let bits = bits.unwrap_or_default();
+        Failure::usage(format!("a .{name} picture cannot have {bits} bits a channel"))
+            .help("`--bits` may be 8 (png, jpg, ppm, qoi, tga, bmp) or 16 (png, ppm)")
+    })
+}
+
 /// Whether the file is write-protected, for everyone or for the current user.
 fn is_protected(path: &Path) -> bool {
     let denied = || {

@@ -21,7 +21,7 @@ use super::checkpoint::{self, Checkpoint};
 use super::exit::{Exit, Failure, Outcome};
 use super::files::{self, Recorded};
 use super::messages;
-use super::output::{Output, Picture, write_whole, write_with};
+use super::output::{Output, Picture, depth_of, write_whole, write_with};
 use super::progress::{self, Progress};
 use super::promise::{self, Made};
 use super::stats::{Stats, Stopwatch, peak_rss_bytes};
@@ -41,16 +41,16 @@ pub struct Frame<'a> {
     pub animation: Animation,
     pub clock: f64,
     /// The warnings of frames before.
-    pub told: &'a RefCell<Vec<Diagnostic>>,
+    pub printed: &'a RefCell<Vec<Diagnostic>>,
 }
 
 impl Frame<'_> {
-    /// Whether a message is to be printed: a warning is told once.
+    /// Whether to print a message: a warning only the first time.
     fn is_new(&self, one: &Diagnostic) -> bool {
-        let mut told = self.told.borrow_mut();
-        let is_new = one.severity != Severity::Warning || !told.contains(one);
+        let mut printed = self.printed.borrow_mut();
+        let is_new = one.severity != Severity::Warning || !printed.contains(one);
         if is_new && one.severity == Severity::Warning {
-            told.push(one.clone());
+            printed.push(one.clone());
         }
         is_new
     }
@@ -137,7 +137,7 @@ pub fn picture(
 }
 
 /// What is known of a picture before it is rendered, and what it took.
-pub struct Job {
+pub struct Job<'a> {
     pub frame: plan::Frame,
     /// The region that the parts cover.
     whole: Region,
@@ -145,34 +145,26 @@ pub struct Job {
     key: u64,
     pub depth: Depth,
     format: Format,
-    bytes: Vec<u8>,
+    bytes: &'a [u8],
     stats: Stats,
     watch: Stopwatch,
 }
 
-impl Job {
+impl<'a> Job<'a> {
     /// Reads the scene, and fails for what is known to be impossible.
-    pub fn new(arguments: &RenderArguments, format: Format, bytes: &[u8]) -> Result<Self, Failure> {
+    pub fn new(
+        arguments: &RenderArguments,
+        format: Format,
+        bytes: &'a [u8],
+    ) -> Result<Self, Failure> {
         let watch = Stopwatch::start();
-        let depth = format.depth(arguments.bits).ok_or_else(|| {
-            let bits = arguments.bits.unwrap_or_default();
-            let name = format.extensions()[0];
-            Failure::usage(format!("a .{name} picture cannot have {bits} bits a channel"))
-                .help("`--bits` may be 8 (png, jpg, ppm, qoi, tga, bmp) or 16 (png, ppm)")
-        })?;
-        if arguments.alpha && !format.holds_alpha() {
-            let name = format.extensions()[0];
-            let sentence = format!("a .{name} picture cannot have an alpha channel");
-            return Err(Failure::usage(sentence)
-                .help("with `--alpha`, write a .png, .qoi, .tga, .bmp or .exr"));
-        }
+        let depth = depth_of(format, arguments.bits, arguments.alpha)?;
         let mut frame = arguments.picture.frame(&arguments.scene)?;
         let whole = frame.region;
         if let Some(shard) = arguments.still_shard() {
             frame.region = shard.of(whole)?;
         }
-        let (bytes, stats) = (bytes.to_vec(), Stats::default());
-        Ok(Self { frame, whole, key: 0, depth, format, bytes, stats, watch })
+        Ok(Self { frame, whole, key: 0, depth, format, bytes, stats: Stats::default(), watch })
     }
 
     /// Fails if there is clearly too little memory.
@@ -190,7 +182,7 @@ impl Job {
     ) -> Result<Result<Made, Exit>, Failure> {
         let place = self.checkpoint(arguments, output);
         let Self { stats, watch, .. } = self;
-        let dialect = arguments.scene.dialect(&arguments.file, &self.bytes);
+        let dialect = arguments.scene.dialect(&arguments.file, self.bytes);
         let life = progress::life("reading the scene");
         let files = files::of(&arguments.file, &arguments.scene);
         let read = Recorded::new(&files);
@@ -205,7 +197,7 @@ impl Job {
         let decided = EvaluateOptions { now: 0.0, interrupt, ..options.evaluate.clone() };
         let mut road = Road::new(&read, options);
         watch.lap();
-        let file = road.read(&name_of(&arguments.file), self.bytes.clone());
+        let file = road.read(&name_of(&arguments.file), self.bytes.to_vec());
         let ast = road.parse(file);
         stats.parse_cpu_s = watch.lap();
         let scene = road.evaluate(ast);
@@ -234,7 +226,7 @@ impl Job {
         let options = PlanOptions { alpha: arguments.alpha, ..options };
         let whole = plan::Frame { region: self.whole, ..self.frame };
         self.key = checkpoint::key(|digest| {
-            digest.add(&self.bytes);
+            digest.add(self.bytes);
             read.add_to(digest);
             let asked = PlanOptions { frame: whole, ..options };
             digest.add(format!("{decided:?} {asked:?}").as_bytes());

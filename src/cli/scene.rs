@@ -103,19 +103,13 @@ impl SceneArguments {
 
     /// Returns the compile options for a main file in this language.
     pub fn options(&self, dialect: Dialect, frame: Option<Frame>) -> Options {
-        let mut options = Options::new(dialect);
+        let mut options = Options::new(dialect).declaring(self.declares.clone());
+        if let Some(frame) = frame {
+            options = options.for_picture((frame.width, frame.height));
+        }
         options.levels = self.levels(dialect);
         options.evaluate.now = now();
         options.evaluate.interrupt = progress::interrupt();
-        options.evaluate.declares = self.declares.clone();
-        // `clock` is a keyword, not an identifier.
-        if let Some((_, clock)) = self.declares.iter().rfind(|(name, _)| name == "clock") {
-            options.evaluate.clock = *clock;
-        }
-        if let Some(frame) = frame {
-            (options.evaluate.width, options.evaluate.height) = (frame.width, frame.height);
-            options.picture = Some((frame.width, frame.height));
-        }
         for &(limit, n) in &self.limits {
             let small = u32::try_from(n).unwrap_or(u32::MAX);
             match limit {

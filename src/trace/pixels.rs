@@ -38,7 +38,7 @@ pub enum Sampling {
 /// A pixel, and which of its samples are taken.
 pub type Aim = ((u32, u32), Sampling);
 
-/// Returns pixels of which the same samples are taken.
+/// Returns these pixels, all with the same sampling.
 pub fn aims(list: &[(u32, u32)], sampling: Sampling) -> Vec<Aim> {
     list.iter().map(|&place| (place, sampling)).collect()
 }

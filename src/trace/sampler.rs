@@ -15,7 +15,7 @@ use crate::math::random::Random;
 const DIGITS: u32 = 32;
 const KNOWN: u32 = 6;
 
-/// Bit 2ⁿ + d says whether digit n is flipped behind the n digits d, of which the last counts most. These flips put
+/// Bit 2ⁿ + d says whether digit n is flipped behind the n digits d, the last of them most significant. These flips put
 /// sample 0 into the centre. All others are found by annealing: the error of the first 4, 8,
 /// 16, 32 and 64 samples of pixels that are crossed by an edge is smallest, a tenth below that of random flips.
 const FLIPS: [u64; 2] = [0x3b5d_8812_67e4_38e2, 0xf285_9c76_e3a8_b4a2];

@@ -10,9 +10,9 @@ use crate::film::{Film, Pixel};
 pub trait Watch: Sync {
     /// The tree of boxes stands, and tracing begins. Called once.
     fn built(&self) {}
-    /// A pass over a film begins, of which this much is done.
+    /// A pass over a film begins; `film` has the pixels that are already done.
     fn begins(&self, _pass: usize, _film: &Film) {}
-    /// The rows of a tile are done, of which this is the top left pixel.
+    /// A tile is done: its rows, and the place of its top left pixel.
     fn traced(&self, _pass: usize, _place: (u32, u32), _rows: &[&mut [Pixel]]) {}
     /// `done` of `total` pieces of work are done.
     fn progress(&self, done: usize, total: usize);

@@ -63,7 +63,7 @@ Example: povray +Iscene.pov +Oscene.png +W640 +H480 +A
 
 /// Why a frame is not finished.
 enum Stop {
-    /// It was told why.
+    /// The reason is printed.
     Failed,
     Interrupted,
 }
@@ -228,7 +228,7 @@ impl Run {
                 kept.map_err(|failure| self.failed(&failure))?;
             }
             let list = road.diagnostics.in_text_order().into_iter().cloned().collect();
-            self.told(&Messages::new(list, road.sources))?;
+            self.print(&Messages::new(list, road.sources))?;
             compiled
         };
         for (path, _, bytes) in files.written().map(|written| written.files()).unwrap_or_default() {
@@ -277,15 +277,13 @@ impl Run {
     }
 
     fn options(&self, animation: Option<Animation>, clock: f64) -> Options {
-        let Settings { width, height, .. } = self.settings;
-        let mut options = Options::new(Dialect::Pov);
-        options.picture = Some((width, height));
+        let Settings { width, height, ref declares, .. } = self.settings;
+        let options = Options::new(Dialect::Pov).for_picture((width, height));
+        let mut options = options.declaring(declares.clone());
         let evaluate = &mut options.evaluate;
-        (evaluate.width, evaluate.height) = (width, height);
         (evaluate.clock, evaluate.animation) = (clock, animation);
         evaluate.now = now();
         evaluate.interrupt = progress::interrupt();
-        evaluate.declares = self.settings.declares.clone();
         options
     }
 
@@ -366,7 +364,7 @@ impl Run {
     }
 
     /// Prints the messages in POV-Ray's words. Fails if there is an error.
-    fn told(&self, messages: &Messages) -> Result<(), Stop> {
+    fn print(&self, messages: &Messages) -> Result<(), Stop> {
         let place = |one: &Diagnostic| {
             one.primary().map_or(String::new(), |label| {
                 let source = messages.sources().get(label.span.file);

@@ -41,7 +41,7 @@ pub struct Settings {
     pub quality: u32,
     pub verbose: bool,
     pub streams: Streams,
-    /// Options that have no effect here, which is said.
+    /// Options without effect here; each gets a warning.
     pub ineffective: Vec<String>,
     /// How many INI files include the one that is read.
     pub(super) nesting: u32,
