@@ -1,7 +1,7 @@
 //! The radiance of each pixel before a film rounds it, for tests of what holds beyond its precision.
 
 use lucarne::color::Rgb;
-use lucarne::plan::{Antialias, Plan, Region};
+use lucarne::plan::{Antialias, Plan};
 use lucarne::trace::{Sampling, TraceOptions, Unwatched, aims, geometry, pixels, trace};
 use lucarne::world::World;
 
@@ -14,9 +14,8 @@ pub fn radiances(world: &World, plan: &Plan, options: &TraceOptions) -> Vec<Rgb>
             return trace(world, plan, options, &Unwatched).film.radiances().collect();
         }
     };
-    let Region { x, y, width, height } = plan.frame.region;
-    let places = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y)));
-    let aims = aims(&places.collect::<Vec<_>>(), Sampling::Planned);
+    let places: Vec<_> = plan.frame.region.places().collect();
+    let aims = aims(&places, Sampling::Planned);
     let (seen, _) =
         pixels(world, &geometry(world, plan, options), plan, &aims, options, &Unwatched);
     let count = f64::from(side * side);

@@ -2,7 +2,7 @@
 //! a clock that ticks whenever it is asked, and it is asked the more the more is traced.
 
 use super::reference::{Geometries, Reference, Studio};
-use super::refine::{Canvas, Pace, Spread, is_finest};
+use super::refine::{Canvas, Pace, is_finest, spread};
 use super::tests::{ONE_THREAD, Ticking, asked, compiled};
 use super::*;
 use crate::film::Film;
@@ -348,7 +348,7 @@ fn time_is_spent_over_the_whole_picture() {
 #[test]
 fn a_film_that_is_spread_has_all_its_pixels_and_each_first_part_has_some_of_each_part() {
     for count in [0usize, 1, 5, 16, 17, 1000, 4800] {
-        let mut list: Vec<usize> = Spread::new(count).part(0, 1).collect();
+        let mut list: Vec<usize> = spread(count).collect();
         if count > 500 {
             let first = &list[..count / 4];
             for eighth in 0..8 {

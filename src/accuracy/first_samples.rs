@@ -9,7 +9,7 @@ use super::audit;
 use super::knob::Knob;
 use super::measure::Clock;
 use super::reference::Studio;
-use super::refine::{MOST_IN_PART, Spread, place};
+use super::refine::{MOST_IN_PART, place, spread};
 use super::render_settings::Easel;
 use crate::film::{Channels, Film};
 use crate::plan::{Antialias, Plan, PlanOptions, Samples, plan};
@@ -108,7 +108,7 @@ fn complete(
     let film = &mut traced.film;
     let in_time = Deadline { clock, until, watch: studio.watch };
     let undone = |film: &Film| -> Vec<usize> {
-        let all = Spread::new(film.pixels.len()).part(0, 1);
+        let all = spread(film.pixels.len());
         all.filter(|&i| film.pixels[i].samples() == 0).collect()
     };
     let (mut list, mut size, mut shares) = (undone(film), film.pixels.len(), UNEVEN);

@@ -201,7 +201,7 @@ impl Canvas {
             }
             (new > 0).then_some((i, count + new))
         };
-        Some(Spread::new(self.pixels()).part(0, 1).filter_map(pick).collect())
+        Some(spread(self.pixels()).filter_map(pick).collect())
     }
 
     /// Continues pixels, each up to a number of samples. Returns false if stopped.
@@ -256,31 +256,16 @@ pub fn place(region: Region, i: usize) -> (u32, u32) {
     (region.x + (i % width) as u32, region.y + (i / width) as u32)
 }
 
-/// Indices of a film's pixels, in an order such that every prefix is spread over the film.
-pub struct Spread {
-    count: usize,
-    runs: usize,
-    step: usize,
-}
-
-impl Spread {
-    pub fn new(count: usize) -> Self {
-        let runs = count.div_ceil(RUN);
-        // By the golden ratio, in a step that has no divisor in common with their number.
-        let golden = (0.618 * runs as f64).round() as usize;
-        let step = (golden.max(1)..).find(|&step| divisor(step, runs) == 1).unwrap_or(1);
-        Self { count, runs, step }
-    }
-
-    /// Returns the k-th of `parts` parts.
-    pub fn part(self, k: usize, parts: usize) -> impl Iterator<Item = usize> {
-        let Self { count, runs, step } = self;
-        let (from, to) = (runs * k / parts, runs * (k + 1) / parts);
-        (from..to).flat_map(move |number| {
-            let run = (number as u128 * step as u128 % runs as u128) as usize;
-            run * RUN..((run + 1) * RUN).min(count)
-        })
-    }
+/// Returns the numbers below `count`, in an order such that every prefix is spread over all of them.
+pub fn spread(count: usize) -> impl Iterator<Item = usize> {
+    let runs = count.div_ceil(RUN);
+    // By the golden ratio, in a step that has no divisor in common with their number.
+    let golden = (0.618 * runs as f64).round() as usize;
+    let step = (golden.max(1)..).find(|&step| divisor(step, runs) == 1).unwrap_or(1);
+    (0..runs).flat_map(move |number| {
+        let run = (number as u128 * step as u128 % runs as u128) as usize;
+        run * RUN..((run + 1) * RUN).min(count)
+    })
 }
 
 /// Returns the greatest common divisor.

@@ -72,9 +72,8 @@ impl Scene {
         let text = std::fs::read(&path).expect("a scene");
         let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
         let (world, origins) = road.compile(&path, text);
-        let places = (0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| (x, y)));
-        let places: Vec<_> = places.collect();
         let off = planned(&world, &origins, Antialias::Off);
+        let places: Vec<_> = off.frame.region.places().collect();
         let threads = TraceOptions::default();
         let geometry = geometry(&world, &off, &threads);
         let halves = [1, 2].map(|seed| {
