@@ -6,7 +6,7 @@
 mod web;
 
 use crate::math::finite::single;
-pub use web::{rounded, web};
+pub(crate) use web::{rounded, web};
 
 use std::fmt;
 use std::ops::{Add, AddAssign, Mul};

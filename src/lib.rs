@@ -27,29 +27,33 @@
 extern crate alloc;
 
 pub mod accuracy;
-pub mod bvh;
+pub(crate) mod bvh;
 pub mod color;
 pub mod diagnostic;
 pub mod disk;
 pub mod evaluate;
 pub mod film;
-pub mod font;
+pub(crate) mod font;
+#[doc(hidden)]
 pub mod function;
+#[doc(hidden)]
 pub mod geometry;
 pub mod lower;
 pub mod math;
+#[doc(hidden)]
 pub mod mesh_file;
-pub mod noise;
+pub(crate) mod noise;
 pub mod pattern;
 pub mod picture;
 pub mod pilot;
 pub mod plan;
-pub mod render;
+mod render;
 pub mod road;
 pub mod scene;
 pub mod shape;
 pub mod source;
-pub mod spline;
+pub(crate) mod spline;
+#[doc(hidden)]
 pub mod standard;
 pub mod syntax;
 pub mod texture;

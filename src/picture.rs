@@ -5,8 +5,8 @@
 
 pub mod animated;
 mod exr;
-pub mod heights;
-pub mod read;
+pub(crate) mod heights;
+pub(crate) mod read;
 mod tiff;
 
 use std::io::{Cursor, Error, Result, Write};

@@ -25,9 +25,9 @@ impl Tree {
         let space = Space::around(bounds);
         let mut pieces: Vec<Piece> =
             (0..).zip(bounds).map(|(index, b)| Piece::new(index, space.outward(b))).collect();
-        let (nodes, depth) = nodes(&mut pieces);
+        let nodes = nodes(&mut pieces);
         let order = pieces.iter().map(|piece| piece.index).collect();
-        (Self { space, nodes, count: bounds.len(), depth }, order)
+        (Self { space, nodes, count: bounds.len() }, order)
     }
 }
 
@@ -103,13 +103,12 @@ impl Part {
     }
 }
 
-/// The nodes, and how many lie on the longest way down.
-fn nodes(pieces: &mut [Piece]) -> (Vec<Node>, usize) {
+/// The first is the root; no path to a leaf is longer than [`DEPTH`].
+fn nodes(pieces: &mut [Piece]) -> Vec<Node> {
     let mut nodes = vec![Node::EMPTY];
-    let mut depth = 0;
     let mut tasks = vec![(0, 1, Part::new(0..pieces.len(), Extent::of(pieces), 0))];
     while let Some((index, level, part)) = tasks.pop() {
-        depth = depth.max(level);
+        debug_assert!(level <= DEPTH, "{level}");
         let mut parts = Vec::with_capacity(4);
         parts.push(part);
         while parts.len() < 4 {
@@ -137,7 +136,7 @@ fn nodes(pieces: &mut [Piece]) -> (Vec<Node>, usize) {
             }
         }
     }
-    (nodes, depth)
+    nodes
 }
 
 impl Node {

@@ -8,8 +8,8 @@
 //! together: I. Wald, C. Benthin, S. Boulos, "Getting rid of packets", RT 2008.
 
 mod build;
-pub mod packet;
-pub mod shaft;
+pub(crate) mod packet;
+pub(crate) mod shaft;
 #[cfg(test)]
 mod tests;
 
@@ -60,8 +60,6 @@ pub struct Tree {
     nodes: Vec<Node>,
     /// Number of pieces in all leaves.
     count: usize,
-    /// Number of nodes on the longest path to a leaf.
-    depth: usize,
 }
 
 /// Where the tree's coordinates are −1 … 1: `(p − origin) · scale`, `scale` a power of two.
@@ -219,11 +217,6 @@ impl Space {
 }
 
 impl Tree {
-    /// Returns the number of nodes on the longest path to a leaf.
-    pub fn depth(&self) -> usize {
-        self.depth
-    }
-
     /// Shows `seeker` every run of pieces whose box the ray meets, or passes by at most `slack`, at `limit` or
     /// before. Near boxes come first.
     // However many kernels call it, it is the same code.

@@ -74,7 +74,7 @@ impl<'a> Place<'a> {
 }
 
 /// Returns the name of a severity in JSON and in short messages.
-pub fn severity_name(severity: Severity) -> &'static str {
+pub(crate) fn severity_name(severity: Severity) -> &'static str {
     match severity {
         Severity::Note => "note",
         Severity::Warning => "warning",

@@ -19,7 +19,7 @@ pub mod sarif;
 pub mod suggest;
 mod wrap;
 
-pub use allowance::{Allowance, allowances};
+pub(crate) use allowance::{Allowance, allowances};
 pub use code::Code;
 pub use level::{Level, Levels};
 pub use messages::Messages;

@@ -67,7 +67,10 @@ pub fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 
 /// Returns the only three-letter candidate that is `word` plus one letter, other than the first: `rg`,
 /// `bx`.
-pub fn short_of<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn short_of<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
     let fits = |candidate: &&str| {
         let mut letters = candidate.chars();
         let mut inner = word.chars();
@@ -86,7 +89,10 @@ fn digits(word: &str) -> impl Iterator<Item = char> {
 
 /// Returns the only candidate of at least four letters that starts like `word` and is two edits away:
 /// `Cole` and `Coal`.
-pub fn alike<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn alike<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
     let lower = word.to_lowercase();
     let mut near = candidates.into_iter().filter(|candidate| {
         let other = candidate.to_lowercase();
@@ -113,7 +119,7 @@ fn same_letters(a: &str, b: &str) -> bool {
 
 /// Whether two names differ only in the number or capital letter that distinguishes members of a series, as
 /// in `Ball1` and `Ball2` or `RadiusA` and `RadiusB`. One is rarely a misspelling of the other.
-pub fn are_of_a_series(a: &str, b: &str) -> bool {
+pub(crate) fn are_of_a_series(a: &str, b: &str) -> bool {
     let digits = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).len();
     let letter = |name: &str| {
         let stem = name.strip_suffix(|c: char| c.is_ascii_alphabetic())?;
@@ -180,14 +186,17 @@ fn letters(word: &str) -> (usize, u32) {
 
 /// Returns lucarne's words for what other tools or people call `word`, the likeliest first. The right one
 /// depends on the context.
-pub fn foreign(word: &str) -> impl Iterator<Item = &'static str> {
+pub(crate) fn foreign(word: &str) -> impl Iterator<Item = &'static str> {
     let lower = word.to_lowercase();
     FOREIGN.iter().filter(move |(theirs, _)| *theirs == lower).map(|&(_, ours)| ours)
 }
 
 /// Returns the candidate made of the same parts as `word`, in another order or with synonyms:
 /// `pretrace_begin` for `pretrace_start`, `max_reuse` for `maximum_reuse`, `count_nearest`.
-pub fn reworded<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn reworded<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
     const SAME: [&[&str]; 13] = [
         &["start", "begin", "first", "from"],
         &["end", "finish", "last", "stop", "to"],
@@ -229,7 +238,7 @@ pub fn reworded<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -
 
 /// Returns the candidate with the same first letter and the same consonants as `word`, if one of the two
 /// has no vowels: `Count` for `Cnt`.
-pub fn contracted<'a>(
+pub(crate) fn contracted<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
@@ -252,7 +261,10 @@ pub fn contracted<'a>(
 
 /// Returns the candidate that `word` abbreviates or spells out part by part, or whose first parts it is:
 /// `LeafPigment` for `LeafPig`, `Copper_Old` for `Old_Copper`, `low_error` for `low_error_factor`.
-pub fn abridged<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn abridged<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
     let theirs = parts(word);
     if theirs.len() < 2 {
         return None;
@@ -277,7 +289,10 @@ pub fn abridged<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -
 
 /// Returns the candidate that shares a prefix of two thirds of the longer word with `word`, or its stem:
 /// `contained_by` for `container`, `extinction` for `extinct`, `spacing` for `space`.
-pub fn begun<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn begun<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
     const LEAST: usize = 4;
     let fits = |candidate: &&str| {
         let same = word.bytes().zip(candidate.bytes()).take_while(|(a, b)| a == b).count();

@@ -49,7 +49,7 @@ mod unbounded;
 mod undeclared;
 mod unit;
 mod unrun;
-pub mod value;
+pub(crate) mod value;
 mod vector;
 mod written;
 

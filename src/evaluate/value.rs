@@ -45,10 +45,6 @@ impl Components {
         usize::from(self.len)
     }
 
-    pub fn is_empty(&self) -> bool {
-        false
-    }
-
     pub fn as_slice(&self) -> &[f64] {
         &self.values[..self.len()]
     }

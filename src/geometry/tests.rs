@@ -6,7 +6,6 @@ mod polyhedra;
 mod wholes;
 
 use super::*;
-use crate::bvh;
 use crate::color::{Color, Rgb};
 use crate::math::placement::Placement;
 use crate::math::random::{Random, tries, tries_in};
@@ -345,7 +344,8 @@ fn many_coinciding_spheres_make_no_deep_tree_and_the_first_is_hit() {
             add_sphere(&mut world, Vector::new(1.0, 2.0, 3.0), 0.5);
         }
         let geometry = Geometry::build(&world);
-        assert!(geometry.tree.as_ref().is_some_and(|tree| tree.depth() <= bvh::DEPTH));
+        // Building it asserts the depth.
+        assert!(geometry.tree.is_some());
         let ray = Ray { origin: Vector::new(1.0, 2.0, 9.0), direction: -Vector::Z };
         assert_eq!(geometry.nearest(&ray).map(|hit| (hit.object, hit.t)), Some((0, 5.5)));
     }

@@ -4,7 +4,7 @@
 //! **Invariant:** always yields a World; a part that cannot be built is reported and left out. Every number
 //! of the World is computed in extended precision and rounded once. Specified in `docs/world.md`.
 
-pub mod alone;
+pub(crate) mod alone;
 mod blob;
 mod body;
 mod camera;
@@ -42,12 +42,12 @@ mod surface;
 mod sweep;
 mod texture;
 mod transform;
-pub mod unlit;
+pub(crate) mod unlit;
 mod unseen;
 mod uv;
 mod view;
 
-pub use single::single;
+pub(crate) use single::single;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 

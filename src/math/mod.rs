@@ -4,21 +4,24 @@
 //! elementary functions (through `libm`, so that a picture is the same on every machine), and the only one
 //! that uses `glam`.
 
-pub mod bounds;
+pub(crate) mod bounds;
+#[doc(hidden)]
 pub mod double;
+#[doc(hidden)]
 pub mod elementary;
 pub(crate) mod finite;
-pub mod interval;
+pub(crate) mod interval;
 pub mod placement;
-pub mod power;
+pub(crate) mod power;
 pub(crate) mod random;
-pub mod ray;
-pub mod roots;
-pub mod singular;
+pub(crate) mod ray;
+pub(crate) mod roots;
+pub(crate) mod singular;
+#[doc(hidden)]
 pub mod terms;
 pub mod transform;
-pub mod vector;
-pub mod wide;
+pub(crate) mod vector;
+pub(crate) mod wide;
 
-pub(crate) use vector::reciprocal_power_of_two;
-pub use vector::{AbsDot, Lanes, Matrix, UnitVector, Vector};
+pub(crate) use vector::{AbsDot, Lanes, reciprocal_power_of_two};
+pub use vector::{Matrix, UnitVector, Vector};

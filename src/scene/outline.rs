@@ -80,18 +80,18 @@ impl Spline {
 
 /// Relative distance within which points of one outline are equal: the rounding of the calculations that may
 /// have produced them.
-pub const ROUNDED: f64 = 64.0 * f64::EPSILON;
+pub(crate) const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
 /// Returns a predicate for equality of two of these points, up to the rounding of the calculations that may
 /// have produced them.
-pub fn sameness(points: &[Point]) -> impl Fn(Point, Point) -> bool {
+pub(crate) fn sameness(points: &[Point]) -> impl Fn(Point, Point) -> bool {
     let size = |axis: usize| points.iter().map(|p| p[axis].abs()).fold(0.0, f64::max);
     let off = size(0).max(size(1)) * ROUNDED;
     move |a, b| (a[0] - b[0]).abs() <= off && (a[1] - b[1]).abs() <= off
 }
 
 /// Returns whether the points are collinear or equal, up to rounding.
-pub fn are_in_line(points: &[Point]) -> bool {
+pub(crate) fn are_in_line(points: &[Point]) -> bool {
     let Some(&first) = points.first() else { return true };
     let ways = || points.iter().map(|point| [point[0] - first[0], point[1] - first[1]]);
     let size = |way: &Point| way[0].abs().max(way[1].abs());

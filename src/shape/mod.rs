@@ -4,41 +4,41 @@
 //! a ray are in (0, ∞): there is no minimum or maximum distance; instead, each crossing carries its own error
 //! bound.
 
-pub mod algebraic;
-pub mod bicubic_patch;
+pub(crate) mod algebraic;
+pub(crate) mod bicubic_patch;
 pub mod blob;
-pub mod body;
-pub mod box_;
-pub mod cone;
-pub mod csg;
+pub(crate) mod body;
+pub(crate) mod box_;
+pub(crate) mod cone;
+pub(crate) mod csg;
 pub mod curve;
-pub mod cylinder;
-pub mod disc;
-pub mod ellipsoid;
-pub mod height_field;
+pub(crate) mod cylinder;
+pub(crate) mod disc;
+pub(crate) mod ellipsoid;
+pub(crate) mod height_field;
 pub mod isosurface;
 pub mod julia_fractal;
-pub mod lathe;
-pub mod local;
+pub(crate) mod lathe;
+pub(crate) mod local;
 mod memory;
 pub mod mesh;
 mod multiple;
-pub mod ovus;
-pub mod parametric;
-pub mod placed;
-pub mod plane;
-pub mod polygon;
-pub mod prism;
+pub(crate) mod ovus;
+pub(crate) mod parametric;
+pub(crate) mod placed;
+pub(crate) mod plane;
+pub(crate) mod polygon;
+pub(crate) mod prism;
 pub(crate) mod seen;
 mod slab;
 pub mod sor;
-pub mod sphere;
+pub(crate) mod sphere;
 pub mod sphere_sweep;
-pub mod superellipsoid;
-pub mod text;
-pub mod torus;
+pub(crate) mod superellipsoid;
+pub(crate) mod text;
+pub(crate) mod torus;
 mod tree;
-pub mod uv;
+pub(crate) mod uv;
 mod wide;
 
 pub use algebraic::Algebraic;
@@ -54,6 +54,7 @@ pub use height_field::HeightField;
 pub use isosurface::Isosurface;
 pub use julia_fractal::JuliaFractal;
 pub use lathe::Lathe;
+#[doc(hidden)]
 pub use memory::Memory;
 pub use mesh::Mesh;
 pub use ovus::Ovus;
@@ -73,8 +74,10 @@ pub(crate) use wide::points::WideFacets;
 pub(crate) use wide::{First, FirstOfFour, WidePlanes, WidePoints, WideSpheres};
 
 use crate::math::Vector;
-pub use crate::math::bounds::{Bounds, Rounding};
-pub use crate::math::ray::{Approach, Ray};
+pub use crate::math::bounds::Bounds;
+pub(crate) use crate::math::bounds::Rounding;
+pub(crate) use crate::math::ray::Approach;
+pub use crate::math::ray::Ray;
 
 /// Identifies one shape of the world by its kind and its index in that kind's list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -86,7 +89,7 @@ pub enum Shape {
     Placed(u32),
 }
 
-pub use crate::texture::space::Paint;
+pub(crate) use crate::texture::space::Paint;
 
 /// A point where a ray passes through a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -49,7 +49,7 @@ mod unread;
 pub use self::dump::dump;
 pub use self::format::{Unformatted, format};
 pub use self::legacy::legacy;
-pub use self::paths::{Ways, alone};
+pub(crate) use self::paths::{Ways, alone};
 pub use self::print::print;
 
 use std::ops::Range;

@@ -6,20 +6,20 @@
 //! **Invariant:** no default is missing, no number is infinite; blends have at least one entry, sorted by
 //! position; trees are at most [`DEEPEST`] nodes deep, so evaluation may recurse.
 
-pub mod blend;
+pub(crate) mod blend;
 mod bounds;
 pub mod density;
-pub mod finish;
-pub mod function;
+pub(crate) mod finish;
+pub(crate) mod function;
 pub mod image;
 pub mod normal;
-pub mod picture;
-pub mod pigment;
-pub mod region;
-pub mod slope;
-pub mod space;
+pub(crate) mod picture;
+pub(crate) mod pigment;
+pub(crate) mod region;
+pub(crate) mod slope;
+pub(crate) mod space;
 mod together;
-pub mod walk;
+pub(crate) mod walk;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -29,17 +29,20 @@ use smallvec::SmallVec;
 pub use self::image::ImageMap;
 pub use blend::{Blend, Pattern, Source};
 pub use finish::{Extras, Finish, Irid, Lobe, LobeKind, Reflection};
-pub use function::{Asked, Closed};
-pub use normal::Normal;
+pub(crate) use function::Asked;
+pub use function::Closed;
+pub use normal::{Bumps, Normal};
 pub use pigment::Pigment;
-pub use space::{Paint, Place, Space, Step, Surroundings};
-pub use together::Together;
+pub use slope::{Slope, Toward};
+pub(crate) use space::{Paint, Place, Surroundings};
+pub use space::{Space, Start, Step, Turn};
+pub(crate) use together::Together;
 
 use crate::color::Color;
 use walk::Node;
 
 /// The most nodes on a path from the root of a texture, and of a pigment, to a leaf.
-pub const DEEPEST: usize = 64;
+pub(crate) const DEEPEST: usize = 64;
 
 /// What a surface looks like.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,10 +62,10 @@ pub enum Texture {
 }
 
 /// The textures of a face, each with its share, the shares summing to 1.
-pub type Shares<'a> = SmallVec<[(&'a Texture, f64); 3]>;
+pub(crate) type Shares<'a> = SmallVec<[(&'a Texture, f64); 3]>;
 
 /// Returns the textures that count at a point of a face, a blob or a cut face. A point alone does not identify the face.
-pub fn at_face<'a>(textures: &'a [Arc<Texture>], around: &dyn Surroundings) -> Shares<'a> {
+pub(crate) fn at_face<'a>(textures: &'a [Arc<Texture>], around: &dyn Surroundings) -> Shares<'a> {
     let mut shares = Shares::new();
     for (index, weight) in around.paint().unwrap_or_else(|| Paint::from_slice(&[(0, 1.0)])) {
         let Some(texture) = textures.get(index as usize).filter(|_| weight > 0.0) else { continue };

@@ -5,15 +5,15 @@
 //! space of the pattern (see [`Frame`]). That vector is the amount times the displacement that a pattern has:
 //! its own, or that of [`bump`].
 
-pub mod blend;
-pub mod bump;
-pub mod bump_map;
+pub(crate) mod blend;
+pub(crate) mod bump;
+pub(crate) mod bump_map;
 pub(super) mod frame;
 pub mod slope_map;
 
 use std::sync::Arc;
 
-pub use frame::Frame;
+pub(crate) use frame::Frame;
 
 use super::blend::{Blend, Mix, Pattern, Source};
 use super::image::ImageMap;

@@ -71,10 +71,12 @@ use watch::Patience;
 
 pub(crate) use antialias::{FEW, expected, gain, of_edge};
 pub use counters::{Counters, Evaluations};
+#[doc(hidden)]
 pub use pixels::{Aim, Sampling, Seen, aims, pixels};
-pub use sight::Sight;
+pub(crate) use sight::Sight;
 pub(crate) use tiles::Crew;
-pub use watch::{Limited, Unwatched, Watch, Watched};
+pub(crate) use watch::Limited;
+pub use watch::{Unwatched, Watch, Watched};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TraceOptions {
@@ -159,7 +161,7 @@ pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Wat
 
 /// As [`trace`], with a `geometry` that stands already: that of [`geometry`] for this Plan, or one
 /// like it.
-pub fn trace_in(
+pub(crate) fn trace_in(
     world: &World,
     geometry: &Geometry,
     plan: &Plan,

@@ -140,9 +140,8 @@ macro_rules! vocabulary {
 mod standard;
 mod words;
 
-pub use standard::{
-    is_standard_include, is_standard_source, standard_include_of, standard_includes, standard_names,
-};
+pub use standard::{is_standard_include, standard_include_of, standard_names};
+pub(crate) use standard::{is_standard_source, standard_includes};
 use words::ROWS;
 pub use words::Word;
 

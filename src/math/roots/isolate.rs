@@ -146,18 +146,6 @@ pub struct Search<F> {
     left: SmallVec<[Part; 64]>,
 }
 
-/// Returns the changes of sign of a function in an interval.
-pub fn changes(
-    function: &impl Fn(Interval) -> Bounds,
-    from: f64,
-    to: f64,
-    fineness: Fineness,
-) -> Changes {
-    let mut search = Search::new(function, fineness);
-    search.through(from, to);
-    search.found
-}
-
 impl<F: Fn(Interval) -> Bounds> Search<F> {
     pub fn new(function: F, fineness: Fineness) -> Self {
         let found = Changes { first: None, last: None, all: SmallVec::new() };

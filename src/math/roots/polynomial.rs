@@ -44,9 +44,6 @@ pub struct Root {
     pub rising: bool,
 }
 
-/// At most one for each degree.
-pub type Roots = SmallVec<[Root; 6]>;
-
 /// Parameters of a search for roots.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Asked {

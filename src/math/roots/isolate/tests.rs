@@ -5,6 +5,18 @@ use crate::math::random::{Random, tries};
 
 const FINE: Fineness = Fineness { resolution: 1e-3, least: 1e-14 };
 
+/// The changes of sign of a function in an interval.
+fn changes(
+    function: &impl Fn(Interval) -> Bounds,
+    from: f64,
+    to: f64,
+    fineness: Fineness,
+) -> Changes {
+    let mut search = Search::new(function, fineness);
+    search.through(from, to);
+    search.found
+}
+
 /// The product of x − r over the roots, in interval arithmetic.
 fn polynomial(roots: &[f64]) -> impl Fn(Interval) -> Bounds {
     move |x| {

@@ -6,6 +6,9 @@ use super::turning::order_without_roots;
 use super::*;
 use crate::math::random::{Random, tries_in};
 
+/// At most one for each degree.
+type Roots = SmallVec<[Root; 6]>;
+
 impl<const ROOM: usize> Polynomial<ROOM> {
     fn all_roots(&self, size: f64, tolerance: f64) -> Roots {
         let between = (f64::NEG_INFINITY, f64::INFINITY);
