@@ -1,4 +1,4 @@
-//! Finds the files that a scene names on disk.
+//! Finds the files that a scene names in folders of the disk: [`DiskFiles`].
 //!
 //! **Invariant:** a file always has the same name. With `--sandbox`, only files in the scene's folder, the
 //! `-I` folders and POV-Ray's well-known include folders are read, whatever path is given and wherever a
@@ -27,12 +27,13 @@ const WELL_KNOWN: &[&str] = &[
 ];
 
 /// Largest file size that is read, in bytes: text positions have 32 bits.
+#[doc(hidden)]
 pub const LARGEST: u64 = 1 << 30;
 
 /// Debian's folder for POV-Ray's fonts; the include folder only links to it.
 const FONTS: &str = "/usr/share/fonts/truetype/povray";
 
-/// File access for one scene.
+/// Finds the files of one scene on disk.
 ///
 /// ```no_run
 /// use lucarne::{RenderOptions, disk::DiskFiles, render};
@@ -230,6 +231,7 @@ impl Files for DiskFiles {
 }
 
 /// Returns the folder, with the empty path replaced by the current folder.
+#[doc(hidden)]
 pub fn or_here(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }

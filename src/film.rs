@@ -15,6 +15,7 @@ pub use develop::{Components, Depth, Developer, Image, develop};
 /// The traced region, row by row from its top left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
+    /// The picture, and the region of it that this film shows.
     pub frame: Frame,
     /// Transfer function from radiance to linear light.
     pub assumed_gamma: Gamma,
@@ -27,6 +28,7 @@ pub struct Film {
 /// Channels of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Channels {
+    /// Red, green and blue.
     #[default]
     Rgb,
     /// With alpha: how much of the pixel is not the background.
@@ -34,6 +36,7 @@ pub enum Channels {
 }
 
 impl Channels {
+    /// Returns their number.
     pub const fn count(self) -> usize {
         match self {
             Self::Rgb => 3,

@@ -48,6 +48,7 @@ pub enum Format {
 }
 
 impl Format {
+    /// All formats.
     pub const ALL: [Self; 8] =
         [Self::Png, Self::Jpeg, Self::Ppm, Self::Qoi, Self::Tga, Self::Bmp, Self::Hdr, Self::Exr];
 

@@ -28,6 +28,19 @@ const DEPTHS: [u32; 5] = [20, 10, 5, 3, 2];
 /// antialiasing, traces these pixels and their neighbours as in the full picture, and takes more samples near
 /// edges. For a regular grid of samples, traces one sample, whose cost is multiplied. If that is too much
 /// work, traces fewer pixels and, if even a few are too many, reduces the depth.
+///
+/// ```
+/// use lucarne::plan::{Antialias, Frame, PlanOptions, plan};
+/// use lucarne::{pilot::pilot, road::{Options, Road}, source::NoFiles};
+///
+/// let mut road = Road::new(&NoFiles, Options::default());
+/// let (world, origins) = road.compile("a.scene", "background { rgb 1 }");
+/// let options = PlanOptions { antialias: Antialias::Grid(4), ..PlanOptions::new(Frame::whole(640, 480)) };
+/// let mut plan = plan(&world, &origins, &options);
+/// pilot(&world, &mut plan);
+/// assert_eq!(plan.pilot.unwrap().rays, 1.0); // Nothing mirrors or casts shadows.
+/// assert_eq!(plan.camera_rays(), 16.0 * 640.0 * 480.0);
+/// ```
 pub fn pilot(world: &World, plan: &mut Plan) {
     pilot_within(world, plan, RAYS);
 }

@@ -32,6 +32,7 @@ pub struct RenderOptions<'a> {
     pub dialect: Option<Dialect>,
     /// Width and height in pixels.
     pub size: (u32, u32),
+    /// Samples per pixel; by default adaptive, more where neighbours differ.
     pub antialias: Antialias,
     /// Whether the background is transparent.
     pub alpha: bool,
@@ -40,9 +41,20 @@ pub struct RenderOptions<'a> {
     /// Numbers that are declared before the scene is read; `clock` sets the clock.
     pub declares: &'a [(&'a str, f64)],
     /// Where the scene finds includes, pictures, fonts and meshes: [`NoFiles`], a closure that returns the bytes of a
-    /// name, or [`DiskFiles`](crate::disk::DiskFiles). POV-Ray's standard includes are built in.
+    /// name, or [`DiskFiles`](crate::disk::DiskFiles). The most used of POV-Ray's standard includes are built in.
+    ///
+    /// ```
+    /// use lucarne::{RenderOptions, render};
+    ///
+    /// let files = |name: &str| (name == "light.inc").then(|| b"#declare Light = rgb <1, 0.5, 0.25>;".to_vec());
+    /// let options = RenderOptions { files: &files, ..RenderOptions::of_size(4, 3) };
+    /// let picture = render("#include \"light.inc\" background { Light }", &options)?;
+    /// assert_eq!(picture.rgba8()[..4], [255, 188, 137, 255]);
+    /// # Ok::<(), lucarne::Messages>(())
+    /// ```
     pub files: &'a dyn Files,
-    /// Hears of progress, and may stop the rendering: a [`Watched`](crate::trace::Watched) closure.
+    /// Hears of progress, and may stop the rendering: a [`Watched`](crate::trace::Watched) closure. A picture that was
+    /// stopped is not [complete](Picture::complete).
     pub watch: &'a dyn Watch,
 }
 
@@ -73,9 +85,11 @@ impl Default for RenderOptions<'_> {
 /// A rendered picture, and the warnings of its scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
+    /// The light of each pixel, and its number of samples.
     pub film: Film,
     /// False if the [`Watch`] stopped it: some pixels then have fewer samples, or none.
     pub complete: bool,
+    /// The warnings.
     pub messages: Messages,
 }
 
@@ -99,7 +113,15 @@ impl Picture {
     }
 
     /// Returns red, green, blue and alpha of each pixel, row by row from the top left: linear light, multiplied by
-    /// alpha; 1 is the display's white.
+    /// alpha; 1 is the display's white, and light may be brighter.
+    ///
+    /// ```
+    /// use lucarne::{RenderOptions, render};
+    ///
+    /// let picture = render("background { rgb <4, 0.5, 0> }", &RenderOptions::of_size(2, 2))?;
+    /// assert_eq!(picture.linear()[..4], [4.0, 0.5, 0.0, 1.0]);
+    /// # Ok::<(), lucarne::Messages>(())
+    /// ```
     pub fn linear(&self) -> Vec<f32> {
         match self.developed(Depth::Linear) {
             Components::Linear(rgba) => rgba,
@@ -159,7 +181,7 @@ impl Picture {
 pub fn render(text: &str, options: &RenderOptions) -> Result<Picture, Messages> {
     let (width, height) = options.size;
     let mut road = Road::new(options.files, options.compile_options(text));
-    let (world, origins) = road.compile(options.name, text.as_bytes().to_vec());
+    let (world, origins) = road.compile(options.name, text);
     let frame = Frame::whole(width, height);
     if !fits(frame) {
         let why = format!("there is no memory for a picture of {width}×{height} pixels");

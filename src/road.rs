@@ -1,8 +1,21 @@
-//! The compilation pipeline, for the command line, the tests and any other program.
+//! Compiles a scene stage by stage.
 //!
 //! **In:** a main file's text and access to its includes. **Out:** the result of each stage in turn; sources
 //! and diagnostics are collected alongside. **Invariant:** every stage yields a result, even from invalid
 //! input.
+//!
+//! ```
+//! use lucarne::{road::{Options, Road}, source::NoFiles};
+//!
+//! let mut road = Road::new(&NoFiles, Options::default());
+//! let file = road.read("a.scene", "union { sphere { 0, 1 } box { 0, 1 } translate 2*y }");
+//! let ast = road.parse(file);
+//! let scene = road.evaluate(ast);
+//! assert_eq!(scene.roots.len(), 1); // The union.
+//! let (world, _) = road.lower(scene);
+//! assert_eq!((world.spheres[0].centre.y, world.boxes.len()), (2.0, 1));
+//! assert!(!road.diagnostics.has_errors());
+//! ```
 
 mod again;
 mod dark;
@@ -33,7 +46,15 @@ pub struct Options {
     pub legacy: bool,
     /// Search for coinciding faces even if no diagnostic would report them.
     pub coinciding: bool,
+    /// The size that the scene reads, the names that are declared before it, its clock, and limits.
     pub evaluate: EvaluateOptions,
+}
+
+/// Those of a `.scene`.
+impl Default for Options {
+    fn default() -> Self {
+        Self::new(Dialect::default())
+    }
 }
 
 impl Options {
@@ -70,21 +91,25 @@ impl Options {
 pub struct Road<'a> {
     files: &'a dyn Files,
     options: Options,
+    /// The texts that were read so far.
     pub sources: Sources,
+    /// The messages so far.
     pub diagnostics: Diagnostics,
     /// The number of sources whose comments were searched for allowed lints.
     heard: usize,
 }
 
 impl<'a> Road<'a> {
+    /// Returns an empty one; `files` finds what the scene includes and reads.
     pub fn new(files: &'a dyn Files, options: Options) -> Self {
         let diagnostics = Diagnostics::with_levels(options.levels.clone());
         let sources = Sources::default();
         Self { files, options, sources, diagnostics, heard: 0 }
     }
 
-    /// Reads the main file from its bytes.
-    pub fn read(&mut self, name: &str, bytes: Vec<u8>) -> FileId {
+    /// Reads the main file from its text or its bytes, UTF-8 or Latin-1. Messages call it `name`.
+    pub fn read(&mut self, name: &str, bytes: impl Into<Vec<u8>>) -> FileId {
+        let bytes = bytes.into();
         let wide = matches!(bytes.get(..2), Some([0xff, 0xfe] | [0xfe, 0xff]));
         // The offset of the first byte that is not UTF-8, in the text decoded as Latin-1.
         let wrong = std::str::from_utf8(&bytes).err().map(|error| {
@@ -118,6 +143,7 @@ impl<'a> Road<'a> {
         self.sources.add(main)
     }
 
+    /// Parses a file that was [read](Self::read).
     pub fn parse(&mut self, file: FileId) -> Ast {
         let EvaluateOptions { dialect, limits, loose, ref declares, .. } = self.options.evaluate;
         let options = ParseOptions {
@@ -151,6 +177,7 @@ impl<'a> Road<'a> {
         }
     }
 
+    /// Runs a parsed file: its macros, loops, includes and declarations.
     pub fn evaluate(&mut self, ast: Ast) -> Scene {
         let options = &self.options.evaluate;
         let mut before = self.diagnostics.len();
@@ -210,8 +237,8 @@ impl<'a> Road<'a> {
         self.diagnostics.retain_after(len, |told| !is_of_a_standard_include(told, sources));
     }
 
-    /// Compiles the main file to its World.
-    pub fn compile(&mut self, name: &str, bytes: Vec<u8>) -> (World, Origins) {
+    /// Compiles the main file to its World: runs [`Self::read`], [`Self::parse`], [`Self::evaluate`] and [`Self::lower`].
+    pub fn compile(&mut self, name: &str, bytes: impl Into<Vec<u8>>) -> (World, Origins) {
         let file = self.read(name, bytes);
         let ast = self.parse(file);
         let scene = self.evaluate(ast);
@@ -239,7 +266,7 @@ mod tests {
     #[test]
     fn a_file_that_is_not_utf_8_is_read_and_its_first_foreign_byte_named() {
         let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
-        let file = road.read("a.scene", b"// \xc3\xa9 \xe9\n".to_vec());
+        let file = road.read("a.scene", b"// \xc3\xa9 \xe9\n");
         let warning = road.diagnostics.iter().next().expect("a message");
         assert_eq!(warning.code, Code::BadEncoding);
         let span = warning.primary().expect("a place").span;
@@ -251,7 +278,7 @@ mod tests {
     fn a_text_nested_too_deep_is_told_that_and_nothing_else() {
         let mut road = Road::new(&NoFiles, Options::new(Dialect::Scene));
         let deep = format!("sphere {{ 0, {}1", "(".repeat(200_001));
-        road.compile("a.scene", deep.into_bytes());
+        road.compile("a.scene", deep);
         let codes: Vec<Code> = road.diagnostics.iter().map(|message| message.code).collect();
         assert_eq!(codes, [Code::NestingLimit]);
     }
@@ -263,7 +290,7 @@ mod tests {
             options.evaluate.limits.objects = objects;
             let mut road = Road::new(&NoFiles, options);
             let text = "sphere { 0, 1 } sphere { x, 1 } sphere { y, 1 }";
-            let (world, _) = road.compile("a.scene", text.into());
+            let (world, _) = road.compile("a.scene", text);
             let limits = road.diagnostics.iter().filter(|m| m.code == Code::ObjectLimit).count();
             (world.objects.len(), limits)
         };

@@ -16,8 +16,11 @@ pub struct FileId(pub u32);
 /// Range of bytes in one source; the end is exclusive. Bounds are always on character boundaries.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
+    /// The source.
     pub file: FileId,
+    /// Offset of the first byte.
     pub start: u32,
+    /// Offset after the last byte.
     pub end: u32,
 }
 
@@ -28,6 +31,7 @@ impl fmt::Debug for Span {
 }
 
 impl Span {
+    /// Returns a span of these offsets.
     pub fn new(file: FileId, start: usize, end: usize) -> Self {
         Self { file, start: start as u32, end: end as u32 }
     }
@@ -47,6 +51,7 @@ impl Span {
         Self { start: self.end, ..self }
     }
 
+    /// Returns its offsets.
     pub fn range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
     }
@@ -55,7 +60,9 @@ impl Span {
 /// A location in a text, and the expansions that led there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Site {
+    /// The location.
     pub span: Span,
+    /// The macro call or include that was evaluated there.
     pub expansion: ExpansionId,
 }
 
@@ -64,6 +71,7 @@ pub struct Site {
 pub struct ExpansionId(pub u32);
 
 impl ExpansionId {
+    /// The main file itself.
     pub const MAIN: Self = Self(0);
 }
 
@@ -74,10 +82,12 @@ pub struct Expansion {
     pub parent: ExpansionId,
     /// Span of the call.
     pub call: Span,
+    /// Whether it is a macro call or an include.
     pub kind: ExpansionKind,
     name: ExpansionName,
 }
 
+/// Kind of an [`Expansion`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExpansionKind {
     /// A macro call.
@@ -160,6 +170,7 @@ impl Expansions {
 pub struct Source {
     /// Name of the file as given or as included.
     pub name: String,
+    /// Its contents.
     pub text: String,
     /// The file was not UTF-8: each character is one byte of it.
     pub is_latin: bool,
@@ -178,11 +189,14 @@ fn characters(bytes: &[u8]) -> usize {
 /// Line and column, both counted from 1; columns are in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
+    /// From 1.
     pub line: usize,
+    /// From 1, in characters.
     pub column: usize,
 }
 
 impl Source {
+    /// Returns a source of this name and text.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
         let mut line_starts = vec![0];
@@ -204,6 +218,7 @@ impl Source {
         Self { is_latin, ..Self::new(name, text) }
     }
 
+    /// Returns the position of a byte.
     pub fn position(&self, offset: usize) -> Position {
         let line = self.line_starts.partition_point(|&start| start as usize <= offset) - 1;
         let start = self.line_starts[line] as usize;
@@ -231,6 +246,7 @@ impl Source {
         self.line_starts[number - 1] as usize
     }
 
+    /// Returns the number of lines.
     pub fn line_count(&self) -> usize {
         self.line_starts.len()
     }
@@ -241,15 +257,18 @@ impl Source {
 pub struct Sources(Vec<Source>);
 
 impl Sources {
+    /// Adds a source and returns its id.
     pub fn add(&mut self, source: Source) -> FileId {
         self.0.push(source);
         FileId(self.0.len() as u32 - 1)
     }
 
+    /// Returns the source with this id.
     pub fn get(&self, id: FileId) -> &Source {
         &self.0[id.0 as usize]
     }
 
+    /// Returns the text of a span.
     pub fn text(&self, span: Span) -> &str {
         // Returns nothing for a span that combines locations in different files.
         self.get(span.file).text.get(span.range()).unwrap_or("")
@@ -284,6 +303,7 @@ impl Sources {
         format!("{}:{line}:{column}", source.name)
     }
 
+    /// Returns all sources with their ids.
     pub fn iter(&self) -> impl Iterator<Item = (FileId, &Source)> {
         self.0.iter().enumerate().map(|(i, source)| (FileId(i as u32), source))
     }
@@ -294,14 +314,20 @@ impl Sources {
 pub struct Found {
     /// Path of the file, which also identifies it: the same file has the same name.
     pub name: String,
+    /// Its contents.
     pub bytes: Vec<u8>,
 }
 
 /// Reason why a file cannot be read.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FileError {
-    /// No such file; lists the searched folders, and similar names found there.
-    NotFound { searched: Vec<String>, similar: Vec<String> },
+    /// No such file.
+    NotFound {
+        /// The searched folders.
+        searched: Vec<String>,
+        /// Similar names that are found there.
+        similar: Vec<String>,
+    },
     /// The file lies outside the folders to which reading is restricted.
     Forbidden,
     /// The file exists, but cannot be read, for the given system error.

@@ -71,6 +71,8 @@ impl Point {
 
 /// Verdict on a setting. Time ratios are those of the median runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
+// The fields are explained with their variants.
+#[allow(missing_docs)]
 pub enum Verdict {
     /// Every cheaper setting is proven to be worse.
     Front,

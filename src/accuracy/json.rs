@@ -9,10 +9,15 @@ use crate::trace::Counters;
 /// Environment of the measurement.
 #[derive(Debug, Clone, Serialize)]
 pub struct Host {
+    /// Operating system: `linux`.
     pub os: String,
+    /// Architecture of the processor: `x86_64`.
     pub arch: String,
+    /// Model of the processor.
     pub cpu: String,
+    /// Number of its cores.
     pub cores: usize,
+    /// Number of threads that traced.
     pub threads: usize,
     /// Version of lucarne.
     pub version: String,

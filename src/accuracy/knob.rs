@@ -13,6 +13,7 @@ use crate::world::World;
 /// A setting of the plan, with its values from cheap to expensive.
 #[derive(Debug, Clone, Copy)]
 pub struct Knob {
+    /// Name of the knob: `depth`.
     pub name: &'static str,
     /// What the scene must contain for the knob to have an effect.
     pub needs: Need,
@@ -21,16 +22,20 @@ pub struct Knob {
     /// Settings from coarse to fine, ascending or descending. They are also approximately in order of cost; a
     /// report orders them by measured cost.
     pub settings: &'static [f64],
+    /// Where the scene's own value lies among the settings.
     pub own: Own,
     /// Setting of the reference: the finest, unless a coarser one has no error but noise, which the reference's many
     /// samples of a pixel average.
     pub reference: Option<f64>,
+    /// Sets it in the options of a plan.
     pub set: fn(&mut PlanOptions, f64),
+    /// Reads it from the options of a plan.
     pub get: fn(&PlanOptions) -> f64,
     /// Minimum cost of a setting, in camera rays per pixel.
     pub least: fn(f64) -> f64,
     /// Factor by which a setting changes the cost of every ray.
     pub factor: fn(f64) -> f64,
+    /// Name of a setting in a report: `4×4`.
     pub label: fn(f64) -> String,
     /// Flag of `render` that selects the setting.
     pub flag: fn(f64) -> String,
@@ -61,6 +66,7 @@ pub enum Need {
 }
 
 impl Need {
+    /// Whether the scene contains it.
     pub fn is_met(self, world: &World, plan: &Plan) -> bool {
         match self {
             Self::Edges => {

@@ -6,15 +6,29 @@ use crate::trace::Watch;
 
 /// Clocks, in seconds from an arbitrary origin.
 pub trait Clock: Sync {
+    /// Time of day.
     fn wall(&self) -> f64;
     /// CPU time of all threads of the process.
     fn cpu(&self) -> f64;
 }
 
+/// A clock of one kind, for a program with one thread: wall-clock time counts as CPU time.
+impl<F: Fn() -> f64 + Sync> Clock for F {
+    fn wall(&self) -> f64 {
+        self()
+    }
+
+    fn cpu(&self) -> f64 {
+        self()
+    }
+}
+
 /// Seconds for tracing alone; the bounding volume hierarchy is built before.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Times {
+    /// CPU time of each run.
     pub cpu: Vec<f64>,
+    /// Wall-clock time of each run.
     pub wall: Vec<f64>,
 }
 
@@ -40,11 +54,14 @@ impl Times {
 /// Minimum and median.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Span {
+    /// The least.
     pub min: f64,
+    /// The middle one.
     pub median: f64,
 }
 
 impl Span {
+    /// Returns those of a list; 0 for an empty one.
     pub fn of(seconds: &[f64]) -> Self {
         let mut sorted = seconds.to_vec();
         sorted.sort_by(f64::total_cmp);

@@ -32,7 +32,8 @@ pub mod table;
 mod trial;
 
 pub use affordable_reference::LEAST as LEAST_PIXELS;
-pub use front::{Order, Verdict};
+pub(crate) use front::Order;
+pub use front::Verdict;
 pub use glare::glare;
 pub use knob::{KNOBS, Knob, Need, share};
 pub use measure::{Clock, Span, Times};
@@ -55,8 +56,11 @@ use trial::{Bench, Candidate, Picture, Trial};
 /// Options of a measurement.
 #[derive(Debug, Clone, Copy)]
 pub struct Options<'a> {
+    /// The picture.
     pub frame: Frame,
+    /// The knobs to try: [`KNOBS`], or some of them.
     pub knobs: &'a [Knob],
+    /// How errors are measured.
     pub metric: Metric,
     /// In wall-clock seconds.
     pub budget: f64,
@@ -64,17 +68,36 @@ pub struct Options<'a> {
     pub seed: u64,
     /// As [`PlanOptions::alpha`].
     pub alpha: bool,
+    /// How pictures are traced.
     pub trace: TraceOptions,
+}
+
+impl Options<'_> {
+    /// Returns the defaults of `lucarne accuracy`, on one thread.
+    pub fn new(frame: Frame) -> Self {
+        Self {
+            frame,
+            knobs: KNOBS,
+            metric: Metric::default(),
+            budget: 60.0,
+            seed: 1,
+            alpha: false,
+            trace: TraceOptions::on_threads(1),
+        }
+    }
 }
 
 /// Reason why there is no report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unmeasured {
+    /// The watch stopped it.
     Stopped,
     /// The scene's own picture takes about `own` seconds or more, which is too much of the budget. About
     /// `enough` seconds would allow at least one more picture.
     TooShort {
+        /// In seconds.
         own: f64,
+        /// In seconds.
         enough: f64,
     },
 }
@@ -207,6 +230,21 @@ fn tried(
 /// # Errors
 ///
 /// If stopped, or if the budget is too short to measure anything.
+///
+/// ```
+/// use lucarne::accuracy::{Options, accuracy};
+/// use lucarne::{plan::Frame, road::{self, Road}, source::NoFiles, trace::Unwatched};
+///
+/// let mut road = Road::new(&NoFiles, road::Options::default());
+/// let (world, origins) = road.compile("a.scene", "plane { z, 0 pigment { checker rgb 0 rgb 1 } finish { ambient 1 } }
+///     camera { location <3, 2, 5> look_at 0 }");
+/// let start = std::time::Instant::now();
+/// let clock = || start.elapsed().as_secs_f64();
+/// let options = Options { budget: 2.0, ..Options::new(Frame::whole(16, 12)) };
+/// let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("enough time");
+/// assert!(report.knobs.iter().any(|knob| knob.name == "antialias"));
+/// println!("{}", report.error(0).value); // Of the picture that `render` makes: the root mean square.
+/// ```
 pub fn accuracy(
     world: &World,
     origins: &Origins,

@@ -46,6 +46,7 @@ const DEAREST: u32 = 1000;
 /// A picture with a promised error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kept {
+    /// The picture.
     pub traced: Traced,
     /// Flags of `render` that reproduce the picture.
     pub flags: String,
@@ -63,6 +64,8 @@ pub struct TooSmall;
 
 /// Next step of [`keep`]. Seconds are estimates.
 #[derive(Debug, Clone, PartialEq)]
+// The fields are explained with their variants.
+#[allow(missing_docs)]
 pub enum Step {
     /// Choosing settings on a few pixels.
     Choosing,

@@ -11,10 +11,13 @@ use crate::trace::Traced;
 /// Error of a picture, measured on fresh pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Audit {
+    /// How the error is measured.
     pub metric: Metric,
+    /// The error of the picture.
     pub error: Estimate,
     /// Four times the reference's own error; smaller errors cannot be distinguished from it.
     pub resolution: f64,
+    /// Number of pixels on which it was measured.
     pub pixels: usize,
     /// Depth of the reference, if less than the maximum: nothing is known about deeper contributions.
     pub depth: Option<u32>,

@@ -17,15 +17,21 @@ const LEAST_TO_TELL: f64 = 0.5;
 /// Measured costs and accuracies of the settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
+    /// The picture.
     pub frame: Frame,
+    /// How errors are measured.
     pub metric: Metric,
+    /// As [`Options::seed`](super::Options::seed).
     pub seed: u64,
+    /// Number of pixels on which errors were measured.
     pub audited: usize,
+    /// What was reduced to keep the budget.
     pub cut: Cut,
     /// Samples of each audited pixel.
     pub reference_samples: u32,
     /// The reference's own error, in each of [`Metric::ALL`].
     pub floors: [f64; 3],
+    /// The knobs with an effect.
     pub knobs: Vec<Tried>,
     /// Sentences for the caller to print on knobs without effect.
     pub idle: Vec<String>,
@@ -47,6 +53,7 @@ pub struct Cut {
 /// A knob and the results of its settings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tried {
+    /// Name of the knob.
     pub name: &'static str,
     /// Coarsest and finest setting.
     pub ends: [String; 2],
@@ -66,6 +73,7 @@ pub struct Line<'a> {
     pub label: String,
     /// Whether one of them is the scene's own.
     pub is_own: bool,
+    /// The cheapest of them.
     pub first: &'a Setting,
 }
 
@@ -83,9 +91,12 @@ impl Tried {
     }
 }
 
+/// A setting of a knob.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
+    /// Name of the setting: `4×4`.
     pub label: String,
+    /// Flag of `render` that selects it.
     pub flag: String,
     /// Whether it is the scene's own setting, or the default of `render`.
     pub is_own: bool,
@@ -137,6 +148,7 @@ impl Report {
         4.0 * self.floors[metric as usize]
     }
 
+    /// Whether the error of a row can be distinguished from the reference's own.
     pub fn is_resolved(&self, metric: Metric, row: usize) -> bool {
         self.rows[row].errors[metric as usize].value >= self.resolution(metric)
     }

@@ -47,6 +47,7 @@ pub struct Spent {
     /// Number of pixels for which even those were too expensive, and the flags of these pixels: the
     /// cheapest.
     pub rest: usize,
+    /// The cheapest flags.
     pub least: String,
     /// Whether each pixel has the maximum number of samples, so that more time would change nothing.
     pub is_finest: bool,
@@ -57,6 +58,7 @@ pub struct Spent {
 /// Result of the first pass.
 #[derive(Debug, Clone, Copy)]
 pub struct First<'a> {
+    /// The film so far.
     pub film: &'a Film,
     /// Average number of processors it had.
     pub processors: f64,

@@ -50,14 +50,19 @@ pub struct Deviation {
 /// A value and its 95 % confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Estimate {
+    /// The value.
     pub value: f64,
+    /// Where the interval begins.
     pub low: f64,
+    /// Where it ends.
     pub high: f64,
 }
 
 impl Metric {
+    /// All metrics.
     pub const ALL: [Self; 3] = [Self::Rmse, Self::P99, Self::Bad];
 
+    /// Returns its name: `rmse`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rmse => "rmse",
@@ -101,7 +106,7 @@ impl Metric {
         }
     }
 
-    pub fn of(self, pixels: &[Deviation]) -> f64 {
+    pub(crate) fn of(self, pixels: &[Deviation]) -> f64 {
         let mut parts: Vec<f64> = pixels.iter().map(|pixel| self.part(pixel)).collect();
         self.whole(&mut parts)
     }

@@ -9,6 +9,7 @@ macro_rules! codes {
         pub enum Code { $(#[doc = $sentence] $variant,)* }
 
         impl Code {
+            /// All codes.
             pub const ALL: &[Code] = &[$(Code::$variant),*];
 
             /// Returns the name shown to the user: `unknown-word`.
@@ -16,6 +17,7 @@ macro_rules! codes {
                 match self { $(Code::$variant => $name),* }
             }
 
+            /// Returns its severity where no level changes it.
             pub fn severity(self) -> Severity {
                 match self { $(Code::$variant => codes!(@severity $severity)),* }
             }
@@ -66,6 +68,7 @@ macro_rules! codes {
                 }
             }
 
+            /// Returns the code with this name.
             pub fn from_name(name: &str) -> Option<Self> {
                 Self::ALL.iter().copied().find(|code| code.name() == name)
             }

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use super::{Code, Severity};
 
+/// What becomes of a warning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// Not reported.
@@ -44,6 +45,7 @@ impl Levels {
         self.all = Some(level);
     }
 
+    /// Sets the level of a code.
     pub fn set(&mut self, code: Code, level: Level) {
         self.named.insert(code, level);
     }

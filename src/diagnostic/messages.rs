@@ -5,7 +5,20 @@ use std::fmt;
 use super::{Diagnostic, json, render};
 use crate::source::Sources;
 
-/// Messages about one scene, as data and as text.
+/// Messages about one scene, as data and as text: the warnings of a [`Picture`](crate::Picture), or the errors because of
+/// which there is none.
+///
+/// ```
+/// use lucarne::{RenderOptions, diagnostic::{Code, mend}, render};
+///
+/// let text = "sphere { 0, 1 pigmnt { rgb 1 } }";
+/// let messages = render(text, &RenderOptions { name: "a.scene", ..RenderOptions::default() }).unwrap_err();
+/// let error = messages.iter().find(|one| one.code == Code::UnknownWord).expect("a misspelling");
+/// assert_eq!(messages.sources().place(error.primary().unwrap().span), "a.scene:1:15");
+/// assert_eq!(error.fixes[0].text, "pigment");
+/// let (mended, _) = mend::apply(text, messages.iter());
+/// assert_eq!(mended, "sphere { 0, 1 pigment { rgb 1 } }");
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Messages {
     list: Vec<Diagnostic>,
@@ -18,10 +31,12 @@ impl Messages {
         Self { list, sources }
     }
 
+    /// Returns the messages in reading order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &Diagnostic> {
         self.list.iter()
     }
 
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
@@ -47,7 +62,8 @@ impl Messages {
         self.list.iter().map(|one| render::short(one, &self.sources))
     }
 
-    /// Returns one JSON object for each message, with fixes; `docs/messages.md` describes it.
+    /// Returns one JSON object for each message, as `lucarne check --message-format json`: `code`, `severity`, `message`,
+    /// `labels`, `trace`, `help` and `fixes`. Lines and columns count from 1.
     pub fn json_lines(&self) -> impl Iterator<Item = String> {
         self.list.iter().map(|one| json::line(one, &self.sources))
     }

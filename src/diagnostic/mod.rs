@@ -28,6 +28,7 @@ use std::collections::HashMap;
 
 use crate::source::{Expansion, ExpansionKind, Expansions, Site, Span};
 
+/// How bad it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
     /// Output of the author's own `#debug`.
@@ -41,39 +42,55 @@ pub enum Severity {
 /// A source location and its role in the message.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
+    /// The location.
     pub span: Span,
+    /// What is there, in a few words.
     pub text: String,
+    /// Whether it is the location of the problem itself.
     pub primary: bool,
 }
 
 /// A replacement that can be applied automatically. An empty span inserts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fix {
+    /// The text to replace.
     pub span: Span,
+    /// The new text.
     pub text: String,
 }
 
 /// One step of the evaluation that led to the primary label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TraceStep {
+    /// The call or include.
     pub span: Span,
+    /// Describes the step: ``in this call of macro `Tree` ``.
     pub text: String,
 }
 
+/// A message about a scene.
+///
+/// [`Messages::sources`] turns its spans into lines and columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
+    /// Its kind, with a page of its own: [`Code::page`].
     pub code: Code,
+    /// Whether it prevents a picture.
     pub severity: Severity,
+    /// What is wrong, in one sentence.
     pub message: String,
     /// The first one is primary, if any is; messages about the scene as a unit have none.
     pub labels: Vec<Label>,
     /// Innermost step first.
     pub trace: Vec<TraceStep>,
+    /// What to do, or why it is wrong.
     pub help: Vec<String>,
+    /// The replacements that mend it, all of them together.
     pub fixes: Vec<Fix>,
 }
 
 impl Diagnostic {
+    /// Returns a message without locations, with the severity of its code.
     pub fn new(code: Code, message: impl Into<String>) -> Self {
         Self {
             code,
@@ -98,11 +115,13 @@ impl Diagnostic {
         self
     }
 
+    /// Adds a line of help.
     pub fn help(mut self, text: impl Into<String>) -> Self {
         self.help.push(text.into());
         self
     }
 
+    /// Adds a replacement that mends it.
     pub fn fix(mut self, span: Span, text: impl Into<String>) -> Self {
         self.fixes.push(Fix { span, text: text.into() });
         self
@@ -139,6 +158,7 @@ impl Diagnostic {
         self.code.severity() == Severity::Error && self.severity == Severity::Error
     }
 
+    /// Returns the location of the problem.
     pub fn primary(&self) -> Option<&Label> {
         self.labels.iter().find(|label| label.primary)
     }
@@ -192,6 +212,7 @@ impl Diagnostics {
         self.levels.of_whole_scene();
     }
 
+    /// Adds a message, unless its level or a comment drops it.
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
         if let Some(level) = self.level(&diagnostic) {
             let Some(severity) = level.severity() else { return };
@@ -335,6 +356,7 @@ impl Diagnostics {
         }
     }
 
+    /// Returns the messages in the order in which they were reported.
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
         self.list.iter()
     }
@@ -354,10 +376,12 @@ impl Diagnostics {
         list
     }
 
+    /// Returns their number.
     pub fn len(&self) -> usize {
         self.list.len()
     }
 
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }

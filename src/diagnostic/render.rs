@@ -22,6 +22,7 @@ use crate::source::{FileId, Position, Source, Sources, Span};
 pub struct Style {
     /// Columns of the terminal.
     pub width: usize,
+    /// Whether to use the colours of ANSI terminals.
     pub color: bool,
 }
 

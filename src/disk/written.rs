@@ -58,6 +58,7 @@ impl Written {
         Ok(truth)
     }
 
+    /// Appends to a started file.
     pub fn add(&self, truth: &Path, bytes: &[u8]) {
         if let Ok(mut files) = self.files.lock()
             && let Some(file) = files.get_mut(truth)

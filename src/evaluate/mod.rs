@@ -81,6 +81,19 @@ use value::{Poison, Value};
 
 /// Runs `main` and drops it: for a large scene it is the larger half of the memory. Errors and warnings go to
 /// `diagnostics`.
+///
+/// ```
+/// use lucarne::{diagnostic::Diagnostics, source::{NoFiles, Source, Sources}, syntax::parse};
+/// use lucarne::evaluate::{EvaluateOptions, evaluate};
+///
+/// let mut sources = Sources::default();
+/// let file = sources.add(Source::new("a.scene", "#for (I, 1, 3) sphere { I*x, Radius } #end"));
+/// let mut diagnostics = Diagnostics::default();
+/// let ast = parse(sources.get(file), file, &Default::default(), &mut diagnostics);
+/// let options = EvaluateOptions { declares: vec![("Radius".into(), 0.4)], ..Default::default() };
+/// let scene = evaluate(ast, &mut sources, &NoFiles, &options, &mut diagnostics);
+/// assert_eq!(scene.roots.len(), 3);
+/// ```
 pub fn evaluate(
     main: Ast,
     sources: &mut Sources,

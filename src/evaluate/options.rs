@@ -8,6 +8,7 @@ use crate::scene::Dialect;
 /// Options set by the caller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvaluateOptions {
+    /// The language of the main file.
     pub dialect: Dialect,
     /// Value of `image_width`.
     pub width: u32,
@@ -15,20 +16,24 @@ pub struct EvaluateOptions {
     pub height: u32,
     /// `-D name=value` options, in order.
     pub declares: Vec<(String, f64)>,
+    /// Value of `clock`.
     pub clock: f64,
     /// Days since the beginning of the year 2000, UTC: the value of `now`.
     pub now: f64,
     /// `None`: a still.
     pub animation: Option<Animation>,
+    /// When to stop.
     pub limits: Limits,
     /// Whether every brace without a partner where it is written pairs at run time.
     pub loose: bool,
+    /// A flag that stops it earlier.
     pub interrupt: Interrupt,
 }
 
 /// A frame of an animation; `clock` has its own option.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Animation {
+    /// Value of `frame_number`.
     pub frame_number: u32,
     /// Numbers of the first and the last frame.
     pub frames: (u32, u32),
@@ -58,6 +63,7 @@ impl Animation {
 pub struct Interrupt(pub Option<&'static AtomicBool>);
 
 impl Interrupt {
+    /// Whether the flag is set.
     pub fn is_set(self) -> bool {
         self.0.is_some_and(|set| set.load(Ordering::Relaxed))
     }
@@ -111,6 +117,7 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// Turns of all loops together, in turns of one loop.
     pub const TOGETHER: u64 = 4;
 }
 

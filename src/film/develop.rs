@@ -8,9 +8,13 @@ use crate::plan::Region;
 /// The image to show: the film's region, row by row from its top left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Image {
+    /// In pixels.
     pub width: u32,
+    /// In pixels.
     pub height: u32,
+    /// Whether the components include alpha.
     pub channels: Channels,
+    /// All components: those of the first pixel, of the second, and so on.
     pub components: Components,
 }
 
@@ -28,9 +32,12 @@ pub enum Components {
 /// Type of the [`Components`] of an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Depth {
+    /// 8 bits, sRGB.
     #[default]
     Eight,
+    /// 16 bits, sRGB.
     Sixteen,
+    /// Linear light as `f32`.
     Linear,
 }
 
@@ -53,6 +60,17 @@ impl Depth {
 /// alpha instead; linear light is multiplied by it, and its alpha is as it is.
 ///
 /// **Source:** behaviour of POV-Ray 3.7 with `Output_Alpha`, measured for PNG and OpenEXR.
+///
+/// ```
+/// use lucarne::color::{Gamma, Rgb};
+/// use lucarne::film::{Components, Depth, Film, Pixel, develop};
+/// use lucarne::plan::Frame;
+///
+/// let mut film = Film::new(Frame::whole(2, 1), Gamma::LINEAR);
+/// film.pixels[1] = Pixel::new(Rgb::new(0.5, 1.0, 7.0), 1);
+/// let image = develop(&film, Depth::Eight);
+/// assert_eq!(image.components, Components::Eight(vec![0, 0, 0, 188, 255, 255]));
+/// ```
 pub fn develop(film: &Film, depth: Depth) -> Image {
     let (Region { width, height, .. }, channels) = (film.frame.region, film.channels);
     let developer = Developer::new(depth, film.assumed_gamma, film.pixels.len());
@@ -80,6 +98,7 @@ impl Developer {
         })
     }
 
+    /// Returns the type of the components.
     pub fn depth(&self) -> Depth {
         match self.0 {
             Tones::Eight(_) => Depth::Eight,

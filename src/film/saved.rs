@@ -35,11 +35,13 @@ impl Purpose {
 /// Films, and what they are of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Saved {
+    /// What they are for.
     pub purpose: Purpose,
     /// Equal for films of the same picture.
     pub key: u64,
     /// The part of the picture that is to be rendered in all.
     pub region: Region,
+    /// One for each pass that has begun.
     pub films: Vec<Film>,
 }
 
@@ -74,12 +76,14 @@ impl Default for Digest {
 }
 
 impl Digest {
+    /// Adds bytes to the sum.
     pub fn add(&mut self, bytes: &[u8]) {
         for &byte in bytes {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
     }
 
+    /// Returns the sum.
     pub fn get(self) -> u64 {
         self.0
     }
@@ -94,6 +98,19 @@ impl fmt::Write for Digest {
 }
 
 /// Writes films.
+///
+/// ```
+/// use lucarne::film::saved::{Damage, Purpose, Saved, load, save};
+/// use lucarne::{color::Gamma, film::Film, plan::Frame};
+///
+/// let film = Film::new(Frame::whole(8, 6), Gamma::LINEAR);
+/// let saved = Saved { purpose: Purpose::Part, key: 1, region: film.frame.region, films: vec![film] };
+/// let mut bytes = Vec::new();
+/// save(&saved, &mut bytes)?;
+/// assert_eq!(load(&bytes), Ok(saved));
+/// assert_eq!(load(&bytes[1..]), Err(Damage::Foreign));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 pub fn save(saved: &Saved, out: &mut dyn Write) -> Result<()> {
     let Saved { purpose, key, region: Region { x, y, width, height }, films } = saved;
     let purpose = purpose.name();

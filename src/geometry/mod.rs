@@ -27,7 +27,7 @@ mod through;
 mod whole;
 mod work;
 
-pub use crate::bvh::shaft::Shaft;
+pub(crate) use crate::bvh::shaft::Shaft;
 pub use between::Between;
 pub use nearest::Hit;
 pub use occluder::Occluder;

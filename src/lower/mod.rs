@@ -79,6 +79,18 @@ impl Default for LowerOptions {
 }
 
 /// Lowers `scene` to a [`World`]; see the module.
+///
+/// ```
+/// use lucarne::{lower::{LowerOptions, lower}, road::{Options, Road}, source::NoFiles};
+///
+/// let mut road = Road::new(&NoFiles, Options::default());
+/// let file = road.read("a.scene", "sphere { y, 1 scale 2 rotate 90*x } sphere { 0, 1 scale <1, 2, 1> }");
+/// let ast = road.parse(file);
+/// let scene = road.evaluate(ast);
+/// let (world, origins) = lower(scene, &LowerOptions::default(), &mut road.diagnostics);
+/// assert_eq!((world.spheres[0].centre.z, world.spheres[0].radius), (2.0, 2.0));
+/// assert_eq!((world.ellipsoids.len(), origins.objects.len()), (1, 2));
+/// ```
 pub fn lower(
     scene: Scene,
     options: &LowerOptions,

@@ -32,6 +32,23 @@ impl AnimatedFormat {
 }
 
 /// An animated picture that frames are added to.
+///
+/// ```
+/// use lucarne::picture::animated::{Animated, AnimatedFormat};
+/// use lucarne::{RenderOptions, render};
+///
+/// let frame = |clock| {
+///     let declares = &[("clock", clock)];
+///     render("background { rgb clock }", &RenderOptions { declares, ..RenderOptions::of_size(8, 6) })
+/// };
+/// let (mut gif, first) = (Vec::new(), frame(0.0)?);
+/// let mut animated = Animated::new(AnimatedFormat::Gif, &first.film, 2, 25.0, &mut gif)?;
+/// animated.add(&first.film)?;
+/// animated.add(&frame(1.0)?.film)?;
+/// animated.finish()?;
+/// assert_eq!(&gif[..6], b"GIF89a");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Animated<W: Write>(Kind<W>);
 
 enum Kind<W: Write> {
@@ -40,7 +57,7 @@ enum Kind<W: Write> {
 }
 
 impl<W: Write> Animated<W> {
-    /// Begins a picture of so many frames, of the size and channels of this film.
+    /// Begins a picture of so many frames, of the size and channels of this film, with `fps` frames a second.
     ///
     /// # Errors
     ///

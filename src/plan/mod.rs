@@ -4,6 +4,19 @@
 //! **Invariant:** each effect is listed once, as simulated or as left out. Pruning is exact or not done.
 //! Values of zero weight are not in the World (`lower` drops and reports them), so the Plan depends only on
 //! what the World contains. Patterns, lights and lobes are data: the tracer evaluates those that exist.
+//!
+//! ```
+//! use lucarne::plan::{Effect, Frame, PlanOptions, plan};
+//! use lucarne::{road::{Options, Road}, source::NoFiles};
+//!
+//! let text = "light_source { 9, rgb 1 } sphere { 0, 1 pigment { rgb 1 } finish { reflection 0.5 } }";
+//! let mut road = Road::new(&NoFiles, Options::default());
+//! let (world, origins) = road.compile("a.scene", text);
+//! let plan = plan(&world, &origins, &PlanOptions::new(Frame::whole(64, 48)));
+//! let mirrors = plan.called(Effect::Reflection).expect("it is simulated");
+//! assert_eq!(road.sources.text(mirrors.by[0].span), "reflection 0.5");
+//! assert!(plan.left_out.iter().any(|one| one.effect == Effect::Fog && one.why == "no `fog`"));
+//! ```
 
 mod dropped;
 mod effects;
@@ -27,12 +40,16 @@ use crate::world::Dropped;
 /// Size of the full picture and the region to trace, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frame {
+    /// Width of the full picture.
     pub width: u32,
+    /// Height of the full picture.
     pub height: u32,
+    /// The part to trace.
     pub region: Region,
 }
 
 impl Frame {
+    /// Returns the frame of a picture that is traced in full.
     pub const fn whole(width: u32, height: u32) -> Self {
         Self { width, height, region: Region { x: 0, y: 0, width, height } }
     }
@@ -41,9 +58,13 @@ impl Frame {
 /// Part of a picture, in pixels; `x` and `y` count from the top left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Region {
+    /// Left edge.
     pub x: u32,
+    /// Top edge.
     pub y: u32,
+    /// Number of columns.
     pub width: u32,
+    /// Number of rows.
     pub height: u32,
 }
 
@@ -59,6 +80,7 @@ impl Region {
         (y..y + height).flat_map(move |y| (x..x + width).map(move |x| (x, y)))
     }
 
+    /// Whether a pixel is in it.
     pub fn contains(self, (x, y): (u32, u32)) -> bool {
         (self.x..self.x + self.width).contains(&x) && (self.y..self.y + self.height).contains(&y)
     }
@@ -73,7 +95,12 @@ pub enum Antialias {
     Grid(u32),
     /// One ray per pixel, then 4 to `grid` × `grid` near edges, where neighbours differ by more than `threshold`
     /// in an encoded component: as many as the pixel's samples call for.
-    Adaptive { threshold: f64, grid: u32 },
+    Adaptive {
+        /// 0 … 1; 1 is the difference of black and white.
+        threshold: f64,
+        /// Square root of the most samples of a pixel.
+        grid: u32,
+    },
 }
 
 impl Default for Antialias {
@@ -92,7 +119,12 @@ pub enum Samples {
     Fixed(u32),
     /// No more than are needed for an estimated error of at most `threshold`, 1 being that between black and
     /// white, and at most `most`.
-    Adaptive { threshold: f64, most: u32 },
+    Adaptive {
+        /// The estimated error.
+        threshold: f64,
+        /// The most samples.
+        most: u32,
+    },
 }
 
 impl fmt::Display for Samples {
@@ -117,7 +149,9 @@ pub struct Arithmetic {
 /// The caller's options.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanOptions {
+    /// Size of the picture, and the region to trace.
     pub frame: Frame,
+    /// Samples per pixel.
     pub antialias: Antialias,
     /// Overrides the scene's `max_trace_level`.
     pub depth: Option<u32>,
@@ -155,8 +189,11 @@ impl PlanOptions {
 /// Effect that the tracer can simulate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Effect {
+    /// Light that surfaces scatter.
     Diffuse,
+    /// Reflections of lights themselves: `phong`, `specular`.
     Highlights,
+    /// Rays toward lights.
     Shadows,
     /// Lights dimmer than their color in some places: spotlight beams, and light that fades with distance.
     Attenuation,
@@ -168,6 +205,7 @@ pub enum Effect {
     LightGroups,
     /// Light on one side of a surface that also illuminates the other side.
     DoubleIllumination,
+    /// Rays that surfaces mirror.
     Reflection,
     /// Rays that continue through transparent surfaces.
     Transparency,
@@ -179,9 +217,11 @@ pub enum Effect {
     Dispersion,
     /// Light filtered by transparent surfaces.
     ColoredShadows,
+    /// Colours and normals that depend on the point.
     Patterns,
     /// Objects that are invisible to the camera or in reflections.
     Hiding,
+    /// A `sky_sphere`.
     Sky,
     /// A lens that blurs what is not in focus.
     FocalBlur,
@@ -191,6 +231,7 @@ pub enum Effect {
     Fog,
     /// Coloured arcs around a direction.
     Rainbows,
+    /// More than one sample per pixel.
     Antialiasing,
 }
 
@@ -250,12 +291,16 @@ impl Effect {
     }
 }
 
+/// What [`trace`](crate::trace::trace()) does, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
+    /// Size of the picture, and the region to trace.
     pub frame: Frame,
+    /// Samples per pixel.
     pub antialias: Antialias,
     /// Maximum recursion depth; 1 traces camera rays only.
     pub max_trace_level: u32,
+    /// Weight below which a ray is not followed.
     pub adc_bailout: f64,
     /// See [`Arithmetic`].
     pub root_tolerance: f64,
@@ -275,6 +320,7 @@ pub struct Plan {
     pub left_out: Vec<LeftOut>,
     /// Parts of the scene that cannot change the picture.
     pub dropped: Vec<Dropped>,
+    /// What may strain the arithmetic.
     pub numerics: Numerics,
     /// Kinds of shapes that occur.
     pub kinds: Vec<Kind>,
@@ -287,6 +333,7 @@ pub struct Plan {
 /// An effect that is simulated, and everything that requires it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Called {
+    /// The effect.
     pub effect: Effect,
     /// Source locations in text order, without duplicates. Removing all of them removes the effect and
     /// leaves a valid scene. Empty if the caller's options require the effect.
@@ -301,8 +348,11 @@ pub struct Called {
 /// An effect that nothing requires.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
+    /// The effect.
     pub effect: Effect,
+    /// Why it is not simulated.
     pub why: String,
+    /// What in the scene says so, if anything does.
     pub site: Option<Site>,
 }
 
@@ -311,6 +361,7 @@ pub struct LeftOut {
 pub struct Pilot {
     /// Columns and rows of the planned grid of pixels, which covers the region.
     pub width: u32,
+    /// See `width`.
     pub height: u32,
     /// Pixels traced before the limit of rays was reached; they are spread over the region, too.
     pub pixels: usize,
@@ -329,14 +380,17 @@ impl Plan {
         self.stages.contains(&stage)
     }
 
+    /// Whether an effect is simulated.
     pub fn simulates(&self, effect: Effect) -> bool {
         self.called(effect).is_some()
     }
 
+    /// Returns what requires an effect; `None` if it is not simulated.
     pub fn called(&self, effect: Effect) -> Option<&Called> {
         self.effects.iter().find(|called| called.effect == effect)
     }
 
+    /// Returns the precision of intersections.
     pub fn arithmetic(&self) -> Arithmetic {
         let Self { root_tolerance, julia_iterations, .. } = *self;
         Arithmetic { root_tolerance, julia_iterations }

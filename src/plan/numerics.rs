@@ -42,6 +42,7 @@ pub struct Thin {
     /// Ratio of length to thickness: R/r of a torus, the longest side of a triangle over its height there,
     /// the radius of a flat ring over half of its width.
     pub slenderness: f64,
+    /// Where it is written.
     pub site: Option<Site>,
 }
 
@@ -51,7 +52,9 @@ const THIN: f64 = 67_108_864.0;
 /// A value and the object it belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
+    /// The value.
     pub value: f64,
+    /// Where the object is written.
     pub site: Option<Site>,
 }
 

@@ -233,6 +233,7 @@ impl Printer<'_> {
 }
 
 /// Formats a number of rays per pixel; small numbers are not rounded to zero.
+#[doc(hidden)]
 pub fn a_pixel(rays: f64) -> String {
     match rays {
         0.0 => "none sent by the pilot".to_owned(),
@@ -242,6 +243,7 @@ pub fn a_pixel(rays: f64) -> String {
 }
 
 /// Explains why a kind of shape has no half width.
+#[doc(hidden)]
 pub fn without_end(word: &str) -> String {
     match word {
         "plane" => "a plane has no end".to_owned(),
@@ -250,6 +252,7 @@ pub fn without_end(word: &str) -> String {
 }
 
 /// Formats a number, as a fraction `1/n` if it is one.
+#[doc(hidden)]
 pub fn part(value: f64) -> String {
     match 1.0 / value {
         parts if parts > 1.0 && parts.round() == parts => format!("1/{parts}"),

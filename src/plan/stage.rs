@@ -23,6 +23,7 @@ pub enum Stage {
 }
 
 impl Stage {
+    /// All stages, in their order.
     pub const ALL: [Self; 8] = [
         Self::Camera,
         Self::Intersect,
@@ -34,6 +35,7 @@ impl Stage {
         Self::Fold,
     ];
 
+    /// Returns the name of the stage.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Camera => "camera",

@@ -5,6 +5,8 @@
 //! nests them on explicit stacks.
 
 mod around;
+// Variants and fields are the words of the language.
+#[allow(missing_docs)]
 pub mod ast;
 mod balance;
 mod blank;
@@ -98,6 +100,19 @@ impl ParseOptions {
 
 /// Parses one file's text. A part that cannot be parsed is reported once and becomes
 /// [`Missing`](ast::ExpressionKind::Missing) or [`Malformed`](ast::DirectiveKind::Malformed).
+///
+/// ```
+/// use lucarne::diagnostic::{Code, Diagnostics};
+/// use lucarne::{source::{Source, Sources}, syntax::{ParseOptions, parse, print}};
+///
+/// let mut sources = Sources::default();
+/// let file = sources.add(Source::new("a.scene", "sphere { 0, 1 // Never closed."));
+/// let mut diagnostics = Diagnostics::default();
+/// let ast = parse(sources.get(file), file, &ParseOptions::default(), &mut diagnostics);
+/// assert_eq!(sources.text(ast.comments[0]), "// Never closed.");
+/// assert_eq!(print(&ast, sources.get(file)), "sphere\n{\n  0,\n  1\n}");
+/// assert_eq!(diagnostics.iter().next().unwrap().code, Code::UnclosedBlock);
+/// ```
 pub fn parse(
     source: &Source,
     file: FileId,

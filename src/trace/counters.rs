@@ -9,6 +9,7 @@ use std::ops::AddAssign;
 use crate::geometry::{Hit, Work};
 use crate::world::{Pigment, World};
 
+/// Numbers of rays and evaluations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counters {
     /// Rays from the camera.

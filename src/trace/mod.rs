@@ -78,6 +78,7 @@ pub(crate) use tiles::Crew;
 pub(crate) use watch::Limited;
 pub use watch::{Unwatched, Watch, Watched};
 
+/// Options of [`trace()`]. None of them changes a bit of the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TraceOptions {
     /// `None`: one for each processor.
@@ -90,14 +91,18 @@ pub struct TraceOptions {
 }
 
 impl TraceOptions {
+    /// Returns the defaults with so many threads.
     pub const fn on_threads(threads: usize) -> Self {
         Self { threads: Some(threads), count_work: false, tile_side: None }
     }
 }
 
+/// A traced picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traced {
+    /// The light of each pixel.
     pub film: Film,
+    /// The rays that it took.
     pub counters: Counters,
     /// False when the watch stopped it: some pixels then have fewer samples, or none.
     pub complete: bool,
@@ -155,6 +160,19 @@ impl Walk {
 ///
 /// Adaptive antialiasing passes over the whole film twice: one ray through each pixel's centre (and through those of a
 /// border around a region), then more samples in each pixel near an edge, as many as its samples call for.
+///
+/// ```
+/// use lucarne::plan::{Antialias, Frame, PlanOptions, plan};
+/// use lucarne::trace::{TraceOptions, Unwatched, trace};
+/// use lucarne::{road::{Options, Road}, source::NoFiles};
+///
+/// let mut road = Road::new(&NoFiles, Options::default());
+/// let (world, origins) = road.compile("a.scene", "background { rgb <1, 0.5, 0.25> }");
+/// let options = PlanOptions { antialias: Antialias::Off, ..PlanOptions::new(Frame::whole(8, 6)) };
+/// let traced = trace(&world, &plan(&world, &origins, &options), &TraceOptions::default(), &Unwatched);
+/// assert_eq!(traced.film.radiance(0).components(), [1.0, 0.5, 0.25]);
+/// assert_eq!(traced.counters.camera, 8 * 6);
+/// ```
 pub fn trace(world: &World, plan: &Plan, options: &TraceOptions, watch: &dyn Watch) -> Traced {
     trace_in(world, &geometry(world, plan, options), plan, options, watch)
 }

@@ -21,6 +21,7 @@ const ROUND: u32 = 6;
 
 /// Which samples of a pixel are taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(missing_docs)]
 pub enum Sampling {
     /// As the Plan says. An adaptive Plan looks at the neighbours first; their rays are counted
     /// with theirs, not here.

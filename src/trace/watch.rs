@@ -6,22 +6,22 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::film::{Film, Pixel};
 
-/// Whoever waits for the film. Called from several threads at once.
+/// Follows the tracing of a film, and may stop it: [`Watched`] for most programs. Called from several threads at once.
 pub trait Watch: Sync {
-    /// The tree of boxes stands, and tracing begins. Called once.
+    /// Called once, when the tree of boxes is built and tracing begins.
     fn built(&self) {}
-    /// A pass over a film begins; `film` has the pixels that are already done.
+    /// Called when a pass over a film begins; `film` has the pixels that are already done.
     fn begins(&self, _pass: usize, _film: &Film) {}
-    /// A tile is done: its rows, and the place of its top left pixel.
+    /// Called when a tile is done, with its rows, and the place of its top left pixel.
     fn traced(&self, _pass: usize, _place: (u32, u32), _rows: &[&mut [Pixel]]) {}
-    /// `done` of `total` pieces of work are done.
+    /// Called when `done` of `total` pieces of work are done.
     fn progress(&self, done: usize, total: usize);
     /// Asked before each piece, and now and then within one; once it says yes, no further piece is
     /// begun, and the pixels under way are left as they were.
     fn should_stop(&self) -> bool;
 }
 
-/// Nobody waits.
+/// Neither follows the tracing nor stops it.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Unwatched;
 
@@ -36,11 +36,12 @@ impl Watch for Unwatched {
 /// whether to go on.
 ///
 /// ```
-/// use std::sync::atomic::{AtomicU32, Ordering};
 /// use lucarne::{RenderOptions, render, trace::Watched};
 ///
-/// let calls = AtomicU32::new(0);
-/// let watch = Watched::new(|done| done < 0.5 && calls.fetch_add(1, Ordering::Relaxed) < 1_000_000);
+/// let watch = Watched::new(|done| {
+///     print!("\r{:.0} %", 100.0 * done);
+///     done < 0.5
+/// });
 /// let text = "camera { location 5*z look_at 0 } sphere { 0, 1 pigment { rgb 1 } } light_source { 9, rgb 1 }";
 /// let picture = render(text, &RenderOptions { watch: &watch, ..RenderOptions::of_size(320, 240) })?;
 /// assert!(!picture.complete);
@@ -54,6 +55,7 @@ pub struct Watched<F> {
 }
 
 impl<F: Fn(f64) -> bool + Sync> Watched<F> {
+    /// Watches by a closure.
     pub fn new(call: F) -> Self {
         Self { call, done: AtomicU64::new(0) }
     }

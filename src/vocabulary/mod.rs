@@ -27,6 +27,7 @@ pub enum Family {
     Csg,
     /// Changes an object.
     Modifier,
+    /// Moves, turns, scales or shears.
     Transform,
     /// Textures, pigments, normals, and maps of them.
     Texture,
@@ -79,6 +80,7 @@ pub enum Role {
 /// Support for a word in this version.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Standing {
+    /// Supported.
     Built,
     /// Recognized, but not supported: its value is poison.
     Later,
@@ -196,14 +198,17 @@ impl Word {
         self.row().names
     }
 
+    /// Returns its group.
     pub fn family(self) -> Family {
         self.row().family
     }
 
+    /// Returns its syntactic role.
     pub fn role(self) -> Role {
         self.row().role
     }
 
+    /// Returns whether it is supported.
     pub fn standing(self) -> Standing {
         self.row().standing
     }

@@ -27,6 +27,19 @@ pub enum Unformatted {
 }
 
 /// Returns the text in canonical layout. Its line ends are those of the author's first line.
+///
+/// ```
+/// use lucarne::{diagnostic::Diagnostics, source::{Source, Sources}, syntax::format};
+///
+/// let mut sources = Sources::default();
+/// let file = sources.add(Source::new("a.scene", "sphere{0,1 scale<1,2,1>} // An egg.\n"));
+/// let text = format(sources.get(file), file, &Default::default(), &mut Diagnostics::default());
+/// assert_eq!(text.unwrap(), "sphere { 0, 1 scale <1, 2, 1> }  // An egg.\n");
+/// ```
+///
+/// # Errors
+///
+/// See [`Unformatted`].
 pub fn format(
     source: &Source,
     file: FileId,

@@ -13,7 +13,7 @@ fn compiled(text: &str) -> (World, Vec<Diagnostic>) {
     options.legacy = true;
     options.levels.set(Code::LegacyForm, crate::diagnostic::Level::Warn);
     let mut road = Road::new(&NoFiles, options);
-    let (world, _) = road.compile("a.pov", text.into());
+    let (world, _) = road.compile("a.pov", text);
     let told = road.diagnostics.iter().filter(|one| one.code != Code::NotSupportedYet).cloned();
     (world, told.collect())
 }
