@@ -1,6 +1,6 @@
-//! Colours and gamma curves; no other module implements a gamma curve.
+//! Colours, and how numbers encode light.
 //!
-//! **Invariant:** [`Rgb`] is light: linear, unbounded, `f64`. [`Color`] is a colour of the scene language:
+//! **Invariant:** no other module implements a gamma curve. [`Rgb`] is light: linear, unbounded, `f64`. [`Color`] is a colour of the scene language:
 //! light plus `filter` and `transmit`. Encoding for a display happens only in [`srgb_encode`].
 
 mod web;

@@ -1,4 +1,4 @@
-//! Holds the radiance of each pixel, and converts it to an image.
+//! Films hold the light of each pixel; developed, they become images.
 //!
 //! **In:** the radiance gathered by the tracer. **Out:** an [`Image`]. **Invariant:** the same bits for any
 //! number of threads; each pixel has its sample count; pixels not reached are black.

@@ -1,4 +1,4 @@
-//! Picture files; the only module that uses `image` and `png`.
+//! Picture files: writes films as PNG, JPEG, OpenEXR and other formats.
 //!
 //! **In:** a [`Film`]. **Out:** the bytes of a file. **Invariant:** the bytes depend only on the image that the
 //! film is developed to: no date, no name, no thread order.

@@ -1,4 +1,4 @@
-//! Traces a pilot: a sample of the picture's pixels, to predict the cost of the full picture.
+//! Predicts the cost of a picture: traces a pilot, a sample of its pixels.
 //!
 //! **In:** [`World`], its [`Plan`]. **Out:** the Plan with ray counts. **Invariant:** the numbers are
 //! reproducible. They are counts over pixels that depend only on the size of the picture, and the limits on

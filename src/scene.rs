@@ -5,18 +5,18 @@
 //! shared and never copied, and precedes its parents.
 
 pub mod blob;
-pub mod camera;
-pub mod finish;
-pub mod fog;
+pub(crate) mod camera;
+pub(crate) mod finish;
+pub(crate) mod fog;
 pub mod height_field;
-pub mod julia_fractal;
-pub mod light;
+pub(crate) mod julia_fractal;
+pub(crate) mod light;
 pub mod mesh;
 pub mod outline;
 pub mod polygon;
 pub mod print;
-pub mod rainbow;
-pub mod solid;
+pub(crate) mod rainbow;
+pub(crate) mod solid;
 pub mod sweep;
 pub mod text;
 pub mod texture;
@@ -44,6 +44,7 @@ pub use texture::{
 /// Declares an index into one of the Scene's arenas.
 macro_rules! ids {
     ($($id:ident)*) => {$(
+        /// Index into one of the lists of a [`Scene`].
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub struct $id(pub u32);
 
@@ -57,6 +58,7 @@ macro_rules! ids {
 
 ids! { ObjectId TextureId PigmentId NormalId FinishId InteriorId }
 
+/// A scene as written: lists of its objects, textures and settings.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scene {
     pub dialect: Dialect,
@@ -112,6 +114,7 @@ pub struct Root {
     pub default_texture: TextureId,
 }
 
+/// A solid, a union or a light, and what modifies it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object {
     pub kind: ObjectKind,
@@ -124,6 +127,7 @@ pub struct Object {
     pub item: Option<Site>,
 }
 
+/// Kind of an [`Object`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum ObjectKind {
     Solid(Solid),
@@ -159,12 +163,14 @@ impl Operation {
     }
 }
 
+/// A transform, a texture or another keyword of an object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modifier {
     pub kind: ModifierKind,
     pub site: Site,
 }
 
+/// Kind of a [`Modifier`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ModifierKind {
     Transform(TransformId),
@@ -241,12 +247,14 @@ impl Default for Interior {
     }
 }
 
+/// A `background`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Background {
     pub color: Color,
     pub site: Site,
 }
 
+/// A `sky_sphere`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SkySphere {
     /// Layers, the last on top.

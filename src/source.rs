@@ -1,4 +1,4 @@
-//! Source texts, locations in them, and the interface for all access to files.
+//! Texts of scenes, locations in them, and access to files.
 //!
 //! **Invariant:** a [`Source`] never changes after reading; every [`Span`] indexes into one.
 

@@ -28,6 +28,7 @@ pub use crate::texture::{
     Extras, Finish, Irid, Lobe, LobeKind, Pigment, Plain, Reflection, Texture,
 };
 
+/// The scene to render: flat lists of objects, shapes, lights and textures.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct World {
     pub camera: Camera,
@@ -233,6 +234,7 @@ pub struct Coinciding {
     pub sites: [Site; 2],
 }
 
+/// A shape with its texture, and how light treats it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Object {
     pub shape: Shape,
@@ -371,6 +373,7 @@ pub struct Sky {
     pub emission: Rgb,
 }
 
+/// The `global_settings` that matter to the tracer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// The most surfaces that a ray is followed through: 1 is the camera ray alone.

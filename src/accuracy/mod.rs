@@ -1,4 +1,4 @@
-//! Renders a World under many Plans to measure the cost and the accuracy of each setting.
+//! Measures what each setting of a render costs, and how much error it removes: renders a World under many Plans.
 //!
 //! **In:** a [`World`], the knobs to try, a budget in seconds. **Out:** a [`Report`]. **Invariant:**
 //! pixels, samples and intervals are drawn from seeds, so errors are the same on every run that has time

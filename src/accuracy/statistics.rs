@@ -118,7 +118,7 @@ impl Metric {
         self.of(&own)
     }
 
-    /// Returns the value of [`Metric::of`] for resamples of the pixels (with replacement), one number per
+    /// Returns the value of `Metric::of` for resamples of the pixels (with replacement), one number per
     /// resample. The k-th resample takes the same pixels whatever their values.
     ///
     /// **Source:** B. Efron, R. Tibshirani, An Introduction to the Bootstrap (1993), ch. 13.

@@ -1,5 +1,4 @@
-//! Messages for the author of a scene: a code, a sentence, the source locations concerned, and a
-//! suggestion.
+//! Messages for the author of a scene: what is wrong, where, and how to mend it.
 //!
 //! **Invariant:** plain data; nothing here prints. Style: lower case, no full stop, the author's words in
 //! backticks; each message says what is wrong *and* what was expected.

@@ -1,4 +1,4 @@
-//! Evaluation of a syntax tree to a scene.
+//! Runs a syntax tree: its macros, loops, includes and declarations become a scene.
 //!
 //! **In:** the main file's Ast, and `Files` for what it includes. **Out:** a Scene without macros, loops,
 //! includes or names; always one, even for broken input. **Invariant:** evaluation *pulls* items: a consumer
@@ -79,8 +79,8 @@ use stream::{Frame, Hold, MOST_RUN_SINCE_FAULT, Silent, Token};
 use unit::{Here, Unit};
 use value::{Poison, Value};
 
-/// Runs `main` and drops it: for a large scene it is the larger half of the memory. Errors and warnings go to
-/// `diagnostics`.
+/// Returns the scene that a parsed main file describes. Errors and warnings go to `diagnostics`, and what is included to
+/// `sources`. Drops `main`, which is the larger half of the memory of a large scene.
 ///
 /// ```
 /// use lucarne::{diagnostic::Diagnostics, source::{NoFiles, Source, Sources}, syntax::parse};

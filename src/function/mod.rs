@@ -1,7 +1,7 @@
 //! Functions of numbers: flat tapes of operations, built once, evaluated for points, batches and intervals.
 //!
 //! **In:** calls to [`Builder`], one for each operation, operands first. **Out:** a [`Function`]; its [`Run`]
-//! over `f64`, [`Batch`] or [`Interval`] does not allocate per point. **Invariant:** all three agree: a batch
+//! over `f64`, [`Batch`] or `Interval` does not allocate per point. **Invariant:** all three agree: a batch
 //! yields the same bits as its points, and a value that is a number lies within the bounds of any box around
 //! its point. A tape contains no operation that does not affect its result, no duplicate operation, and no
 //! operation inside a loop whose counter it does not need.

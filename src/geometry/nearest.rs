@@ -23,7 +23,7 @@ pub struct Hit {
     pub error: f64,
     /// The ray leaves the solid here; where it enters, normal and direction are opposed.
     pub leaving: bool,
-    /// The part of the surface, as passed to [`crate::shape::local::Local::height`], or [`Met::UNKNOWN`].
+    /// The part of the surface, as passed to `Local::height`, or `Met::UNKNOWN`.
     pub part: u32,
     /// Error bounds could not tell it from a crossing of another object, or of another part of its whole.
     pub contested: bool,

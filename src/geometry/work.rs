@@ -15,7 +15,7 @@ pub struct Work {
     pub box_visits: u64,
     /// How often the equation of a shape was solved for a ray.
     pub root_solves: u64,
-    /// What that took, in equations of a sphere: see [`crate::shape::local::Local::price`].
+    /// What that took, in equations of a sphere: see `Local::price`.
     pub solving: u64,
 }
 

@@ -1,4 +1,4 @@
-//! Lowers a parsed [`Scene`] to the canonical [`World`] that the renderer traces.
+//! Lowers a [`Scene`] to the canonical [`World`] that the renderer traces.
 //!
 //! **In:** a [`Scene`]. **Out:** the canonical [`World`] and the origins of its parts in the source.
 //! **Invariant:** always yields a World; a part that cannot be built is reported and left out. Every number
@@ -78,7 +78,7 @@ impl Default for LowerOptions {
     }
 }
 
-/// Lowers `scene` to a [`World`]; see the module.
+/// Returns the canonical [`World`] of a scene, and where its parts are written.
 ///
 /// ```
 /// use lucarne::{lower::{LowerOptions, lower}, road::{Options, Road}, source::NoFiles};

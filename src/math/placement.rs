@@ -93,12 +93,13 @@ impl Placement {
 }
 
 /// Returns the Frobenius norm.
-pub fn norm(Matrix { x_axis, y_axis, z_axis }: Matrix) -> f64 {
+pub(crate) fn norm(Matrix { x_axis, y_axis, z_axis }: Matrix) -> f64 {
     (x_axis.length_squared() + y_axis.length_squared() + z_axis.length_squared()).sqrt()
 }
 
 /// A line relative to a plane: either perpendicular to a local axis, in lengths along that axis, or in world
 /// space.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rise {
     /// Height of its start above the plane.
@@ -140,6 +141,7 @@ impl Rise {
 
 /// The placement of a local space in world space, to 106 bits: points of two such spaces that coincide in
 /// world space are bit-identical.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactPlacement {
     /// The rows of `world_from_local`.

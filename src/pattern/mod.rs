@@ -184,7 +184,7 @@ macro_rules! patterns {
                 }
             }
 
-            /// Returns the value for any error less than [`NEAR`] / 4 along each axis; `None` if the error may
+            /// Returns the value for any error less than `NEAR` / 4 along each axis; `None` if the error may
             /// matter. The returned error is an upper bound. Coordinates must be below 2⁴⁰.
             #[inline]
             pub fn value_off_seams(&self, sample: &Sample) -> Option<Measured> {
@@ -363,6 +363,7 @@ impl Default for Setting {
 }
 
 /// A point in a pattern's own space.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
 pub struct Sample<'a> {
     pub point: Vector,
@@ -372,6 +373,7 @@ pub struct Sample<'a> {
 }
 
 /// A number with its error bound.
+#[doc(hidden)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     pub value: f64,
@@ -380,7 +382,7 @@ pub struct Measured {
 
 /// Distance from a seam, in cells, within which a point's own error matters; all other errors must only be
 /// less than a quarter of this.
-pub const NEAR: f64 = 1.0 / 256.0;
+pub(crate) const NEAR: f64 = 1.0 / 256.0;
 
 /// Returns the box of the points within `reach` of `point`.
 fn sides(point: Vector, reach: Vector) -> [Interval; 3] {

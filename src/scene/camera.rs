@@ -30,6 +30,7 @@ impl Camera {
     }
 }
 
+/// Kind of a [`Camera`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CameraKind {
     #[default]
@@ -122,12 +123,14 @@ impl CylinderForm {
     }
 }
 
+/// A keyword of a camera, with its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CameraItem {
     pub kind: CameraItemKind,
     pub site: Site,
 }
 
+/// Kind of a [`CameraItem`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CameraItemKind {
     Location(Vector),

@@ -5,6 +5,7 @@ use crate::noise::NoiseGenerator;
 use crate::source::Site;
 use crate::vocabulary::Word;
 
+/// A finish, by the rules of one of the two dialects.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Finish {
     /// The native formula (`kd ks phong_exponent`).
@@ -119,6 +120,7 @@ impl Default for ClassicFinish {
     }
 }
 
+/// A finish's `reflection`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reflection {
     /// At grazing angles if `minimum` was given too, else at all angles.

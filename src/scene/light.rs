@@ -5,6 +5,7 @@ use crate::color::Rgb;
 use crate::math::Vector;
 use crate::source::Site;
 
+/// A `light_source`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightSource {
     /// Linear intensity; may exceed 1.
@@ -130,6 +131,7 @@ impl LightKind {
     }
 }
 
+/// Kind of a [`LightSource`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum LightKind {
     Point {

@@ -16,6 +16,7 @@ use crate::math::vector::written;
 use crate::texture::Closed;
 use crate::vocabulary::Word;
 
+/// A solid or a sheet, with its numbers as written.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
     /// A bicubic Bézier surface.

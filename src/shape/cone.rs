@@ -13,6 +13,7 @@ use crate::math::roots::bracket::{Sample, root};
 /// The line is searched from −`FAR` to `FAR`; the cone ends at √2.
 const FAR: f64 = 2.0;
 
+/// √(x² + y²) ≤ |w(z)|, |z| ≤ 1, in local space; the width w goes from 1 at z = −1 to `cap` at z = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cone {
     /// Width at z = 1, from −1 to less than 1.

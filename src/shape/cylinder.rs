@@ -12,6 +12,7 @@ pub(super) const CAP: u32 = 1;
 /// Part number of the end at z = −1.
 pub(super) const BASE: u32 = 2;
 
+/// x² + y² ≤ 1, |z| ≤ 1, in local space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
     /// Whether its ends are invisible; it is still solid.

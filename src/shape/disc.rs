@@ -8,6 +8,7 @@ use super::U;
 use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 
+/// The part of z = 0 at distances between `hole` and 1 from the axis, in local space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
     /// Radius of the hole, from 0 to less than 1.

@@ -6,6 +6,7 @@ use super::{Bounds, Chord, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::Placement;
 use crate::math::{AbsDot, Vector};
 
+/// The unit sphere under an affine map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ellipsoid {
     pub placement: Placement,

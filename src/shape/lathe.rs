@@ -24,6 +24,7 @@ use line::{Arm, Line, STEEP, Steep};
 /// one point.
 const GRAZING: f64 = 1e-6;
 
+/// The points whose distance from the z axis and height lie inside an outline, in local space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lathe {
     /// Its runs are closed, or begin and end on the axis; ρ is not negative.

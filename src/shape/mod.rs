@@ -1,4 +1,4 @@
-//! Shapes in canonical form: each file holds one shape's equation, ray crossings and bounds.
+//! Shapes in canonical form, and where rays cross them; one file for each shape.
 //!
 //! **Invariant:** depends only on `math`, and on `function` for shapes defined by functions. Distances along
 //! a ray are in (0, ∞): there is no minimum or maximum distance; instead, each crossing carries its own error

@@ -21,6 +21,7 @@ const FAR: f64 = 2.0;
 /// Error, from rounding, of a normal or of the slope along a line.
 const TURN: f64 = 16.0 * U;
 
+/// An egg: two spheres on the z axis, joined by the surface that an arc sweeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ovus {
     /// The radii of the spheres: `bottom` + `top`/2 is 1, `top` is less than twice `bottom`.

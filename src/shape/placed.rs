@@ -12,12 +12,13 @@ use super::{Bounds, Paint, Plane, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::{ExactPlacement, Placement};
 use crate::math::{AbsDot, UnitVector, Vector};
 
+/// A body, and where it is placed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
     /// Stored once, however often it is placed.
     pub body: Arc<Body>,
     pub placement: Placement,
-    /// Tolerance of crossings, relative to the size of the body; see [`super::local::LocalRay::tolerance`].
+    /// Tolerance of crossings, relative to the size of the body; see `LocalRay::tolerance`.
     pub root_tolerance: f64,
     /// The placement in exact form, for bodies whose edges or flat ends may coincide with those of others.
     pub exact: Option<Box<ExactPlacement>>,
@@ -277,7 +278,7 @@ impl Placed {
         }
     }
 
-    /// Returns the body's own coordinates of its surface at a point; see [`super::uv::Form::Body`].
+    /// Returns the body's own coordinates of its surface at a point; see `Form::Body`.
     pub fn uv(&self, surface: &SurfacePoint) -> Option<[f64; 2]> {
         let local = self.placement.local_point(surface.point);
         match &*self.body {

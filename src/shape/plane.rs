@@ -5,6 +5,7 @@ use super::{Bounds, Chord, Crossing, Ray, Rounding, SurfacePoint, U};
 use crate::math::placement::Rise;
 use crate::math::{AbsDot, UnitVector, Vector};
 
+/// N·P = d; the inside is the half-space N·P < d.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
     pub normal: UnitVector,

@@ -11,6 +11,7 @@ use super::U;
 use super::local::{Crossings, Height, Local, LocalRay, Met};
 use crate::math::Vector;
 
+/// The part of z = 0 that closed lines enclose, in local space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     /// Start and end of each edge; z is 0.

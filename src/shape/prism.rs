@@ -23,6 +23,7 @@ use ends::{after, before, entered, high, low, reversed};
 use ruled::{Ruled, WALLS, Wall, Walls, part_of};
 use wall::{aside, beside, tip};
 
+/// An outline swept along z, or narrowing to the origin, in local space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prism {
     /// Closed runs, within 1 of the origin.

@@ -23,7 +23,7 @@ impl Sphere {
     /// term |f|² − r² divided by it, so its sign, which says whether the start is inside, is correct down to
     /// 4u·r from the surface, however flat the ray.
     ///
-    /// **Domain:** radii from 1e-150 to 1e150, starts up to 1e8 radii away. **Error:** see [`Roots::chord`].
+    /// **Domain:** radii from 1e-150 to 1e150, starts up to 1e8 radii away. **Error:** see `Roots::chord`.
     ///
     /// **Source:** Haines, Günther, Akenine-Möller, Ray Tracing Gems (2019), ch. 7; the pair of roots: N.
     /// Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §1.8.

@@ -35,6 +35,7 @@ struct Slopes {
     tall_over_round: Power,
 }
 
+/// ((|x|^2/e + |y|^2/e)^e/n + |z|^2/n)^n/2 ≤ 1, in local space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Superellipsoid {
     norms: Norms,

@@ -23,6 +23,7 @@ struct Letter {
     first_part: u32,
 }
 
+/// A row of letters, each a prism from z = −1 to 1, or a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Text {
     /// In the order of the tree.

@@ -17,6 +17,7 @@ use crate::math::roots::bracket::{Sample, root};
 /// The line is searched from −`FAR` to `FAR`; the torus ends at 1.
 const FAR: f64 = 2.0;
 
+/// √((ρ − `major`)² + z²) ≤ `minor`, ρ = √(x² + y²), in local space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Torus {
     /// Distance from the axis to the middle of the tube.

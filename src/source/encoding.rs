@@ -20,6 +20,7 @@ fn from_latin(byte: u8) -> char {
 }
 
 /// Returns the original bytes of a text that [`decode`] decoded as Latin-1, one per character.
+#[doc(hidden)]
 pub fn to_latin(text: &str) -> Vec<u8> {
     let byte =
         |c: char| TYPOGRAPHY.iter().find(|(_, sign)| *sign == c).map_or(c as u8, |own| own.0);
@@ -40,10 +41,12 @@ pub fn decode(bytes: Vec<u8>) -> (String, bool) {
 }
 
 /// What a file is called that [`is_utf_16`].
+#[doc(hidden)]
 pub const UTF_16: &str = "it is UTF-16";
 
 /// Whether the text is UTF-16: it has a byte order mark, or almost every other byte is zero. A picture
 /// starts with letters that identify its format, whatever its samples are.
+#[doc(hidden)]
 pub fn is_utf_16(bytes: &[u8]) -> bool {
     let pairs = bytes[..bytes.len().min(4096)].as_chunks::<2>().0;
     let zeros = |at: usize| pairs.iter().filter(|pair| pair[at] == 0).count();

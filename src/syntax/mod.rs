@@ -1,4 +1,4 @@
-//! Parses source text into a syntax tree.
+//! Parses, prints and formats texts of the scene language.
 //!
 //! **In:** a [`Source`]. **Out:** an [`Ast`], always, and diagnostics. **Invariant:** never fails, never
 //! panics, and takes linear time; a grammar reads the tokens (`grammar/lucarne.pest`), Rust code pairs and

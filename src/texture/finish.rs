@@ -80,6 +80,7 @@ pub enum LobeKind {
     Blinn,
 }
 
+/// What a finish mirrors, by the angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reflection {
     /// At normal incidence; equal to `maximum` where the angle does not matter.

@@ -4,7 +4,7 @@
 //! equal branches are shared; so a function that evaluates a pigment contains all that it needs.
 //!
 //! **Invariant:** no default is missing, no number is infinite; blends have at least one entry, sorted by
-//! position; trees are at most [`DEEPEST`] nodes deep, so evaluation may recurse.
+//! position; trees are at most `DEEPEST` nodes deep, so evaluation may recurse.
 
 pub(crate) mod blend;
 mod bounds;

@@ -2,8 +2,8 @@
 //!
 //! **In:** a smooth normal, turned toward the viewer. **Out:** the perturbed normal, of length 1, finite for
 //! every point and parameter. **Invariant:** a perturbed normal is the sum of the normal and a vector, in the
-//! space of the pattern (see [`Frame`]). That vector is the amount times the displacement that a pattern has:
-//! its own, or that of [`bump`].
+//! space of the pattern (see `Frame`). That vector is the amount times the displacement that a pattern has:
+//! its own, or that of `bump`.
 
 pub(crate) mod blend;
 pub(crate) mod bump;

@@ -1,4 +1,4 @@
-//! Gathers the light of a World by its Plan.
+//! Traces a World by its Plan: gathers the light of each pixel.
 //!
 //! **In:** [`World`], [`Plan`]. **Out:** [`Traced`]. **Invariant:** the film's bits do not depend
 //! on the number of threads, on their timing, on the tiles or on what is traced together.
@@ -189,8 +189,8 @@ pub(crate) fn trace_in(
     trace_on(world, geometry, plan, options, watch, Vec::new())
 }
 
-/// As [`trace_in`], going on from the films of the passes that were [begun](Watch::begins) before: the picture is the same
-/// to the bit.
+/// As [`trace()`] with the `geometry` of the World and the Plan, going on from the films of the passes that were
+/// [begun](Watch::begins) before: the picture is the same to the bit.
 pub fn trace_on(
     world: &World,
     geometry: &Geometry,

@@ -1,4 +1,4 @@
-//! Lists every word of the language, with its family, its role, and a one-sentence description.
+//! Every word of the language, with its family, its role, and a sentence about it.
 //!
 //! **In:** nothing. **Out:** [`Word`], a closed enum, and the properties of each word. **Invariant:** a
 //! spelling names one word. Contextual words are reserved only directly inside their block; elsewhere, they

@@ -3,6 +3,7 @@
 use crate::color::Rgb;
 use crate::math::{UnitVector, Vector};
 
+/// A light, and what attenuates it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Light {
     pub kind: LightKind,
@@ -55,6 +56,7 @@ pub struct Fade {
     pub signed: bool,
 }
 
+/// Where the light of a [`Light`] comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LightKind {
     Point {

@@ -25,6 +25,7 @@ const BLOCK: usize = 16;
 /// Cells along a side of a smaller block within it.
 const SMALL: usize = 4;
 
+/// Two triangles in each cell of a grid, and everything below them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightField {
     /// Heights along x, in rows along z; −0.5 to 0.5.

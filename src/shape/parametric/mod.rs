@@ -27,6 +27,7 @@ const DEPTH: u32 = 5;
 /// A part of the rectangle.
 type Part = [Interval; 2];
 
+/// The sheet that three functions of u and v yield over a rectangle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parametric {
     functions: [Arc<Closed>; 3],

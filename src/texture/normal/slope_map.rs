@@ -10,7 +10,7 @@ pub struct Entry {
 }
 
 /// Returns the height that replaces the pattern's value: a cubic Hermite curve between entries, in order of
-/// their values. It replaces the value in [`bump::displacement`](super::bump::displacement), after the wave.
+/// their values. It replaces the value in `bump::displacement`, after the wave.
 ///
 /// Beyond the entries it is the height of the last or the first. On a value that several entries have, it is
 /// the height of the first of them, but that of the last if no value is greater. Patterns with their own
@@ -18,7 +18,7 @@ pub struct Entry {
 ///
 /// **Source:** POV-Ray manual, section 3.4.6.2.2 "Slope Map"; the curve is measured on POV-Ray 3.7. For the
 /// curve see Foley and others, *Computer Graphics: Principles and Practice*, 2nd ed., section 11.2.1.
-pub fn height(entries: &[Entry], value: f64) -> f64 {
+pub(crate) fn height(entries: &[Entry], value: f64) -> f64 {
     let (Some(first), Some(last)) = (entries.first(), entries.last()) else { return value };
     if value >= last.value {
         return last.height;
