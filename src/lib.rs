@@ -106,5 +106,6 @@ pub(crate) mod spline;
 #[doc = include_str!("../docs/programs.md")]
 mod pages {}
 
+#[doc(inline)]
 pub use diagnostic::Messages;
 pub use render::{Picture, RenderOptions, render};

@@ -55,7 +55,7 @@ pub fn of(report: &Report, order: &Order) -> Vec<String> {
         Some(Verdict::Tied { .. }) => (0, None, nothing_else()),
     };
     let rows: Vec<usize> = (0..report.rows.len()).collect();
-    let sorted = order.from_cheap_to_dear(&rows);
+    let sorted = order.by_cost(&rows);
     let front = || sorted.iter().copied().filter(|&row| report.rows[row].verdict == Verdict::Front);
     let finer = front().find(|&row| order.gains(row, best));
     // Does not repeat a setting that was already named.

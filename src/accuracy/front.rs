@@ -169,7 +169,7 @@ impl Order {
     }
 
     /// Sorts the points of a list by counted cost; equal costs keep their order.
-    pub fn from_cheap_to_dear(&self, list: &[usize]) -> Vec<usize> {
+    pub fn by_cost(&self, list: &[usize]) -> Vec<usize> {
         let mut sorted = list.to_vec();
         sorted.sort_by(|&a, &b| self.points[a].cost.total_cmp(&self.points[b].cost));
         sorted
@@ -177,7 +177,7 @@ impl Order {
 
     /// Returns a verdict for each point of a list, considering only this list.
     pub fn verdicts(&self, list: &[usize]) -> Vec<Verdict> {
-        let sorted = self.from_cheap_to_dear(list);
+        let sorted = self.by_cost(list);
         list.iter().map(|&i| self.verdict(i, &sorted)).collect()
     }
 

@@ -194,7 +194,7 @@ impl Report {
             rows.sort_unstable();
             rows.dedup();
             let verdicts = order.verdicts(&rows);
-            let sorted = order.from_cheap_to_dear(&rows);
+            let sorted = order.by_cost(&rows);
             let place = |row| sorted.iter().position(|&other| other == row);
             for setting in &mut tried.settings {
                 let own = rows.iter().zip(&verdicts).find(|(row, _)| **row == setting.row);

@@ -22,6 +22,7 @@ pub struct Texture {
     pub uv_mapping: bool,
 }
 
+/// Kind of a [`Texture`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum TextureKind {
     Plain {
@@ -192,6 +193,7 @@ pub enum Step {
     Warp(Warp),
 }
 
+/// A `pigment`, as written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pigment {
     pub kind: PigmentKind,
@@ -230,6 +232,7 @@ pub struct Normal {
     pub keeps_depth: bool,
 }
 
+/// Kind of a [`Normal`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum NormalKind {
     /// Bumps of a pattern.
@@ -257,6 +260,7 @@ impl NormalKind {
     }
 }
 
+/// Kind of a [`Pigment`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum PigmentKind {
     Color(Color),

@@ -72,6 +72,7 @@ pub struct Lobe {
     pub metallic: f64,
 }
 
+/// Formula of a [`Lobe`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LobeKind {
     /// (R·L)^exponent, where R is the mirrored view direction.

@@ -30,6 +30,7 @@ pub struct Component {
     pub unit_from_blob: Matrix,
 }
 
+/// The points where the fields of the components add up to 1 or more.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blob {
     /// In the order of the tree.

@@ -40,6 +40,7 @@ impl<N: Number> Running<'_, N> {
     }
 }
 
+/// Where a function is below a threshold, inside a container.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Isosurface {
     /// A function of x, y and z, in the author's coordinates.

@@ -51,6 +51,7 @@ pub enum Algebra {
     Hypercomplex(Function),
 }
 
+/// A slice of the points that stay bounded under an iterated map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JuliaFractal {
     /// p.

@@ -102,6 +102,7 @@ impl Segment {
     }
 }
 
+/// ρ² ≤ F(z), with F a cubic between adjacent heights, in local space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sor {
     /// In ascending order, end to end.

@@ -37,6 +37,7 @@ impl Segment {
     }
 }
 
+/// All spheres whose centre and radius follow piecewise polynomials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereSweep {
     segments: Vec<Segment>,
