@@ -71,7 +71,7 @@ impl Rgb {
     }
 
     /// Replaces infinities by a large number, as POV-Ray 3.7 shows them (measured), and NaN by 0.
-    pub fn bounded(self) -> Self {
+    pub(crate) fn bounded(self) -> Self {
         const LARGE: f64 = 1e9;
         self.map(|c| match c {
             _ if c.is_nan() => 0.0,
@@ -159,7 +159,7 @@ impl Color {
     }
 
     /// Replaces NaN by 0, as in POV-Ray 3.7 (measured).
-    pub fn of_numbers(self) -> Self {
+    pub(crate) fn of_numbers(self) -> Self {
         let number = |n: f64| if n.is_nan() { 0.0 } else { n };
         let (filter, transmit) = (number(self.filter), number(self.transmit));
         Self { rgb: self.rgb.map(number), filter, transmit }
@@ -184,7 +184,7 @@ impl Color {
     }
 
     /// Returns the same without the tint: `filter + transmit`.
-    pub fn untinted(self) -> Rgb {
+    pub(crate) fn untinted(self) -> Rgb {
         Rgb::gray(self.filter + self.transmit)
     }
 

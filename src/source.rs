@@ -133,7 +133,7 @@ impl Expansions {
     }
 
     /// Returns the most recent expansion, or [`ExpansionId::MAIN`] if there is none.
-    pub fn newest(&self) -> ExpansionId {
+    pub(crate) fn newest(&self) -> ExpansionId {
         ExpansionId(self.list.len() as u32)
     }
 
@@ -149,7 +149,7 @@ impl Expansions {
 
     /// Maps two locations to the innermost text that contains both, in its order. A location inside a macro
     /// becomes the macro's call.
-    pub fn side_by_side(&self, mut a: Site, mut b: Site) -> [Site; 2] {
+    pub(crate) fn side_by_side(&self, mut a: Site, mut b: Site) -> [Site; 2] {
         // Parents have the smaller ids, and the main file the smallest.
         while a.expansion != b.expansion {
             let inner = if a.expansion > b.expansion { &mut a } else { &mut b };
@@ -214,7 +214,7 @@ impl Source {
     }
 
     /// As [`Self::new`], of what [`decode`] gave.
-    pub fn decoded(name: impl Into<String>, (text, is_latin): (String, bool)) -> Self {
+    pub(crate) fn decoded(name: impl Into<String>, (text, is_latin): (String, bool)) -> Self {
         Self { is_latin, ..Self::new(name, text) }
     }
 
@@ -275,7 +275,7 @@ impl Sources {
     }
 
     /// Returns the text between two locations in one file, if the first precedes the second.
-    pub fn between(&self, first: Span, second: Span) -> Option<&str> {
+    pub(crate) fn between(&self, first: Span, second: Span) -> Option<&str> {
         let gap = Span { start: first.end, end: second.start, ..first };
         let in_order = first.file == second.file && gap.start <= gap.end;
         in_order.then(|| self.text(gap))
@@ -283,7 +283,7 @@ impl Sources {
 
     /// Returns the name, number or sign directly before a location after which something is missing, or the
     /// location itself if there is none.
-    pub fn sign_before(&self, place: Span) -> Span {
+    pub(crate) fn sign_before(&self, place: Span) -> Span {
         let before = self.get(place.file).text.get(..place.start as usize).unwrap_or("");
         let Some(last) = before.chars().next_back().filter(|last| !last.is_whitespace()) else {
             return place;

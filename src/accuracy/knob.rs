@@ -67,7 +67,7 @@ pub enum Need {
 
 impl Need {
     /// Whether the scene contains it.
-    pub fn is_met(self, world: &World, plan: &Plan) -> bool {
+    pub(crate) fn is_met(self, world: &World, plan: &Plan) -> bool {
         match self {
             Self::Edges => {
                 let is_seen = !world.objects.is_empty() || plan.simulates(Effect::Patterns);
@@ -231,12 +231,12 @@ impl Knob {
     }
 
     /// Whether it sets how many samples each pixel has, rather than what each of them is.
-    pub fn samples_pixels(&self) -> bool {
+    pub(crate) fn samples_pixels(&self) -> bool {
         matches!(self.name, "antialias" | "blur-samples")
     }
 
     /// Returns the setting with the lowest cost in any scene.
-    pub fn cheapest(&self) -> f64 {
+    pub(crate) fn cheapest(&self) -> f64 {
         let cost = |setting: f64| (self.least)(setting) * (self.factor)(setting);
         let first = self.settings.first().copied().unwrap_or_default();
         self.settings

@@ -240,7 +240,7 @@ fn tried(
 ///     camera { location <3, 2, 5> look_at 0 }");
 /// let start = std::time::Instant::now();
 /// let clock = || start.elapsed().as_secs_f64();
-/// let options = Options { budget: 2.0, ..Options::new(Frame::whole(16, 12)) };
+/// let options = Options { budget: 20.0, ..Options::new(Frame::whole(16, 12)) };
 /// let report = accuracy(&world, &origins, &options, &clock, &Unwatched).expect("enough time");
 /// assert!(report.knobs.iter().any(|knob| knob.name == "antialias"));
 /// println!("{}", report.error(0).value); // Of the picture that `render` makes: the root mean square.

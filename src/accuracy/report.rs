@@ -149,7 +149,7 @@ impl Report {
     }
 
     /// Whether the error of a row can be distinguished from the reference's own.
-    pub fn is_resolved(&self, metric: Metric, row: usize) -> bool {
+    pub(crate) fn is_resolved(&self, metric: Metric, row: usize) -> bool {
         self.rows[row].errors[metric as usize].value >= self.resolution(metric)
     }
 
@@ -166,7 +166,7 @@ impl Report {
 
     /// Returns the fraction of its threads' time that tracing had, over all runs: much less than 1 on a
     /// busy machine, and 1 if runs are too short to tell.
-    pub fn share_of_time(&self, threads: usize) -> f64 {
+    pub(crate) fn share_of_time(&self, threads: usize) -> f64 {
         let total = |of: fn(&Times) -> &[f64]| -> f64 {
             self.rows.iter().flat_map(|row| of(&row.times)).sum()
         };

@@ -122,7 +122,7 @@ impl Metric {
     /// resample. The k-th resample takes the same pixels whatever their values.
     ///
     /// **Source:** B. Efron, R. Tibshirani, An Introduction to the Bootstrap (1993), ch. 13.
-    pub fn resampled(self, pixels: &[Deviation]) -> Vec<f64> {
+    pub(crate) fn resampled(self, pixels: &[Deviation]) -> Vec<f64> {
         self.redrawn(&pixels.iter().map(|pixel| self.part(pixel)).collect::<Vec<_>>())
     }
 

@@ -36,7 +36,7 @@ impl Levels {
     }
 
     /// Marks the main file as a complete scene rather than an include file.
-    pub fn of_whole_scene(&mut self) {
+    pub(crate) fn of_whole_scene(&mut self) {
         self.whole = true;
     }
 

@@ -127,7 +127,7 @@ impl Diagnostic {
     }
 
     /// Adds the calls and includes that led to `site`; a repeated call is listed once.
-    pub fn traced(mut self, site: Site, expansions: &Expansions) -> Self {
+    pub(crate) fn traced(mut self, site: Site, expansions: &Expansions) -> Self {
         let mut times: HashMap<Span, usize> = HashMap::new();
         self.trace.clear();
         for expansion in expansions.chain(site.expansion) {
@@ -207,7 +207,7 @@ impl Diagnostics {
     }
 
     /// Marks the main file as a complete scene, for which an empty picture is always reported.
-    pub fn of_whole_scene(&mut self) {
+    pub(crate) fn of_whole_scene(&mut self) {
         self.levels.of_whole_scene();
     }
 
@@ -225,7 +225,7 @@ impl Diagnostics {
 
     /// Adds a secondary label to the first message that matches `is_meant`. Returns `false` if there is
     /// none.
-    pub fn join(
+    pub(crate) fn join(
         &mut self,
         is_meant: impl Fn(&Diagnostic) -> bool,
         span: Span,
@@ -245,13 +245,13 @@ impl Diagnostics {
     }
 
     /// Whether a lint is reported at all.
-    pub fn tells(&self, lint: Code) -> bool {
+    pub(crate) fn tells(&self, lint: Code) -> bool {
         self.levels.of(lint) != Some(Level::Allow)
     }
 
     /// Whether a message would be kept. Loop iterations and repeated calls produce the same message again,
     /// and it need not be computed in full for that.
-    pub fn takes(&self, diagnostic: &Diagnostic) -> bool {
+    pub(crate) fn takes(&self, diagnostic: &Diagnostic) -> bool {
         if self.level(diagnostic) == Some(Level::Allow) {
             return false;
         }
@@ -268,7 +268,7 @@ impl Diagnostics {
 
     /// Whether a message differs from a kept one only in its numbers, as in another iteration of a loop or
     /// another call from the same location. The author's own messages each count.
-    pub fn turns_of(&mut self, diagnostic: &Diagnostic) -> bool {
+    pub(crate) fn turns_of(&mut self, diagnostic: &Diagnostic) -> bool {
         let place = diagnostic.place();
         let words = |one: &Diagnostic| -> String {
             let of_number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '-');
@@ -311,30 +311,30 @@ impl Diagnostics {
     }
 
     /// Discards the messages after the first `len`, because they concern code that is not used.
-    pub fn forget_after(&mut self, len: usize) {
+    pub(crate) fn forget_after(&mut self, len: usize) {
         self.cut(len);
     }
 
     /// Keeps only those messages after the first `len` for which `keep` returns true.
-    pub fn retain_after(&mut self, len: usize, keep: impl Fn(&Diagnostic) -> bool) {
+    pub(crate) fn retain_after(&mut self, len: usize, keep: impl Fn(&Diagnostic) -> bool) {
         for one in self.cut(len).into_iter().filter(keep) {
             self.keep(one);
         }
     }
 
     /// Registers allowances from comments. Lints already reported are kept.
-    pub fn allow(&mut self, allowances: Vec<Allowance>) {
+    pub(crate) fn allow(&mut self, allowances: Vec<Allowance>) {
         self.allowances.extend(allowances);
     }
 
     /// Whether a comment allows a lint at this location. If one message stands for several locations, check
     /// each of them.
-    pub fn allows(&self, lint: Code, place: Span) -> bool {
+    pub(crate) fn allows(&self, lint: Code, place: Span) -> bool {
         self.allowances.iter().any(|one| one.reaches(lint, place))
     }
 
     /// Drops those messages after the first `len` that a comment allows.
-    pub fn drop_allowed_after(&mut self, len: usize) {
+    pub(crate) fn drop_allowed_after(&mut self, len: usize) {
         for one in self.cut(len) {
             if !self.allowances.iter().any(|allowed| allowed.silences(&one)) {
                 self.keep(one);
@@ -349,7 +349,7 @@ impl Diagnostics {
     }
 
     /// Adds a help text to the first error, if there is one.
-    pub fn help_first_error(&mut self, text: impl Into<String>) {
+    pub(crate) fn help_first_error(&mut self, text: impl Into<String>) {
         if let Some(first) = self.list.iter_mut().find(|one| one.is_error()) {
             first.help.push(text.into());
         }

@@ -31,7 +31,7 @@ impl Written {
     }
 
     /// Whether a file that is read lies where this scene may write.
-    pub fn covers(&self, truth: &Path) -> bool {
+    pub(crate) fn covers(&self, truth: &Path) -> bool {
         truth.starts_with(&self.root)
     }
 
@@ -59,7 +59,7 @@ impl Written {
     }
 
     /// Appends to a started file.
-    pub fn add(&self, truth: &Path, bytes: &[u8]) {
+    pub(crate) fn add(&self, truth: &Path, bytes: &[u8]) {
         if let Ok(mut files) = self.files.lock()
             && let Some(file) = files.get_mut(truth)
         {

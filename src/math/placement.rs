@@ -115,7 +115,12 @@ pub struct Rise {
 
 impl Rise {
     /// Returns the exact position relative to the plane normal·P = distance.
-    pub fn from_plane(normal: Vector, distance: Double, origin: Vector, direction: Vector) -> Self {
+    pub(crate) fn from_plane(
+        normal: Vector,
+        distance: Double,
+        origin: Vector,
+        direction: Vector,
+    ) -> Self {
         let normal = DoubleVector::from(normal);
         let up = normal.dot(origin.into()) - distance;
         Self::along(normal, (up, distance.round()), origin, direction)
@@ -170,7 +175,7 @@ impl ExactPlacement {
 
     /// Returns a line in world space relative to the plane in which the coordinate of a local axis is `end`,
     /// as exactly as the ray and the placement allow.
-    pub fn rise(&self, axis: usize, end: f64, origin: Vector, direction: Vector) -> Rise {
+    pub(crate) fn rise(&self, axis: usize, end: f64, origin: Vector, direction: Vector) -> Rise {
         let column = |index: usize| {
             let [x, y, z] = self.rows.map(|row| row.components()[index % 3]);
             DoubleVector::new(x, y, z)
@@ -187,7 +192,7 @@ impl ExactPlacement {
     }
 
     /// Returns the vector from a point in world space to a local point, rounded once.
-    pub fn way(&self, from: Vector, local: Vector) -> Vector {
+    pub(crate) fn way(&self, from: Vector, local: Vector) -> Vector {
         (self.centred(local) + (self.centre - DoubleVector::from(from))).round()
     }
 
@@ -200,7 +205,7 @@ impl ExactPlacement {
 
     /// Returns a line in world space relative to the plane through three local points; `None` if they are
     /// collinear.
-    pub fn rise_from(
+    pub(crate) fn rise_from(
         &self,
         points: [Vector; 3],
         origin: Vector,
