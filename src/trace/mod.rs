@@ -29,6 +29,7 @@ mod media;
 mod metal;
 mod packet;
 mod paint;
+mod parts;
 mod pixels;
 mod projection;
 mod rainbow;
