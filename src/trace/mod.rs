@@ -18,6 +18,7 @@ mod camera;
 mod counters;
 mod dispersion;
 mod extras;
+mod first_surface;
 mod fog;
 mod grain;
 mod highlight;
@@ -72,6 +73,7 @@ use watch::Patience;
 
 pub(crate) use antialias::{FEW, expected, gain, of_edge};
 pub use counters::{Counters, Evaluations};
+pub use first_surface::first_surfaces;
 pub use pixels::{Aim, Sampling, Seen, aims, pixels};
 pub use sight::Sight;
 pub(crate) use tiles::Crew;
