@@ -260,13 +260,13 @@ impl From<MetricArgument> for Metric {
 /// A channel of first surfaces, as named on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ChannelArgument {
-    /// Z: the distance from the start of the ray; infinite where there is no surface
+    /// Distance from the start of the ray (channel Z); infinite where there is no surface
     Depth,
-    /// normal.X, normal.Y and normal.Z: the unit normal by which the surface is lit, in the axes of the scene
+    /// Unit normal by which the surface is lit, in the axes of the scene (normal.X, normal.Y, normal.Z)
     Normal,
-    /// albedo.R, albedo.G and albedo.B: the colour of the pigment, in linear light
+    /// Colour of the pigment in linear light, before any light falls on it (albedo.R, albedo.G, albedo.B)
     Albedo,
-    /// object: the number of the object or light at the top level of the scene, from 1; 0 where there is no surface
+    /// Number of the object or light at the top level of the scene, from 1 (object); 0 where there is no surface
     Object,
 }
 

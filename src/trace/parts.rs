@@ -33,6 +33,7 @@ pub(super) struct Part<'a> {
 
 impl Part<'_> {
     /// Returns as much of its colour as is not clear, in a World with this clearness.
+    #[inline]
     pub fn body(&self, clearness: Clearness) -> Rgb {
         self.paint.body(if self.tints { clearness } else { Clearness::Current })
     }
@@ -78,6 +79,7 @@ pub(super) struct Surface<'a, 'p> {
 
 impl<'a: 'p, 'p> Surface<'a, 'p> {
     /// Returns the stacks of a texture.
+    #[inline]
     pub fn stacks(&self, texture: &'a Texture) -> Stacks<'a> {
         let mut stacks = Stacks::new();
         self.add_stacks(texture, None, 1.0, &mut stacks);
