@@ -39,6 +39,7 @@ pub fn first_surfaces(
     let geometry = geometry(world, plan, options);
     let world = &*world.within_julia_iterations(plan.julia_iterations);
     let tracer = Tracer::new(world, &geometry, plan, watch);
+    watch.built();
     let Frame { width, height, region } = plan.frame;
     let lens = Lens::new(&world.camera, width, height);
     let row = region.width as usize;

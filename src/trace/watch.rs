@@ -8,7 +8,7 @@ use crate::film::{Film, Pixel};
 
 /// Whoever waits for the film. Called from several threads at once.
 pub trait Watch: Sync {
-    /// The tree of boxes stands, and tracing begins. Called once.
+    /// The tree of boxes stands, and tracing begins.
     fn built(&self) {}
     /// A pass over a film begins; `film` has the pixels that are already done.
     fn begins(&self, _pass: usize, _film: &Film) {}
