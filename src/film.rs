@@ -5,12 +5,14 @@
 
 mod curve;
 mod develop;
+mod first_surface;
 pub mod saved;
 
 use crate::color::{Gamma, Rgb};
 use crate::plan::{Frame, Region};
 
 pub use develop::{Components, Depth, Developer, Image, develop};
+pub use first_surface::{Channel, FirstSurface, Surfaces};
 
 /// The traced region, row by row from its top left.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,18 +9,17 @@ pub(crate) mod heights;
 pub(crate) mod read;
 mod tiff;
 
-use std::io::{Cursor, Error, Result, Write};
+use std::io::{Error, Result, Write};
 
 use image::codecs::bmp::BmpEncoder;
 use image::codecs::hdr::HdrEncoder;
 use image::codecs::jpeg::JpegEncoder;
-use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::qoi::QoiEncoder;
 use image::codecs::tga::TgaEncoder;
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use png::EncodingError;
 
-use crate::film::{Channels, Components, Depth, Developer, Film};
+use crate::film::{Channels, Components, Depth, Developer, Film, Surfaces};
 use crate::plan::Region;
 
 /// Bytes in a part of a PNG.
@@ -82,6 +81,11 @@ impl Format {
             (Self::Png | Self::Ppm, Some(16)) => Some(Depth::Sixteen),
             _ => None,
         }
+    }
+
+    /// Whether a picture of this format can have channels beside its colours and alpha.
+    pub fn holds_channels(self) -> bool {
+        self == Self::Exr
     }
 
     /// Whether a picture of this format can have an alpha channel.
@@ -166,6 +170,7 @@ pub fn write(
     let written = match format {
         Format::Png => return png(film, developer, out),
         Format::Ppm => return ppm(film, developer, out),
+        Format::Exr => return exr::write(film, None, developer, out),
         Format::Jpeg => {
             JpegEncoder::new_with_quality(out, 92).write_image(&whole(), width, height, color)
         }
@@ -173,17 +178,21 @@ pub fn write(
         Format::Bmp => BmpEncoder::new(&mut &mut *out).write_image(&whole(), width, height, color),
         Format::Qoi => QoiEncoder::new(out).write_image(&whole(), width, height, color),
         Format::Hdr => HdrEncoder::new(out).write_image(&whole(), width, height, color),
-        Format::Exr => {
-            let mut file = Cursor::new(Vec::new());
-            OpenExrEncoder::new(&mut file)
-                .write_image(&whole(), width, height, color)
-                .and_then(|()| Ok(out.write_all(file.get_ref())?))
-        }
     };
     written.map_err(|error| match error {
         ImageError::IoError(error) => error,
         error => Error::other(error),
     })
+}
+
+/// Writes a film and its first surfaces as an OpenEXR picture.
+pub fn write_with_surfaces(
+    film: &Film,
+    surfaces: &Surfaces,
+    developer: &Developer,
+    out: &mut dyn Write,
+) -> Result<()> {
+    exr::write(film, Some(surfaces), developer, out)
 }
 
 /// Returns the bytes that [`write()`] writes.

@@ -6,13 +6,13 @@
 use std::io;
 
 use crate::diagnostic::{Code, Diagnostic, Messages};
-use crate::film::{Channels, Components, Depth, Developer, Film};
+use crate::film::{Channel, Channels, Components, Depth, Developer, Film, Surfaces};
 use crate::picture::{self, Format};
 use crate::plan::{Antialias, Frame, PlanOptions, plan};
 use crate::road::{Options, Road, dialect, sign_of_povray};
 use crate::scene::Dialect;
 use crate::source::{Files, NoFiles};
-use crate::trace::{TraceOptions, Unwatched, Watch, trace};
+use crate::trace::{TraceOptions, Unwatched, Watch, first_surfaces, trace};
 
 /// How a picture is rendered, and what the scene may read.
 ///
@@ -36,6 +36,8 @@ pub struct RenderOptions<'a> {
     pub antialias: Antialias,
     /// Whether the background is transparent.
     pub alpha: bool,
+    /// What of the first surface of each pixel the picture has beside its colours; only an OpenEXR file holds it.
+    pub channels: &'a [Channel],
     /// `None`: one for each processor. The picture does not depend on it.
     pub threads: Option<usize>,
     /// Numbers that are declared before the scene is read; `clock` sets the clock.
@@ -67,6 +69,7 @@ impl RenderOptions<'_> {
             size: (width, height),
             antialias: Antialias::default(),
             alpha: false,
+            channels: &[],
             threads: None,
             declares: &[],
             files: &NoFiles,
@@ -87,6 +90,8 @@ impl Default for RenderOptions<'_> {
 pub struct Picture {
     /// The light of each pixel, and its number of samples.
     pub film: Film,
+    /// `None` if no [`RenderOptions::channels`] were asked for, or the [`Watch`] stopped the picture before it had any.
+    pub surfaces: Option<Surfaces>,
     /// False if the [`Watch`] stopped it: some pixels then have fewer samples, or none.
     pub complete: bool,
     /// The warnings.
@@ -145,12 +150,13 @@ impl Picture {
         }
         let Film { assumed_gamma, pixels, .. } = &self.film;
         let depth = format.depth(None).unwrap_or_default();
-        picture::write(
-            &self.film,
-            &Developer::new(depth, *assumed_gamma, pixels.len()),
-            format,
-            out,
-        )
+        let developer = Developer::new(depth, *assumed_gamma, pixels.len());
+        match &self.surfaces {
+            Some(surfaces) if format.holds_channels() => {
+                picture::write_with_surfaces(&self.film, surfaces, &developer, out)
+            }
+            _ => picture::write(&self.film, &developer, format, out),
+        }
     }
 }
 
@@ -192,12 +198,14 @@ pub fn render(text: &str, options: &RenderOptions) -> Result<Picture, Messages> 
     if messages.has_errors() {
         return Err(messages);
     }
-    let RenderOptions { antialias, alpha, threads, watch, .. } = *options;
+    let RenderOptions { antialias, alpha, channels, threads, watch, .. } = *options;
     let asked = PlanOptions { antialias, alpha, ..PlanOptions::new(frame) };
     let plan = plan(&world, &origins, &asked);
     let threads = TraceOptions { threads, ..TraceOptions::default() };
+    let surfaces = first_surfaces((&world, &origins), &plan, channels, &threads, watch);
     let traced = trace(&world, &plan, &threads, watch);
-    Ok(Picture { film: traced.film, complete: traced.complete, messages })
+    let complete = traced.complete && (surfaces.is_some() || channels.is_empty());
+    Ok(Picture { film: traced.film, surfaces, complete, messages })
 }
 
 impl RenderOptions<'_> {

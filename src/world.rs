@@ -84,6 +84,9 @@ impl World {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Origins {
     pub objects: Vec<Site>,
+    /// For each object and light at the top level of the scene, as written: the first object of the World that comes
+    /// from it or from one after it.
+    pub roots: Vec<u32>,
     /// The operations that make the CSG solids, as written: several may make one.
     pub operations: Vec<OperationOrigin>,
     /// The whole item of each light: its block, or the use of a declared one.
@@ -121,6 +124,13 @@ pub struct Origins {
     /// Parts of one solid whose surfaces coincide, if searched; each pair of locations once.
     pub coinciding: Vec<Coinciding>,
     pub expansions: Expansions,
+}
+
+impl Origins {
+    /// Returns the number, from 1, of the object or light at the top level of the scene that an object comes from.
+    pub fn root(&self, object: u32) -> u32 {
+        self.roots.partition_point(|&first| first <= object) as u32
+    }
 }
 
 /// The origins of a texture's parts. Each site is a keyword with its values, such as `phong 0.4`; equal

@@ -1,5 +1,6 @@
 //! The program as it is used: real runs, in folders of their own.
 
+mod channels;
 mod language;
 mod long;
 #[cfg(unix)]

@@ -149,6 +149,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("unicode_width", &["diagnostic/cut.rs"]),
     ("stacker", &["evaluate/"]),
     ("gif", &["picture"]),
+    ("exr", &["picture"]),
     ("image", &["picture"]),
     ("ttf_parser", &["font/"]),
     ("png", &["picture"]),

@@ -20,7 +20,7 @@ pub use animation::AnimationArguments;
 pub use picture::{FrameArguments, PictureArguments};
 pub use work::{Shard, WorkArguments};
 
-use super::values::{MetricArgument, error, knob, seconds, seed, size, threads};
+use super::values::{ChannelArgument, MetricArgument, error, knob, seconds, seed, size, threads};
 
 /// Compiler and ray tracer for a POV-Ray-like scene language
 ///
@@ -104,6 +104,10 @@ pub struct RenderArguments {
     /// `background` or `sky_sphere` that is opaque (for example `--alpha -o ball.png`); png, qoi, tga, bmp and exr only
     #[arg(long)]
     pub alpha: bool,
+    /// Write further channels into an .exr, separated by commas: of the first surface on the ray through the centre of
+    /// each pixel (for example `--channels depth,normal -o ball.exr`)
+    #[arg(long, value_enum, value_name = "NAMES", value_delimiter = ',')]
+    pub channels: Vec<ChannelArgument>,
     /// Choose settings that keep the error at or below E (for example 0.01, 1% or 2/255) and verify the
     /// error on pixels not used for that choice; exits with 5 if the bound cannot be verified
     #[arg(long, value_name = "E", value_parser = error, allow_negative_numbers = true)]

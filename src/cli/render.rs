@@ -10,11 +10,11 @@ use lucarne::accuracy;
 use lucarne::diagnostic::{Diagnostic, Severity};
 use lucarne::evaluate::{Animation, EvaluateOptions, Interrupt};
 use lucarne::film::saved::{Purpose, Saved, save};
-use lucarne::film::{Channels, Depth, Developer, Film};
+use lucarne::film::{Channel, Channels, Depth, Developer, Film, Surfaces};
 use lucarne::picture::{self, Format};
 use lucarne::plan::{self, PlanOptions, Region};
 use lucarne::road::Road;
-use lucarne::trace::{TraceOptions, Traced};
+use lucarne::trace::{TraceOptions, Traced, first_surfaces};
 
 use super::arguments::{RenderArguments, Shard};
 use super::checkpoint::{self, Checkpoint};
@@ -84,7 +84,10 @@ pub fn picture(
     };
     if let Some(place) = &written {
         let developer = Developer::new(job.depth, film.assumed_gamma, pixels);
-        let picture: Picture = &|out| picture::write(film, &developer, output.format(), out);
+        let picture: Picture = &|out| match &job.surfaces {
+            Some(surfaces) => picture::write_with_surfaces(film, surfaces, &developer, out),
+            None => picture::write(film, &developer, output.format(), out),
+        };
         place.write(picture).map_err(|failure| output.rescue(place, picture, failure))?;
     }
     if traced.complete
@@ -145,6 +148,8 @@ pub struct Job<'a> {
     key: u64,
     pub depth: Depth,
     format: Format,
+    /// Once they are found, if the picture has them.
+    surfaces: Option<Surfaces>,
     bytes: &'a [u8],
     stats: Stats,
     watch: Stopwatch,
@@ -159,18 +164,21 @@ impl<'a> Job<'a> {
     ) -> Result<Self, Failure> {
         let watch = Stopwatch::start();
         let depth = depth_of(format, arguments.bits, arguments.alpha)?;
+        arguments.fits_channels(format)?;
         let mut frame = arguments.picture.frame(&arguments.scene)?;
         let whole = frame.region;
         if let Some(shard) = arguments.still_shard() {
             frame.region = shard.of(whole)?;
         }
-        Ok(Self { frame, whole, key: 0, depth, format, bytes, stats: Stats::default(), watch })
+        let (surfaces, stats) = (None, Stats::default());
+        Ok(Self { frame, whole, key: 0, depth, format, surfaces, bytes, stats, watch })
     }
 
     /// Fails if there is clearly too little memory.
     pub fn fits(&self, arguments: &RenderArguments) -> Result<(), Failure> {
         let writing = self.format.bytes_per_pixel(Channels::with(arguments.alpha));
-        fits(self.frame.region, writing, arguments.time_budget.is_some())
+        let surfaces = if arguments.channels.is_empty() { 0 } else { Surfaces::BYTES_PER_PIXEL };
+        fits(self.frame.region, writing + surfaces, arguments.time_budget.is_some())
     }
 
     /// Compiles and traces the scene; returns the exit code instead if its messages forbid that.
@@ -242,6 +250,11 @@ impl<'a> Job<'a> {
             TraceOptions { threads, count_work: arguments.stats.is_some(), tile_side: None };
         let written = (self.depth, self.format);
         let scene = (&world, &origins);
+        if !arguments.channels.is_empty() {
+            let channels: Vec<Channel> = arguments.channels.iter().map(|&one| one.into()).collect();
+            let plan = plan::plan(&world, &origins, &options);
+            self.surfaces = first_surfaces(scene, &plan, &channels, &threads, &progress);
+        }
         let made = match &place {
             Some(path) => {
                 let begun = match arguments.work.resume {
@@ -305,6 +318,22 @@ impl RenderArguments {
     /// Returns the part of a still that is rendered; of an animation, a part is some of its frames.
     fn still_shard(&self) -> Option<Shard> {
         self.work.shard.filter(|_| self.animation.range().is_none())
+    }
+
+    /// Fails if further channels are asked for that a picture of this format, or a part of a picture, does not have.
+    fn fits_channels(&self, format: Format) -> Result<(), Failure> {
+        if self.channels.is_empty() {
+            return Ok(());
+        }
+        if self.still_shard().is_some() {
+            let sentence = "a part of a picture has its colours alone, without `--channels`";
+            return Err(Failure::usage(sentence).help("`--region` renders a part with channels"));
+        }
+        match format.holds_channels() {
+            true => Ok(()),
+            false => Err(Failure::usage("only an .exr picture has further channels")
+                .help("with `--channels`, write an .exr, such as `-o OUT.exr`")),
+        }
     }
 }
 

@@ -9,6 +9,7 @@ use clap::ValueEnum;
 use lucarne::accuracy::{KNOBS, Metric};
 use lucarne::diagnostic::Code;
 use lucarne::diagnostic::suggest::closest;
+use lucarne::film::Channel;
 use lucarne::plan::{Antialias, Region, Samples};
 use lucarne::vocabulary::Word;
 
@@ -252,6 +253,30 @@ impl From<MetricArgument> for Metric {
             MetricArgument::Rmse => Self::Rmse,
             MetricArgument::P99 => Self::P99,
             MetricArgument::Bad => Self::Bad,
+        }
+    }
+}
+
+/// A channel of first surfaces, as named on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ChannelArgument {
+    /// Distance from the start of the ray (channel Z); infinite where there is no surface
+    Depth,
+    /// Unit normal by which the surface is lit, in the axes of the scene (normal.X, normal.Y, normal.Z)
+    Normal,
+    /// Colour of the pigment in linear light, before any light falls on it (albedo.R, albedo.G, albedo.B)
+    Albedo,
+    /// Number of the object or light at the top level of the scene, from 1 (object); 0 where there is no surface
+    Object,
+}
+
+impl From<ChannelArgument> for Channel {
+    fn from(channel: ChannelArgument) -> Self {
+        match channel {
+            ChannelArgument::Depth => Self::Depth,
+            ChannelArgument::Normal => Self::Normal,
+            ChannelArgument::Albedo => Self::Albedo,
+            ChannelArgument::Object => Self::Object,
         }
     }
 }

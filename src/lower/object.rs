@@ -51,6 +51,7 @@ impl<'s> Lowering<'s, '_> {
         self.world.objects.reserve(count);
         self.origins.objects.reserve(count);
         for &Root { object, default_texture } in &self.scene.roots {
+            self.origins.roots.push(self.world.objects.len() as u32);
             if last.as_ref().is_none_or(|(texture, _)| *texture != default_texture) {
                 let Some(surface) = self.set_surface(default_texture, Affine::IDENTITY) else {
                     continue;

@@ -1,50 +1,80 @@
-//! The size of an OpenEXR file's largest block, for which `exr` allocates memory before it reads it.
+//! Encodes OpenEXR files: linear light, and the channels of the first surfaces.
 //!
-//! **Source:** "OpenEXR File Layout", openexr.com: an attribute is its name, its type, its size and its value.
+//! **Invariant:** one part of scan lines from top to bottom, whose channels have the usual names.
+//!
+//! **Source:** "OpenEXR File Layout" and "Technical Introduction to OpenEXR", openexr.com.
 
-/// Returns an upper bound on the number of pixels in a block of a picture of this width.
-pub fn most_in_block(bytes: &[u8], width: u32) -> u64 {
-    let word = |value: &[u8], at: usize| -> u64 {
-        let word = value.get(at..).and_then(|rest| rest.first_chunk());
-        word.map_or(u64::from(u32::MAX), |&word| u32::from_le_bytes(word).into())
-    };
-    // Every part of a file has its own attributes.
-    let tiles = values(bytes, b"tiles\0tiledesc\0");
-    let tiles = tiles.map(|value| word(value, 0).saturating_mul(word(value, 4)));
-    let compressions = values(bytes, b"compression\0compression\0");
-    let rows = compressions.map(|value| match value.first() {
-        // None, run lengths, and single rows by ZIP.
-        Some(0..=2) => 1,
-        // ZIP and PXR24.
-        Some(3 | 5) => 16,
-        // PIZ, B44, B44A and DWAA.
-        Some(4 | 6..=8) => 32,
-        _ => 256,
-    });
-    tiles.chain(rows.map(|rows| rows * u64::from(width))).max().unwrap_or(0)
-}
+use std::io::{Cursor, Error, Result, Write};
 
-/// Returns the rest of the file from each value of an attribute on.
-fn values<'a>(bytes: &'a [u8], name: &'a [u8]) -> impl Iterator<Item = &'a [u8]> {
-    let starts = bytes.windows(name.len()).enumerate().filter(move |(_, window)| *window == name);
-    // The size stands between name and value.
-    starts.filter_map(move |(at, _)| bytes.get(at + name.len() + 4..))
-}
+use exr::image::write::WritableImage;
+use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer};
+use exr::meta::attribute::LineOrder;
+use exr::prelude::{Compression, LayerAttributes};
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+use crate::film::{Channel, Components, Developer, Film, FirstSurface, Surfaces};
+use crate::plan::Region;
 
-    #[test]
-    fn a_block_is_a_tile_or_some_rows() {
-        let compression =
-            |kind: u8| [b"compression\0compression\0\x01\0\0\0", &[kind][..]].concat();
-        assert_eq!(most_in_block(&compression(0), 100), 100);
-        assert_eq!(most_in_block(&compression(3), 100), 1600);
-        let tiles = b"tiles\0tiledesc\0\x09\0\0\0\x40\0\0\0\0\x01\0\0\0";
-        assert_eq!(most_in_block(tiles, 100), 64 * 256);
-        assert_eq!(most_in_block(&[compression(4), tiles.to_vec()].concat(), 1000), 32_000);
-        assert_eq!(most_in_block(b"", 100), 0);
-        assert!(most_in_block(&tiles[..21], 100) > 1 << 60);
+/// ZIP makes files a third smaller, and takes four times as long.
+const ENCODING: Encoding = Encoding {
+    compression: Compression::RLE,
+    blocks: Blocks::ScanLines,
+    line_order: LineOrder::Increasing,
+};
+
+/// Writes a film, with its first surfaces if there are any.
+pub fn write(
+    film: &Film,
+    surfaces: Option<&Surfaces>,
+    developer: &Developer,
+    out: &mut dyn Write,
+) -> Result<()> {
+    let Region { width, height, .. } = film.frame.region;
+    if film.pixels.is_empty() {
+        return Err(Error::other("an .exr picture has at least one pixel"));
     }
+    let mut colors = vec![Vec::with_capacity(film.pixels.len()); film.channels.count()];
+    for row in film.rows() {
+        let Components::Linear(row) = developer.develop(row, film.channels) else {
+            return Err(Error::other("OpenEXR holds linear light"));
+        };
+        for pixel in row.chunks(colors.len()) {
+            colors.iter_mut().zip(pixel).for_each(|(channel, &c)| channel.push(c));
+        }
+    }
+    let colors = ["R", "G", "B", "A"].into_iter().zip(colors.into_iter().map(FlatSamples::F32));
+    let surfaces = surfaces.into_iter().flat_map(channels_of_surfaces);
+    let list = colors.chain(surfaces).map(|(name, samples)| AnyChannel::new(name, samples));
+    let layer = Layer::new(
+        (width as usize, height as usize),
+        LayerAttributes::default(),
+        ENCODING,
+        AnyChannels::sort(list.collect()),
+    );
+    let mut file = Cursor::new(Vec::new());
+    let image = Image::from_layer(layer);
+    image.write().non_parallel().to_buffered(&mut file).map_err(|error| match error {
+        exr::error::Error::Io(error) => error,
+        error => Error::other(error),
+    })?;
+    out.write_all(file.get_ref())
+}
+
+/// Returns the channels of first surfaces with their names.
+fn channels_of_surfaces(surfaces: &Surfaces) -> Vec<(&'static str, FlatSamples)> {
+    let pixels = || surfaces.pixels.iter();
+    let axes = |names: [&'static str; 3], of: fn(&FirstSurface) -> [f32; 3]| {
+        let axis = |i: usize| FlatSamples::F32(pixels().map(|one| of(one)[i]).collect());
+        names.into_iter().enumerate().map(|(i, name)| (name, axis(i))).collect()
+    };
+    let channels = surfaces.channels.iter().flat_map(|channel| match channel {
+        Channel::Depth => {
+            vec![("Z", FlatSamples::F32(pixels().map(|one| one.depth).collect()))]
+        }
+        Channel::Normal => axes(["normal.X", "normal.Y", "normal.Z"], |one| one.normal),
+        Channel::Albedo => axes(["albedo.R", "albedo.G", "albedo.B"], |one| one.albedo),
+        Channel::Object => {
+            vec![("object", FlatSamples::U32(pixels().map(|one| one.object).collect()))]
+        }
+    });
+    channels.collect()
 }

@@ -7,12 +7,14 @@
 //! PNG file without a palette declares transparent is opaque; OpenEXR and some TIFF files hold colours that
 //! are multiplied by alpha; a Radiance mantissa stands for the middle of its step.
 
+mod exr_block;
+
 use std::fmt;
 use std::io::{self, Cursor};
 
 use image::{DynamicImage, ImageFormat, ImageReader};
 
-use super::{exr, tiff};
+use super::tiff;
 use crate::color::Gamma;
 use crate::texture::image::conversion::Encoding;
 use crate::texture::picture::{Picture, Samples};
@@ -260,7 +262,7 @@ fn other(bytes: &[u8], format: ImageFormat) -> Result<Picture, Fault> {
     let (width, height) = reader.into_dimensions()?;
     check(width.into(), height.into(), bytes, density)?;
     if format == ImageFormat::OpenExr {
-        let pixels = exr::most_in_block(bytes, width);
+        let pixels = exr_block::most_in_block(bytes, width);
         if pixels > BLOCK.max(bytes.len() as u64 * density) {
             return Err(Fault::Broken("it declares too large a block".to_owned()));
         }

@@ -12,48 +12,18 @@ use super::area::Ground;
 use super::batch::{Back, Onward};
 use super::layered::Known;
 use super::media::Border;
+use super::parts::Surface;
 use super::shade::{self, Flat, Place};
 use super::texture::SurfaceInteraction;
 use super::tracer::Tracer;
 use super::way::{Inside, Way};
 use super::{Walk, behind, bumpy, dispersion, extras, reflection, refraction};
-use crate::color::{Clearness, Color, Rgb};
+use crate::color::Rgb;
 use crate::geometry::{self, Hit};
 use crate::math::Vector;
 use crate::shape::Ray;
-use crate::texture;
-use crate::texture::blend::Mix;
-use crate::world::{Plain, Texture};
+use crate::world::Texture;
 use smallvec::SmallVec;
-
-/// A plain texture that is part of another.
-struct Part<'a> {
-    plain: &'a Plain,
-    paint: Color,
-    /// The normal by which it is lit.
-    normal: Vector,
-    /// The part of its light that the layers above it let through.
-    above: Rgb,
-    /// Its share in the blends inside of its stack.
-    share: f64,
-    /// It tints the light behind; a part that does not is as clear as its `filter` says, in any version.
-    tints: bool,
-}
-
-/// Most textures have no more parts than this; further ones are allocated.
-type Parts<'a> = SmallVec<[Part<'a>; 4]>;
-
-/// Likewise for the alternatives.
-type Stacks<'a> = SmallVec<[Stack<'a>; 1]>;
-
-/// Layers that cover each other, from the top down: one alternative of the blends around it.
-struct Stack<'a> {
-    /// Its share in the blends around it.
-    share: f64,
-    parts: Parts<'a>,
-    /// The part of the light behind it that passes through.
-    through: Rgb,
-}
 
 /// The light behind a stack that is not opaque.
 struct Open {
@@ -63,159 +33,6 @@ struct Open {
     weight: f64,
     /// The normal that bends it: the top layer's.
     top: Vector,
-}
-
-/// What comes onto a part of a texture from the parts above.
-struct Onto {
-    light: Rgb,
-    /// The part's share in the blends inside of its stack.
-    share: f64,
-    /// The part tints the light behind.
-    tints: bool,
-}
-
-/// A point on a surface, as its texture is evaluated there.
-struct Surface<'a, 'p> {
-    around: SurfaceInteraction<'a, 'p>,
-    adc_bailout: f64,
-    /// See the World's settings.
-    untinted_layers: bool,
-    /// Toward the viewer's side.
-    normal: Vector,
-    to_viewer: Vector,
-    /// The fraction that is reflected by Fresnel's equations at a normal.
-    fresnel: &'p dyn Fn(Vector) -> f64,
-    known: Known<'a, 'p>,
-}
-
-impl<'a: 'p, 'p> Surface<'a, 'p> {
-    /// Adds the stacks of a texture.
-    fn stacks(
-        &self,
-        texture: &'a Texture,
-        outer: Option<&texture::Place>,
-        share: f64,
-        stacks: &mut Stacks<'a>,
-    ) {
-        if let Texture::Faces(textures) = texture {
-            // What has less is lost in POV-Ray 3.7, too (measured).
-            let shares = texture::at_face(textures, &self.around);
-            for (texture, weight) in shares.into_iter().filter(|one| one.1 >= self.adc_bailout) {
-                self.stacks(texture, outer, share * weight, stacks);
-            }
-            return;
-        }
-        if let Texture::Average { space, entries } = texture {
-            let place = texture::Place::new(space, outer, &self.around);
-            for (weight, texture) in entries {
-                self.stacks(texture, Some(&place), share * weight, stacks);
-            }
-            return;
-        }
-        if let Texture::Blend(blend) = texture {
-            let (place, mix) = blend.at(outer, &self.around);
-            match mix {
-                None => {}
-                Some(Mix::One(texture)) => self.stacks(texture, Some(&place), share, stacks),
-                Some(Mix::Two(low, high, weight)) => {
-                    self.stacks(low, Some(&place), share * (1.0 - weight), stacks);
-                    self.stacks(high, Some(&place), share * weight, stacks);
-                }
-            }
-            return;
-        }
-        let mut parts = Parts::new();
-        let onto = Onto { light: Rgb::WHITE, share: 1.0, tints: true };
-        let through = self.parts(texture, outer, onto, &mut parts);
-        stacks.push(Stack { share, parts, through });
-    }
-
-    /// Adds the parts of a texture, and returns the part of the light behind it that passes through.
-    fn parts(
-        &self,
-        texture: &'a Texture,
-        outer: Option<&texture::Place>,
-        Onto { light: above, share, tints }: Onto,
-        parts: &mut Parts<'a>,
-    ) -> Rgb {
-        match texture {
-            Texture::Plain(plain) => {
-                let known = if outer.is_none() { self.known.part(plain) } else { None };
-                let (paint, normal) = known.unwrap_or_else(|| {
-                    let around = self.around.with(plain.normal.as_deref());
-                    let normal = match &plain.normal {
-                        Some(bumps) => bumps.perturbed(self.normal, outer, &self.around),
-                        None => self.normal,
-                    };
-                    (plain.pigment.color(outer, &around), normal)
-                });
-                let part = Part { plain, paint, normal, above, share, tints };
-                let own = if tints { paint.transmittance() } else { paint.untinted() };
-                let through = match plain.finish.conserve_energy {
-                    true => own * self.reflectance(&part).map(|r| 1.0 - r),
-                    false => own,
-                };
-                parts.push(part);
-                through
-            }
-            Texture::Layers(layers) => {
-                let mut through = Rgb::WHITE;
-                for (place, layer) in layers.iter().enumerate().rev() {
-                    if (above * through).brightness() < self.adc_bailout {
-                        break;
-                    }
-                    let tints = place == 0 || !self.untinted_layers;
-                    let onto = Onto { light: above * through, share, tints };
-                    through = through * self.parts(layer, outer, onto, parts);
-                }
-                through
-            }
-            Texture::Faces(textures) => {
-                let shares = texture::at_face(textures, &self.around).into_iter();
-                shares.fold(Rgb::BLACK, |sum, (texture, weight)| {
-                    let onto = Onto { light: above, share: share * weight, tints };
-                    sum + self.parts(texture, outer, onto, parts) * weight
-                })
-            }
-            Texture::Average { space, entries } => {
-                let place = texture::Place::new(space, outer, &self.around);
-                entries.iter().fold(Rgb::BLACK, |sum, (weight, texture)| {
-                    let onto = Onto { light: above, share: share * weight, tints };
-                    sum + self.parts(texture, Some(&place), onto, parts) * *weight
-                })
-            }
-            Texture::Blend(blend) => {
-                let (place, mix) = blend.at(outer, &self.around);
-                match mix {
-                    None => Rgb::BLACK,
-                    Some(Mix::One(texture)) => self.parts(
-                        texture,
-                        Some(&place),
-                        Onto { light: above, share, tints },
-                        parts,
-                    ),
-                    Some(Mix::Two(low, high, weight)) => {
-                        let rest = 1.0 - weight;
-                        let onto = |part| Onto { light: above, share: share * part, tints };
-                        let low = self.parts(low, Some(&place), onto(rest), parts);
-                        let high = self.parts(high, Some(&place), onto(weight), parts);
-                        low * rest + high * weight
-                    }
-                }
-            }
-        }
-    }
-
-    fn reflectance(&self, part: &Part) -> Rgb {
-        match &part.plain.finish.reflection {
-            Some(reflection) => {
-                let cosine = part.normal.dot(self.to_viewer);
-                let fresnel = if cosine < 0.0 { 1.0 } else { (self.fresnel)(part.normal) };
-                reflection::reflectance(reflection, part.paint.rgb, cosine, fresnel)
-            }
-            None => Rgb::BLACK,
-        }
-    }
 }
 
 impl<'a> Tracer<'a> {
@@ -290,8 +107,7 @@ impl<'a> Tracer<'a> {
             fresnel: &fresnel,
             known,
         };
-        let mut stacks = Stacks::new();
-        surface.stacks(texture, None, 1.0, &mut stacks);
+        let stacks = surface.stacks(texture);
         let others = walk.coinciding.iter();
         let others = others.map(|other| super::texture::transmittance(self, &way.ray, other));
         let others = others.fold(Rgb::WHITE, |factor, other| factor * other);
@@ -307,14 +123,10 @@ impl<'a> Tracer<'a> {
             let passed = top.map_or(1.0, |part| super::transmission::passed(&part.plain.finish));
             for part in &stack.parts {
                 let share = stack.share * part.share;
-                let clearness = match part.tints {
-                    true => world.settings.clearness,
-                    false => Clearness::Current,
-                };
                 let place = Place {
                     finish: &part.plain.finish,
                     color: part.paint.rgb,
-                    body: part.paint.body(clearness),
+                    body: part.body(world.settings.clearness),
                     point: point.point,
                     origin: point.spawn(facing),
                     normal: part.normal,

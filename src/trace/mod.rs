@@ -18,6 +18,7 @@ mod camera;
 mod counters;
 mod dispersion;
 mod extras;
+mod first_surface;
 mod fog;
 mod grain;
 mod highlight;
@@ -29,6 +30,7 @@ mod media;
 mod metal;
 mod packet;
 mod paint;
+mod parts;
 mod pixels;
 mod projection;
 mod rainbow;
@@ -71,6 +73,7 @@ use watch::Patience;
 
 pub(crate) use antialias::{FEW, expected, gain, of_edge};
 pub use counters::{Counters, Evaluations};
+pub use first_surface::first_surfaces;
 #[doc(hidden)]
 pub use pixels::{Aim, Sampling, Seen, aims, pixels};
 pub(crate) use sight::Sight;

@@ -8,7 +8,7 @@ use crate::film::{Film, Pixel};
 
 /// Follows the tracing of a film, and may stop it: [`Watched`] for most programs. Called from several threads at once.
 pub trait Watch: Sync {
-    /// Called once, when the tree of boxes is built and tracing begins.
+    /// Called when the tree of boxes is built and tracing begins.
     fn built(&self) {}
     /// Called when a pass over a film begins; `film` has the pixels that are already done.
     fn begins(&self, _pass: usize, _film: &Film) {}
