@@ -71,7 +71,11 @@ impl Rgb {
     }
 
     /// Replaces infinities by a large number, as POV-Ray 3.7 shows them (measured), and NaN by 0.
+    #[inline]
     pub(crate) fn bounded(self) -> Self {
+        if self.is_finite() {
+            return self;
+        }
         const LARGE: f64 = 1e9;
         self.map(|c| match c {
             _ if c.is_nan() => 0.0,
@@ -80,6 +84,7 @@ impl Rgb {
         })
     }
 
+    #[inline]
     pub fn is_finite(self) -> bool {
         self.red.is_finite() && self.green.is_finite() && self.blue.is_finite()
     }

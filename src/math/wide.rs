@@ -6,6 +6,8 @@
 //! **Invariant:** each lane has the bits of the same operations on single numbers, whatever the instructions: nothing
 //! is fused, and nothing is approximated.
 
+pub(crate) mod elementary;
+
 pub(crate) use fearless_simd::dispatch;
 pub(crate) use fearless_simd::prelude::*;
 use fearless_simd::{Level, f64x4, mask64x4};

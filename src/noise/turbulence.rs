@@ -99,8 +99,9 @@ impl Turbulence {
         });
     }
 
+    /// Returns its numbers at four points; those of lanes that are not asked for are any.
     #[inline(always)]
-    fn numbers_of_four<S: Simd>(
+    pub(crate) fn numbers_of_four<S: Simd>(
         &self,
         simd: S,
         generator: NoiseGenerator,

@@ -374,8 +374,7 @@ impl<'a> Tracer<'a> {
                 self.see_near(&mut packet.hits);
             }
             if self.has_fog {
-                let veil = |number| self.veil(walk, &packet.way(number), &packet.hits[number]);
-                batch.veils.extend(numbers(packet.rays.mask).map(veil));
+                self.veil(walk, packet, &mut batch.veils);
             }
         }
     }

@@ -165,11 +165,11 @@ impl Lens {
         self.normal.is_some()
     }
 
-    /// Returns the camera if its rays need nothing but [`Flat::find`].
+    /// Returns the camera and its lens, if it blurs, where rays need nothing but [`Flat::find`] or [`Flat::find_blurred`].
     #[inline(always)]
-    pub fn plain(&self) -> Option<&Flat> {
+    pub fn flat(&self) -> Option<(&Flat, Option<&Focus>)> {
         match &self.kind {
-            Kind::Flat(flat) if self.focus.is_none() && self.normal.is_none() => Some(flat),
+            Kind::Flat(flat) if self.normal.is_none() => Some((flat, self.focus.as_ref())),
             _ => None,
         }
     }

@@ -49,7 +49,11 @@ pub(super) struct Media {
 ///
 /// **Source:** POV-Ray 3.7's behaviour, measured.
 #[derive(Debug, Default)]
-pub(super) struct Around(Vec<(u32, Bounds)>);
+pub(super) struct Around {
+    solids: Vec<(u32, Bounds)>,
+    /// All its rays start in one place.
+    is_one_place: bool,
+}
 
 impl Around {
     pub fn of(world: &World) -> Self {
@@ -65,7 +69,8 @@ impl Around {
         let starts = Bounds { low: camera.location - half, high: camera.location + half };
         let bounds = |solid| geometry::bounds(world, solid).unwrap_or(Bounds::EVERYWHERE);
         let solids = world.solids().map(|solid| (solid, bounds(solid)));
-        Self(solids.filter(|(_, bounds)| !bounds.intersection(&starts).is_empty()).collect())
+        let solids = solids.filter(|(_, bounds)| !bounds.intersection(&starts).is_empty());
+        Self { solids: solids.collect(), is_one_place: camera.has_one_origin() }
     }
 
     /// Returns the solids that `start` is in, in the order of declaration.
@@ -73,7 +78,7 @@ impl Around {
         let contains = move |&&(solid, bounds): &&(u32, Bounds)| {
             bounds.contains(start) && world.csg_contains(&world.objects[solid as usize], start)
         };
-        self.0.iter().filter(contains).map(|(solid, _)| *solid)
+        self.solids.iter().filter(contains).map(|(solid, _)| *solid)
     }
 }
 
@@ -201,16 +206,24 @@ impl Media {
         Border { from, to, sides: [before, behind], left, is_outer, within }
     }
 
-    /// Returns whether fog is where a ray starts `within` solids: whether they are all hollow.
+    /// Returns a bit for each ray that starts where fog is: in solids that are all hollow.
     ///
     /// **Source:** POV-Ray 3.7's behaviour, measured.
-    pub fn is_in_fog(&mut self, (world, around): (&World, &Around), within: Within) -> bool {
-        // Most cameras are in nothing.
-        if matches!(within, Within::Start(_)) && around.0.is_empty() {
-            return true;
+    pub fn in_fog(&mut self, (world, around): (&World, &Around), packet: &Packet) -> u32 {
+        let mask = packet.rays.mask;
+        let mut is_in_fog = |number| {
+            self.know((world, around), packet.within(number));
+            self.list.iter().all(|&object| world.objects[object as usize].hollow)
+        };
+        match around {
+            _ if !packet.is_of_camera() => {}
+            Around { solids, .. } if solids.is_empty() => return mask,
+            Around { is_one_place: true, .. } => {
+                return if numbers(mask).next().is_some_and(is_in_fog) { mask } else { 0 };
+            }
+            _ => {}
         }
-        self.know((world, around), within);
-        self.list.iter().all(|&object| world.objects[object as usize].hollow)
+        numbers(mask).filter(|&number| is_in_fog(number)).fold(0, |all, number| all | 1 << number)
     }
 
     /// Returns the part of light that fog leaves along a ray of `length` that starts `within` solids and crosses

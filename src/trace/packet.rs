@@ -40,6 +40,12 @@ impl Packet {
         }
     }
 
+    /// Returns whether its rays are the camera's.
+    #[inline(always)]
+    pub fn is_of_camera(&self) -> bool {
+        self.camera.is_some()
+    }
+
     /// Adds a ray that goes on from a surface.
     #[inline(always)]
     fn set(&mut self, number: usize, way: &Way) {

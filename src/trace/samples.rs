@@ -8,7 +8,7 @@ use super::camera::{Lens, Point};
 use super::sight::Sight;
 use super::tracer::Tracer;
 use crate::geometry::Hit;
-use crate::math::wide::{ROW, Rays};
+use crate::math::wide::{ROW, Rays, Row};
 use crate::shape::Ray;
 
 impl Tracer<'_> {
@@ -21,21 +21,26 @@ impl Tracer<'_> {
         points: impl Iterator<Item = Point>,
         mut look: impl FnMut(Sight),
     ) {
-        match lens.plain() {
-            Some(flat) => {
-                let (instructions, mut points) = (self.geometry.instructions(), points);
-                let mut places = [[0.0; ROW]; 2];
+        let instructions = self.geometry.instructions();
+        match lens.flat() {
+            Some((flat, None)) => {
+                let (mut places, mut points) = ([[0.0; ROW]; 2], points);
                 let fill = |rays: &mut Rays| {
-                    rays.mask = 0;
-                    let [all_u, all_v] = &mut places;
-                    for (number, (at_u, at_v)) in all_u.iter_mut().zip(all_v).enumerate() {
-                        let Some(Point { u, v, .. }) = points.next() else { break };
-                        (*at_u, *at_v) = (u, v);
-                        rays.mask |= 1 << number;
-                    }
+                    fill(&mut places, rays, || points.next().map(|Point { u, v, .. }| [u, v]));
                     flat.find(instructions, &places, rays);
                 };
                 self.each_seen(walk, fill, look);
+            }
+            Some((flat, Some(focus))) => {
+                let (mut places, mut points, mut sent) = ([[0.0; ROW]; 4], points, 0);
+                let fill = |rays: &mut Rays| {
+                    let place = |Point { u, v, lens: [x, y] }| [u, v, x, y];
+                    fill(&mut places, rays, || points.next().map(place));
+                    flat.find_blurred(instructions, focus, &places, rays);
+                    sent += u64::from(rays.mask.count_ones());
+                };
+                self.each_seen(walk, fill, look);
+                walk.counters.evaluations.focal_blur += if self.counts { sent } else { 0 };
             }
             None => {
                 let points: Vec<Point> = points.collect();
@@ -104,5 +109,20 @@ impl Tracer<'_> {
             })
         });
         means.for_each(look);
+    }
+}
+
+/// Puts the next places into rows, and a bit for each into the mask of rays.
+#[inline(always)]
+fn fill<const N: usize>(
+    rows: &mut [Row; N],
+    rays: &mut Rays,
+    mut next: impl FnMut() -> Option<[f64; N]>,
+) {
+    rays.mask = 0;
+    for number in 0..ROW {
+        let Some(place) = next() else { break };
+        rows.iter_mut().zip(place).for_each(|(row, place)| row[number] = place);
+        rays.mask |= 1 << number;
     }
 }

@@ -9,33 +9,44 @@
 use super::Walk;
 use super::fog::{self, Veil};
 use super::media::Within;
+use super::packet::Packet;
 use super::rainbow;
 use super::shadow::Aim;
 use super::tracer::Tracer;
-use super::way::Way;
 use crate::color::Rgb;
 use crate::geometry::Hit;
 use crate::math::Vector;
+use crate::math::wide::numbers;
 use crate::shape::Ray;
 
 impl Tracer<'_> {
-    /// Returns the veil between a ray's start and what it meets: rainbows, and fog before them, in whatever order they
-    /// are written. None if the ray is in a solid that fog does not fill.
-    pub(super) fn veil(&self, walk: &mut Walk, way: &Way, hit: &Hit) -> Veil {
+    /// Adds the veils between the starts of rays and what they meet: rainbows, and fog before them, in whatever order
+    /// they are written. There is none for a ray in a solid that fog does not fill.
+    pub(super) fn veil(&self, walk: &mut Walk, packet: &Packet, all: &mut Vec<Veil>) {
         let (fogs, rainbows) = (&self.world.fogs, &self.world.rainbows);
-        if self.follows_media && !walk.media.is_in_fog(self.solids(), way.within) {
-            return Veil::NONE;
-        }
+        let rays = &packet.rays;
+        let mask = match self.follows_media {
+            true => walk.media.in_fog(self.solids(), packet),
+            false => rays.mask,
+        };
         if self.counts {
-            walk.counters.evaluations.fog += fogs.len() as u64;
-            walk.counters.evaluations.rainbows += rainbows.len() as u64;
+            let count = u64::from(mask.count_ones());
+            walk.counters.evaluations.fog += count * fogs.len() as u64;
+            walk.counters.evaluations.rainbows += count * rainbows.len() as u64;
         }
-        let length = hit.found().map_or(fog::SKY, |hit| hit.t);
-        let Ray { origin, direction } = way.ray;
-        let fog = fog::veil(fogs, origin, direction, length);
-        match rainbow::veil(rainbows, origin, direction, length) {
-            Some(rainbow) => fog.before(rainbow),
-            None => fog,
+        let length = |hit: &Hit| hit.found().map_or(fog::SKY, |hit| hit.t);
+        let lengths = std::array::from_fn(|number| length(&packet.hits[number]));
+        let first = all.len();
+        all.resize(first + rays.mask.count_ones() as usize, Veil::NONE);
+        let veils = &mut all[first..];
+        fog::add(fogs, rays, mask, &lengths, veils);
+        if !rainbows.is_empty() {
+            for number in numbers(mask) {
+                let Ray { origin, direction } = rays.at(number);
+                if let Some(veil) = rainbow::veil(rainbows, origin, direction, lengths[number]) {
+                    veils[number] = veils[number].before(veil);
+                }
+            }
         }
     }
 

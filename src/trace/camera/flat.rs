@@ -56,24 +56,34 @@ impl Flat {
         odd
     }
 
+    /// Finds the rays of a lens through points (u, v) of the screen and (x, y) of the lens, one for each bit of the rays'
+    /// mask.
+    #[inline(always)]
+    pub fn find_blurred(
+        &self,
+        instructions: Instructions,
+        focus: &Focus,
+        places: &[Row; 4],
+        rays: &mut Rays,
+    ) {
+        let odd = dispatch!(instructions.level(), simd => self.bend(simd, focus, places, rays));
+        for number in numbers(odd) {
+            let [u, v, x, y] = places.each_ref().map(|row| row[number]);
+            let ray = focus.bent(self.line(u, v), [x, y]);
+            rays.set(number, &Ray { direction: unit(ray.direction), ..ray });
+        }
+    }
+
     /// Returns the rays of a lens through points of the screen.
     pub(super) fn blurred(&self, focus: &Focus, points: &[Point]) -> Vec<Option<Ray>> {
         let mut all = Vec::with_capacity(points.len());
         for points in points.chunks(ROW) {
             let (mut places, mut rays) = ([[0.0; ROW]; 4], Rays::NONE);
-            for (number, Point { u, v, lens: [x, y] }) in points.iter().enumerate() {
-                let [all_u, all_v, all_x, all_y] = &mut places;
-                (all_u[number], all_v[number]) = (*u, *v);
-                (all_x[number], all_y[number]) = (*x, *y);
+            for (number, &Point { u, v, lens: [x, y] }) in points.iter().enumerate() {
+                places.iter_mut().zip([u, v, x, y]).for_each(|(row, place)| row[number] = place);
             }
             rays.mask = (1 << points.len()) - 1;
-            let level = Instructions::best().level();
-            let odd = dispatch!(level, simd => self.bend(simd, focus, &places, &mut rays));
-            for number in numbers(odd) {
-                let Point { u, v, lens } = points[number];
-                let ray = focus.bent(self.line(u, v), lens);
-                rays.set(number, &Ray { direction: unit(ray.direction), ..ray });
-            }
+            self.find_blurred(Instructions::best(), focus, &places, &mut rays);
             all.extend((0..points.len()).map(|number| Some(rays.at(number))));
         }
         all

@@ -20,6 +20,17 @@ fn ground(offset: f64, alt: f64) -> Ground {
     Ground { up: UnitVector::Y, offset, alt }
 }
 
+/// Returns the mean density over a ray.
+fn density(ground: &Ground, origin: Vector, direction: Vector, length: f64) -> f64 {
+    let rays = Rays::new([Ray { origin, direction }].iter());
+    let mut row = [0.0; ROW];
+    dispatch!(Instructions::best().level(), simd => {
+        let way = Way { ray: rays.four(simd, 0), length: all(simd, length), lanes: 1 };
+        store(way.density(simd, ground), &mut row, 0);
+    });
+    row[0]
+}
+
 #[test]
 fn fog_is_as_dense_as_pov_ray_shows_it() {
     let behind = Rgb::new(0.9, 0.5, 0.2);
@@ -90,7 +101,7 @@ fn a_ray_in_two_parts_passes_as_much_fog_as_in_one() {
         let start = random.point(1.0) * random.size(-3.0, 6.0);
         let (one, two) = (random.size(-3.0, 6.0), random.size(-3.0, 6.0));
         let depth = |start, length| {
-            let density = fog.ground.map_or(1.0, |g| g.density(start, direction, length));
+            let density = fog.ground.map_or(1.0, |g| density(&g, start, direction, length));
             density * length / fog.distance
         };
         let all = depth(start, one + two);
@@ -109,7 +120,7 @@ fn a_nearly_level_ray_has_the_density_of_its_height() {
         for slope in [0.0, 1e-300, 1e-30, -1e-22, 1e-17 / length, -1e-17 / length] {
             let direction = Vector::new(1.0, slope, 0.0);
             for height in [1e-9, 0.5, 1.0, 30.0, 1e9] {
-                let density = ground(0.0, 2.0).density(Vector::Y * height, direction, length);
+                let density = density(&ground(0.0, 2.0), Vector::Y * height, direction, length);
                 let u = height / 2.0;
                 let exact = 1.0 / (1.0 + u * u);
                 assert!((density / exact - 1.0).abs() < 1e-7, "{length} {slope} {height}");
@@ -123,7 +134,7 @@ fn a_ray_far_above_the_fog_keeps_its_digits() {
     // From height a to b the integral is tan⁻¹((b − a)/(1 + ab)); a difference of two arc tangents near π/2 would
     // have no digit left.
     for height in [1e5, 1e8, 1e12, 1e30] {
-        let density = ground(0.0, 1.0).density(Vector::Y * height, Vector::Y, height);
+        let density = density(&ground(0.0, 1.0), Vector::Y * height, Vector::Y, height);
         let exact = 0.5 / height / height;
         assert!((density / exact - 1.0).abs() < 1e-9, "{height}: {density:e}");
     }
@@ -132,14 +143,14 @@ fn a_ray_far_above_the_fog_keeps_its_digits() {
 #[test]
 fn fog_without_an_alt_ends_at_its_offset() {
     let sharp = ground(1.0, Ground::SHARP);
-    let density = |from: f64, to: f64| {
-        sharp.density(Vector::Y * from, Vector::Y * (to - from).signum(), (to - from).abs())
+    let between = |from: f64, to: f64| {
+        density(&sharp, Vector::Y * from, Vector::Y * (to - from).signum(), (to - from).abs())
     };
-    assert_eq!(density(-3.0, 0.5), 1.0);
-    assert_eq!(density(-1.0, 3.0), 0.5);
-    assert_eq!(density(3.0, -1.0), 0.5);
-    assert!(density(1.5, 3.0) < 1e-50);
-    assert_eq!(sharp.density(Vector::Y, Vector::X, 5.0), 1.0);
+    assert_eq!(between(-3.0, 0.5), 1.0);
+    assert_eq!(between(-1.0, 3.0), 0.5);
+    assert_eq!(between(3.0, -1.0), 0.5);
+    assert!(between(1.5, 3.0) < 1e-50);
+    assert_eq!(density(&sharp, Vector::Y, Vector::X, 5.0), 1.0);
 }
 
 #[test]
@@ -196,5 +207,41 @@ fn no_numbers_break_it() {
         let length = size().abs();
         let Veil { through, added } = veil(&[fog, fog], start, unit(aim).get(), length);
         assert!(through.is_finite() && added.is_finite(), "{fog:?} {start} {length}");
+    }
+}
+
+#[test]
+fn rays_side_by_side_have_the_veils_of_each_alone() {
+    let mut random = Random(13);
+    for _ in 0..tries() {
+        let stirred = Churn {
+            scale: Vector::new(0.3, 1.0, 2.0),
+            depth: random.number(-1.0, 2.0),
+            turbulence: Turbulence::new(2.0, 0.5, 6.0),
+            noise: NoiseGenerator::RangeCorrected,
+        };
+        let distance = random.size(-2.0, 3.0) * [-1.0, 1.0][random.below(2)];
+        let low = Fog {
+            ground: Some(ground(random.number(-2.0, 2.0), random.size(-2.0, 2.0))),
+            churn: Some(stirred),
+            ..uniform(distance)
+        };
+        let fogs = [low, uniform(random.size(-1.0, 3.0))];
+        let list: [Ray; ROW] = std::array::from_fn(|_| Ray {
+            origin: random.point(3.0),
+            direction: random.direction().get(),
+        });
+        let lengths = std::array::from_fn(|_| random.size(-3.0, 6.0));
+        let mask = random.bits() as u32 & 0xffff;
+        let mut veils = [Veil::NONE; ROW];
+        add(&fogs, &Rays::new(list.iter()), mask, &lengths, &mut veils);
+        for number in 0..ROW {
+            let Ray { origin, direction } = list[number];
+            let alone = match mask >> number & 1 {
+                1 => veil(&fogs, origin, direction, lengths[number]),
+                _ => Veil::NONE,
+            };
+            assert_eq!(veils[number], alone);
+        }
     }
 }
