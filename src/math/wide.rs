@@ -10,7 +10,7 @@ pub(crate) mod elementary;
 
 pub(crate) use fearless_simd::dispatch;
 pub(crate) use fearless_simd::prelude::*;
-use fearless_simd::{Level, f64x4, mask64x4};
+use fearless_simd::{Level, f64x4, mask64x4, u64x4};
 
 use super::Vector;
 use super::ray::Ray;
@@ -26,6 +26,7 @@ pub const GROUPS: usize = ROW / LANES;
 pub type Row = [f64; ROW];
 pub(crate) type Wide<S> = f64x4<S>;
 pub(crate) type Mask<S> = mask64x4<S>;
+pub(crate) type WideBits<S> = u64x4<S>;
 
 /// The instructions that compute with numbers side by side. No bit of a picture depends on them.
 #[derive(Debug, Clone, Copy)]

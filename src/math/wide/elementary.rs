@@ -4,11 +4,13 @@
 //! [`math::elementary`](crate::math::elementary), whose steps depend on the number.
 
 use super::*;
-use fearless_simd::u64x4;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LOG2_E};
 
 /// ln 2 in two parts. The last bits of the first are 0, so its product with a whole number below 2¹¹ is exact.
 const LN_2: [f64; 2] = [0.693_147_180_559_890_3, 5.497_923_018_708_371e-14];
+
+/// 1.5 · 2⁵²: the last bits of what is added to it are those of a whole number.
+const LAST_BITS_WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// Taylor's series of eˣ: 1/13!, 1/12! … 1/2!. For |x| ≤ ln 2 / 2 the rest is below 5·10⁻¹⁸.
 const EXP: [f64; 12] = [
@@ -34,8 +36,8 @@ pub(crate) fn exp<S: Simd>(simd: S, x: Wide<S>) -> Wide<S> {
     let series = polynomial(simd, r, &EXP);
     let mantissa = all(simd, 1.0) + (r + r * r * series);
     // The last bits of this sum are n − 1, biased as an exponent is. 2ⁿ itself may be beyond the greatest number.
-    let biased = n + all(simd, 1.5 * 2f64.powi(52) + 1022.0);
-    let power: Wide<S> = (biased.bitcast::<u64x4<S>>() << 52).bitcast();
+    let biased = n + all(simd, LAST_BITS_WHOLE + 1022.0);
+    let power: Wide<S> = (biased.bitcast::<WideBits<S>>() << 52).bitcast();
     let result = mantissa * power * all(simd, 2.0);
     let result = x.simd_gt(all(simd, 710.0)).select(all(simd, f64::INFINITY), result);
     x.simd_lt(all(simd, -708.0)).select(all(simd, 0.0), result)
