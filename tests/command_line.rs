@@ -2,6 +2,7 @@
 
 mod channels;
 mod language;
+mod limits;
 mod long;
 #[cfg(unix)]
 mod povray;

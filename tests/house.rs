@@ -162,6 +162,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("clap_mangen", &["cli/"]),
     ("indicatif", &["cli/"]),
     ("ctrlc", &["cli/"]),
+    ("memory_stats", &["cli/stop.rs"]),
     ("nix", &["cli/"]),
     ("similar", &["cli/"]),
     ("tempfile", &["cli/"]),

@@ -57,7 +57,7 @@ Exit codes:
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Render a scene to a picture file
-    Render(RenderArguments),
+    Render(Box<RenderArguments>),
     /// Make one picture of the parts that `render --shard` wrote
     Merge(MergeArguments),
     /// Print completions of the command line for a shell

@@ -51,6 +51,11 @@ impl Failure {
         Self { exit: Exit::Limit, sentence: sentence.to_string(), help: None }
     }
 
+    /// A failure of what may succeed another time.
+    pub fn again(self) -> Self {
+        Self { exit: Exit::Again, ..self }
+    }
+
     pub fn help(mut self, help: impl Display) -> Self {
         self.help = Some(help.to_string());
         self

@@ -36,7 +36,7 @@ fn each(
     said: &str,
     done: impl Fn(&Path, &[u8]) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let files = files.written().map(|written| written.files()).unwrap_or_default();
+    let files = files.written().map(|written| written.take()).unwrap_or_default();
     if !whole && !files.is_empty() {
         messages::eprint("the scene has errors: the files that it writes were left as they are\n");
         return Ok(());
@@ -52,13 +52,13 @@ fn each(
 
 /// Files whose names and contents are recorded.
 pub struct Recorded<'a> {
-    files: &'a DiskFiles,
+    files: &'a dyn Files,
     read: RefCell<Digest>,
     names: RefCell<BTreeSet<String>>,
 }
 
 impl<'a> Recorded<'a> {
-    pub fn new(files: &'a DiskFiles) -> Self {
+    pub fn new(files: &'a dyn Files) -> Self {
         Self { files, read: RefCell::default(), names: RefCell::default() }
     }
 

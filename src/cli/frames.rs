@@ -2,12 +2,10 @@
 //!
 //! **Invariant:** a frame has the bytes of the same frame alone.
 
-use std::cell::RefCell;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use lucarne::disk::reason;
-use lucarne::evaluate::Animation;
 use lucarne::film::{Depth, Film};
 use lucarne::picture::animated::{Animated, AnimatedFormat};
 use lucarne::picture::{Format, encode};
@@ -15,10 +13,13 @@ use lucarne::picture::{Format, encode};
 use super::animation::FrameRange;
 use super::arguments::{RenderArguments, Shard};
 use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::kept::Kept;
 use super::messages;
 use super::output::{Output, cannot, temporary};
 use super::promise::Made;
-use super::render::{Frame, Job, picture};
+use super::render::{Frame, Job, Shared, picture};
+use super::stop::{self, Cause};
 use super::text::read_scene;
 
 /// Renders the frames in their order. An interrupt or an error ends it; what is done is kept.
@@ -27,12 +28,22 @@ pub fn run(arguments: &RenderArguments, range: &FrameRange) -> Outcome {
         let sentence = "parts of an animation are numbered pictures, not one file";
         return Err(Failure::usage(sentence).help("with `--shard`, write a .png"));
     }
+    let scene = read_scene(&arguments.file)?;
+    let disk = files::of(&arguments.file, &arguments.scene);
+    let messages = arguments.scene.messages().of_frames();
+    let mut shared = Shared { scene: &scene, disk: &disk, files: &Kept::new(&disk), messages };
+    let outcome = all(arguments, range, &mut shared);
+    shared.messages.print_log();
+    outcome
+}
+
+fn all(arguments: &RenderArguments, range: &FrameRange, shared: &mut Shared) -> Outcome {
     let out = arguments.output.as_deref();
     let extension = out.and_then(Path::extension).unwrap_or_default().to_string_lossy();
     match (out, AnimatedFormat::from_extension(&extension)) {
-        (Some(path), Some(format)) => animated(arguments, range, path, format),
-        (Some(path), None) if path == Path::new("-") => raw(arguments, range),
-        _ => numbered(arguments, range),
+        (Some(path), Some(format)) => animated(arguments, range, shared, (path, format)),
+        (Some(path), None) if path == Path::new("-") => raw(arguments, range, shared),
+        _ => numbered(arguments, range, shared),
     }
 }
 
@@ -42,24 +53,19 @@ fn is_one_file(out: &Path) -> bool {
 }
 
 /// A picture for each frame, under the name of the output and its number.
-fn numbered(arguments: &RenderArguments, range: &FrameRange) -> Outcome {
+fn numbered(arguments: &RenderArguments, range: &FrameRange, shared: &mut Shared) -> Outcome {
     let whole = Output::from_arguments(&arguments.file, arguments.output.as_deref())?;
-    let Output::File { path, format } = whole else { return raw(arguments, range) };
-    let printed = RefCell::default();
+    let Output::File { path, format } = whole else { return raw(arguments, range, shared) };
     let Shard { number, all } = arguments.work.shard.unwrap_or(Shard { number: 1, all: 1 });
-    let scene = read_scene(&arguments.file)?;
     let mine = frames(range)?.into_iter().skip(number as usize - 1).step_by(all as usize);
-    for (animation, clock) in mine {
+    for frame in mine {
+        let (animation, _) = frame;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let extension = path.extension().unwrap_or_default().to_string_lossy();
         let name = format!("{}.{extension}", range.name(&stem, animation.frame_number));
         let output = Output::File { path: path.with_file_name(name), format };
-        match picture(
-            arguments,
-            &output,
-            &scene,
-            Some(Frame { animation, clock, printed: &printed }),
-        )? {
+        shared.messages.next_frame();
+        match picture(arguments, &output, shared, Some(frame))? {
             Exit::Done => {}
             exit => return Ok(exit),
         }
@@ -71,8 +77,8 @@ fn numbered(arguments: &RenderArguments, range: &FrameRange) -> Outcome {
 fn animated(
     arguments: &RenderArguments,
     range: &FrameRange,
-    path: &Path,
-    format: AnimatedFormat,
+    shared: &mut Shared,
+    (path, format): (&Path, AnimatedFormat),
 ) -> Outcome {
     if arguments.bits.is_some_and(|bits| bits != 8) {
         return Err(Failure::usage("an animated picture has 8 bits a channel"));
@@ -84,7 +90,7 @@ fn animated(
     let count = frames(range)?.len() as u32;
     let beside = temporary(path)?;
     let mut file = None;
-    let exit = each(arguments, range, &output, &mut |film| {
+    let exit = each(arguments, range, shared, &output, &mut |film| {
         let animated = match &mut file {
             Some(animated) => animated,
             None => {
@@ -106,19 +112,19 @@ fn animated(
 }
 
 /// PPM pictures, one after the other, on standard output.
-fn raw(arguments: &RenderArguments, range: &FrameRange) -> Outcome {
+fn raw(arguments: &RenderArguments, range: &FrameRange, shared: &mut Shared) -> Outcome {
     let depth = Format::Ppm.depth(arguments.bits).unwrap_or_default();
     if arguments.alpha {
         return Err(Failure::usage("a stream of .ppm pictures cannot have an alpha channel"));
     }
-    each(arguments, range, &Output::Stdout, &mut |film| {
+    each(arguments, range, shared, &Output::Stdout, &mut |film| {
         let bytes = encode(film, depth, Format::Ppm).map_err(Failure::file)?;
         messages::print_with(&|out: &mut dyn Write| out.write_all(&bytes))
     })
 }
 
 /// Returns the frames that are rendered; fails if there are none.
-fn frames(range: &FrameRange) -> Result<Vec<(Animation, f64)>, Failure> {
+fn frames(range: &FrameRange) -> Result<Vec<Frame>, Failure> {
     let frames = range.frames();
     match frames.is_empty() {
         true => Err(Failure::usage("`--only` leaves none of the frames")),
@@ -130,22 +136,24 @@ fn frames(range: &FrameRange) -> Result<Vec<(Animation, f64)>, Failure> {
 fn each(
     arguments: &RenderArguments,
     range: &FrameRange,
+    shared: &mut Shared,
     output: &Output,
     pass: &mut dyn FnMut(&Film) -> Result<(), Failure>,
 ) -> Outcome {
-    let (frames, printed) = (frames(range)?, RefCell::default());
-    let scene = read_scene(&arguments.file)?;
+    let frames = frames(range)?;
     let format = if *output == Output::Stdout { Format::Ppm } else { Format::Png };
-    for (number, &(animation, clock)) in frames.iter().enumerate() {
-        let frame = Frame { animation, clock, printed: &printed };
-        let mut job = Job::new(arguments, format, &scene)?;
+    for (number, &frame) in frames.iter().enumerate() {
+        shared.messages.next_frame();
+        let mut job = Job::new(arguments, format)?;
         job.fits(arguments)?;
-        let Made { traced, said, exit } = match job.make(arguments, output, Some(frame))? {
+        let Made { traced, said, exit } = match job.make(arguments, output, shared, Some(frame))? {
             Ok(made) => made,
             Err(exit) => return Ok(exit),
         };
         if !traced.complete {
-            messages::eprint(&format!("interrupted in frame {} of {}\n", number + 1, frames.len()));
+            let cause = stop::cause().unwrap_or(Cause::Interrupt);
+            let (number, all) = (number + 1, frames.len());
+            messages::eprint(&format!("{cause}: in frame {number} of {all}\n"));
             return Ok(exit);
         }
         pass(&traced.film)?;

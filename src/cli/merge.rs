@@ -24,15 +24,15 @@ pub fn run(arguments: &MergeArguments) -> Outcome {
         let wrong = |why: &str| Failure::file(format!("cannot merge `{name}`: {why}"));
         // What is missing or incomplete will be there when its render has run again.
         let bytes = fs::read(path).map_err(|error| match error.kind() {
-            ErrorKind::NotFound => again(wrong(&reason(&error))),
+            ErrorKind::NotFound => wrong(&reason(&error)).again(),
             _ => wrong(&reason(&error)),
         })?;
         let saved = load(&bytes).map_err(|damage| match damage {
-            Damage::Broken => again(wrong(&damage.to_string())),
+            Damage::Broken => wrong(&damage.to_string()).again(),
             Damage::Foreign => wrong(&damage.to_string()),
         })?;
         let Saved { purpose: Purpose::Part, key, region, films } = saved else {
-            return Err(again(wrong("it is a checkpoint: its part is not finished")));
+            return Err(wrong("it is a checkpoint: its part is not finished").again());
         };
         let [part] = &films[..] else { return Err(wrong("it is not a part of a picture")) };
         let (expected, film) = whole.get_or_insert_with(|| {
@@ -54,7 +54,7 @@ pub fn run(arguments: &MergeArguments) -> Outcome {
         .collect();
     if let (Some(first), Some(last)) = (missing.first(), missing.last()) {
         let sentence = format!("parts are missing: {} rows, from {first} to {last}", missing.len());
-        return Err(again(Failure::file(sentence)).help("render them, and merge again"));
+        return Err(Failure::file(sentence).again().help("render them, and merge again"));
     }
     let depth = depth_of(format, arguments.bits, film.channels == Channels::Rgba)?;
     output.check(region, depth, arguments.force)?;
@@ -69,9 +69,4 @@ pub fn run(arguments: &MergeArguments) -> Outcome {
         arguments.parts.len()
     ));
     Ok(Exit::Done)
-}
-
-/// A failure of what may succeed another time.
-fn again(failure: Failure) -> Failure {
-    Failure { exit: Exit::Again, ..failure }
 }

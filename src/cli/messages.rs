@@ -53,6 +53,8 @@ pub struct Messages {
     pub picture_on_stdout: bool,
     /// What a SARIF log has so far.
     results: RefCell<Vec<serde_json::Value>>,
+    /// In an animation: the messages of frames so far that are not printed again.
+    printed: Option<Vec<Diagnostic>>,
     style: render::Style,
     errors: usize,
     warnings: usize,
@@ -71,6 +73,7 @@ impl Messages {
             deny_warnings,
             picture_on_stdout: false,
             results: RefCell::default(),
+            printed: None,
             style,
             errors: 0,
             warnings: 0,
@@ -85,6 +88,29 @@ impl Messages {
         Self { allowed, ..self }
     }
 
+    /// Prints a warning that several frames have once, and one SARIF log for all of them, by [`Self::print_log`].
+    pub fn of_frames(self) -> Self {
+        Self { printed: Some(Vec::new()), ..self }
+    }
+
+    /// Starts the messages of the next frame, which are counted anew.
+    pub fn next_frame(&mut self) {
+        (self.errors, self.warnings, self.limits) = (0, 0, 0);
+    }
+
+    /// Whether a message is printed: in an animation, a warning is only the first time, and in SARIF, each message.
+    fn is_new(&mut self, one: &Diagnostic) -> bool {
+        let Some(printed) = &mut self.printed else { return true };
+        if one.severity != Severity::Warning && self.format != Format::Sarif {
+            return true;
+        }
+        let is_new = !printed.contains(one);
+        if is_new {
+            printed.push(one.clone());
+        }
+        is_new
+    }
+
     /// Prints all of the messages.
     pub fn print<'a>(
         &mut self,
@@ -94,6 +120,9 @@ impl Messages {
         let (mut out, mut errors, mut warnings, mut more) = (String::new(), 0, 0, 0);
         let mut of_code: BTreeMap<Code, usize> = BTreeMap::new();
         for diagnostic in list {
+            if !self.is_new(diagnostic) {
+                continue;
+            }
             match diagnostic.severity {
                 Severity::Error if diagnostic.code.is_limit() => self.limits += 1,
                 Severity::Error => self.errors += 1,
@@ -168,14 +197,22 @@ impl Messages {
         matches!(self.format, Format::Json | Format::Sarif | Format::Github)
     }
 
-    /// Prints the totals (`2 errors, 1 warning`) in the formats for people, and the log of SARIF.
-    pub fn summarize(&self) {
+    /// Prints the log of SARIF, if it was asked for.
+    pub fn print_log(&self) {
         if self.format == Format::Sarif {
             let log = sarif::log(&self.results.take()) + "\n";
             match self.picture_on_stdout {
                 true => eprint(&log),
                 false => drop(print(&log)),
             }
+        }
+    }
+
+    /// Prints the totals (`2 errors, 1 warning`) in the formats for people, and the log of SARIF unless more frames
+    /// follow.
+    pub fn summarize(&self) {
+        if self.printed.is_none() {
+            self.print_log();
         }
         let summary = render::summary(self.errors + self.limits, self.warnings);
         if let (Format::Human | Format::Narrated, Some(summary)) = (self.format, summary) {

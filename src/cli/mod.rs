@@ -15,6 +15,8 @@ mod fmt;
 mod frames;
 mod heartbeat;
 mod hint;
+mod ini;
+mod kept;
 mod language;
 mod manual;
 mod merge;
@@ -28,6 +30,7 @@ mod render;
 mod scene;
 mod show;
 mod stats;
+mod stop;
 mod text;
 mod values;
 
@@ -41,6 +44,8 @@ use lucarne::diagnostic::suggest::closest;
 
 use arguments::{Arguments, Command};
 use exit::{Exit, Failure, Outcome};
+use ini::Ini;
+use stop::Cause;
 
 /// Parses the command line, runs the command and returns its exit code.
 pub fn main() -> ExitCode {
@@ -57,9 +62,24 @@ pub fn main() -> ExitCode {
     })
 }
 
-/// Parses the words. If they are invalid, fails with clap's answer or a more helpful one.
-fn parsed(words: Vec<OsString>) -> Result<Arguments, Failure> {
-    Arguments::try_parse_from(&words).map_err(|error| {
+/// Parses the words, and those that an INI file adds as the file of `render`.
+fn parsed(mut words: Vec<OsString>) -> Result<Arguments, Failure> {
+    let mut arguments = parsed_alone(&words)?;
+    let Command::Render(render) = &arguments.command else { return Ok(arguments) };
+    let Some(ini) = Ini::read(&render.file)? else { return Ok(arguments) };
+    // Behind the name of the command.
+    let more = ini.words(&words);
+    words.splice(2..2, more);
+    arguments = parsed_alone(&words)?;
+    if let Command::Render(render) = &mut arguments.command {
+        render.file = ini.scene;
+    }
+    Ok(arguments)
+}
+
+/// Parses words. If they are invalid, fails with clap's answer or a more helpful one.
+fn parsed_alone(words: &[OsString]) -> Result<Arguments, Failure> {
+    Arguments::try_parse_from(words).map_err(|error| {
         let words: Vec<String> =
             words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
         hint::meant(&words, &error).unwrap_or_else(|| error.exit())
@@ -74,7 +94,10 @@ fn run(arguments: Arguments) -> Outcome {
     let is_part = |command: &Command| matches!(command, Command::Render(arguments) if arguments.work.shard.is_some());
     // A part is rendered again by whoever divided the picture.
     let interrupted = if is_part(&arguments.command) { Exit::Again } else { Exit::Interrupted };
-    progress::hear_interrupts(before_tracing, interrupted as i32);
+    stop::hear_interrupts(before_tracing, interrupted as i32);
+    if let Command::Render(arguments) = &arguments.command {
+        stop::limit(arguments.work.time, arguments.work.memory)?;
+    }
     if let Some(scene) = arguments.command.scene() {
         files::exist(&scene.include)?;
     }
@@ -93,11 +116,12 @@ fn run(arguments: Arguments) -> Outcome {
         Command::Man => manual::man(),
         Command::Explain(arguments) => explain::run(&arguments),
     }?;
-    match exit {
+    Ok(match (exit, stop::cause()) {
         // The limit was Ctrl-C.
-        Exit::Limit | Exit::Interrupted if progress::interrupt().is_set() => Ok(interrupted),
-        exit => Ok(exit),
-    }
+        (Exit::Limit | Exit::Interrupted, Some(Cause::Interrupt)) => interrupted,
+        (Exit::Interrupted, Some(Cause::Time(_) | Cause::Memory(_))) => Exit::Limit,
+        _ => exit,
+    })
 }
 
 /// Runs `work`, and turns a panic into a message on how to report the bug.

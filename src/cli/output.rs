@@ -238,6 +238,15 @@ pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 /// Writes a file like [`write_whole`], piece by piece.
 pub fn write_with(file: &Path, content: Picture) -> Result<(), Failure> {
+    replaced(file, content, |_| ()).map(drop)
+}
+
+/// Writes a file like [`write_with`], and returns it open. `before` is called with it before it has its name.
+pub fn replaced(
+    file: &Path,
+    content: Picture,
+    before: impl FnOnce(&fs::File),
+) -> Result<fs::File, Failure> {
     let failed = |error: io::Error| cannot(file, &reason(&error));
     // Keeps a link and replaces its target.
     let path = &fs::canonicalize(file).unwrap_or(file.to_owned());
@@ -246,8 +255,8 @@ pub fn write_with(file: &Path, content: Picture) -> Result<(), Failure> {
     if let Ok(about) = fs::metadata(path) {
         beside.as_file().set_permissions(about.permissions()).map_err(failed)?;
     }
-    beside.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
+    before(beside.as_file());
+    beside.persist(path).map_err(|error| failed(error.error))
 }
 
 fn written(out: &mut dyn Write, content: Picture) -> io::Result<()> {

@@ -1,60 +1,22 @@
-//! Shows a progress bar while tracing, and handles Ctrl-C.
+//! Shows a progress bar while tracing.
 //!
 //! **Invariant:** the bar is drawn on standard error, and only if that is a terminal; otherwise a line is
 //! printed at intervals. The display never stalls.
 
 use std::io::IsTerminal;
-use std::process;
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use lucarne::evaluate::Interrupt;
 use lucarne::trace::Watch;
 
 use super::heartbeat::{Life, NOW_AND_THEN};
 use super::messages;
 use super::stats::cpu_seconds;
+use super::stop;
 
 /// Interval between updates of the display.
 const TICK: Duration = Duration::from_millis(200);
-/// Whether tracing has started.
-static TRACING: AtomicBool = AtomicBool::new(false);
-/// Whether Ctrl-C was pressed.
-static STOP: AtomicBool = AtomicBool::new(false);
-
-/// Time granted to a loop of the scene to notice Ctrl-C and to print the message that names it.
-const GRACE: Duration = Duration::from_secs(1);
-
-/// Installs the Ctrl-C handler. While tracing, the first Ctrl-C stops the trace and the second ends the
-/// program. Before tracing, the first one stops a running loop of the scene, or else ends the program with
-/// the message `before_tracing` and this exit code.
-pub fn hear_interrupts(before_tracing: &'static str, code: i32) {
-    // If this fails, Ctrl-C ends the program at once, which is acceptable.
-    let _ = ctrlc::set_handler(move || {
-        let again = STOP.swap(true, Ordering::SeqCst);
-        if !again && !TRACING.load(Ordering::SeqCst) {
-            thread::sleep(GRACE);
-        }
-        if again || !TRACING.load(Ordering::SeqCst) {
-            messages::eprint(if again { "\n" } else { before_tracing });
-            process::exit(code);
-        }
-    });
-}
-
-/// Returns the flag that Ctrl-C sets.
-pub fn interrupt() -> Interrupt {
-    Interrupt(Some(&STOP))
-}
-
-/// From now on, Ctrl-C stops the trace.
-pub fn begin_tracing() {
-    TRACING.store(true, Ordering::SeqCst);
-}
-
 /// Reports progress of work that has no bar, if standard error is not a terminal.
 pub fn life(name: &'static str) -> Option<Life> {
     let say = |line: &str| messages::eprint(line);
@@ -70,7 +32,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Starts the display with `name` as the current step. From now on, Ctrl-C stops the trace.
+    /// Starts the display with `name` as the current step. From now on, Ctrl-C and limits stop the trace.
     pub fn start(name: &'static str) -> Self {
         let bar = match std::io::stderr().is_terminal() {
             true => ProgressBar::new(1),
@@ -84,7 +46,7 @@ impl Progress {
         );
         // Updates the elapsed time even while one step takes long.
         bar.enable_steady_tick(TICK);
-        begin_tracing();
+        stop::begin_tracing();
         Self { bar, life: life(name), started: cpu_seconds(), built: OnceLock::new() }
     }
 
@@ -93,9 +55,9 @@ impl Progress {
         self.built.get().map_or(0.0, |built| built - self.started)
     }
 
-    /// Whether Ctrl-C was pressed.
+    /// Whether the trace is to stop.
     pub fn is_stopped(&self) -> bool {
-        STOP.load(Ordering::Relaxed)
+        stop::is_set()
     }
 
     /// Starts the next step.
@@ -125,6 +87,6 @@ impl Watch for Progress {
     }
 
     fn should_stop(&self) -> bool {
-        STOP.load(Ordering::Relaxed)
+        stop::is_set()
     }
 }

@@ -1,30 +1,31 @@
 //! `lucarne render`: renders a scene file to a picture file.
 
-use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 use lucarne::accuracy;
-use lucarne::diagnostic::{Diagnostic, Severity};
+use lucarne::disk::DiskFiles;
 use lucarne::evaluate::{Animation, EvaluateOptions, Interrupt};
 use lucarne::film::saved::{Purpose, Saved, save};
 use lucarne::film::{Channel, Channels, Depth, Developer, Film, Surfaces};
 use lucarne::picture::{self, Format};
 use lucarne::plan::{self, PlanOptions, Region};
 use lucarne::road::Road;
+use lucarne::source::Files;
 use lucarne::trace::{TraceOptions, Traced, first_surfaces};
 
 use super::arguments::{RenderArguments, Shard};
-use super::checkpoint::{self, Checkpoint};
+use super::checkpoint::{self, Begun, Checkpoint};
 use super::exit::{Exit, Failure, Outcome};
 use super::files::{self, Recorded};
-use super::messages;
+use super::messages::{self, Messages};
 use super::output::{Output, Picture, depth_of, write_whole, write_with};
 use super::progress::{self, Progress};
 use super::promise::{self, Made};
 use super::stats::{Stats, Stopwatch, peak_rss_bytes};
+use super::stop::{self, Cause};
 use super::text::{name_of, read_scene};
 
 pub fn run(arguments: &RenderArguments) -> Outcome {
@@ -32,41 +33,36 @@ pub fn run(arguments: &RenderArguments) -> Outcome {
     if arguments.work.shard.is_some() && output == Output::Stdout {
         return Err(Failure::usage("a part cannot be written to standard output"));
     }
-    picture(arguments, &output, &read_scene(&arguments.file)?, None)
+    let scene = read_scene(&arguments.file)?;
+    let disk = files::of(&arguments.file, &arguments.scene);
+    let messages = arguments.scene.messages();
+    let mut shared = Shared { scene: &scene, disk: &disk, files: &disk, messages };
+    picture(arguments, &output, &mut shared, None)
 }
 
-/// A frame of an animation.
-#[derive(Clone, Copy)]
-pub struct Frame<'a> {
-    pub animation: Animation,
-    pub clock: f64,
-    /// The warnings of frames before.
-    pub printed: &'a RefCell<Vec<Diagnostic>>,
+/// What the frames of an animation share, and a still has alone.
+pub struct Shared<'a> {
+    pub scene: &'a [u8],
+    pub disk: &'a DiskFiles,
+    /// Reads from `disk`, possibly once for all frames.
+    pub files: &'a dyn Files,
+    pub messages: Messages,
 }
 
-impl Frame<'_> {
-    /// Whether to print a message: a warning only the first time.
-    fn is_new(&self, one: &Diagnostic) -> bool {
-        let mut printed = self.printed.borrow_mut();
-        let is_new = one.severity != Severity::Warning || !printed.contains(one);
-        if is_new && one.severity == Severity::Warning {
-            printed.push(one.clone());
-        }
-        is_new
-    }
-}
+/// A frame of an animation, and its clock.
+pub type Frame = (Animation, f64);
 
 /// Renders one picture to its place: a still, or a frame.
 pub fn picture(
     arguments: &RenderArguments,
     output: &Output,
-    scene: &[u8],
+    shared: &mut Shared,
     frame: Option<Frame>,
 ) -> Outcome {
-    let mut job = Job::new(arguments, output.format(), scene)?;
+    let mut job = Job::new(arguments, output.format())?;
     output.check(job.frame.region, job.depth, arguments.force)?;
     job.fits(arguments)?;
-    let Made { traced, said, exit } = match job.make(arguments, output, frame)? {
+    let Made { traced, said, exit } = match job.make(arguments, output, shared, frame)? {
         Ok(made) => made,
         Err(exit) => return Ok(exit),
     };
@@ -101,21 +97,17 @@ pub fn picture(
     job.stats.count(&traced.counters);
 
     if !traced.complete && exit == Exit::Interrupted {
-        messages::eprint(&match written {
-            Some(place) => {
-                let what = match 100 * done / pixels.max(1) {
-                    100 => "one ray of each pixel, and a part of the smooth edges, are".to_owned(),
-                    share => format!("the {share} % that are done are"),
-                };
-                let resume = match job.checkpoint(arguments, output) {
-                    Some(path) if path.exists() => "; `--resume` goes on from there",
-                    _ => "",
-                };
-                format!("interrupted: {what} in {}{resume}\n", place.name())
+        let what = match (written, 100 * done / pixels.max(1)) {
+            (None, _) => "nothing was written".to_owned(),
+            (Some(place), 100) => {
+                format!(
+                    "one ray of each pixel, and a part of the smooth edges, are in {}",
+                    place.name()
+                )
             }
-            None => "interrupted: nothing was written\n".to_owned(),
-        });
-        return Ok(Exit::Interrupted);
+            (Some(place), share) => format!("the {share} % that are done are in {}", place.name()),
+        };
+        return Ok(job.stopped(&what));
     }
     let Job { stats, frame, .. } = &job;
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
@@ -140,28 +132,25 @@ pub fn picture(
 }
 
 /// What is known of a picture before it is rendered, and what it took.
-pub struct Job<'a> {
+pub struct Job {
     pub frame: plan::Frame,
     /// The region that the parts cover.
     whole: Region,
     /// Differs for other scenes and options, once the scene is compiled.
     key: u64,
     pub depth: Depth,
+    /// Whether there is a checkpoint of what is done.
+    is_kept: bool,
     format: Format,
     /// Once they are found, if the picture has them.
     surfaces: Option<Surfaces>,
-    bytes: &'a [u8],
     stats: Stats,
     watch: Stopwatch,
 }
 
-impl<'a> Job<'a> {
+impl Job {
     /// Reads the scene, and fails for what is known to be impossible.
-    pub fn new(
-        arguments: &RenderArguments,
-        format: Format,
-        bytes: &'a [u8],
-    ) -> Result<Self, Failure> {
+    pub fn new(arguments: &RenderArguments, format: Format) -> Result<Self, Failure> {
         let watch = Stopwatch::start();
         let depth = depth_of(format, arguments.bits, arguments.alpha)?;
         arguments.fits_channels(format)?;
@@ -170,8 +159,17 @@ impl<'a> Job<'a> {
         if let Some(shard) = arguments.still_shard() {
             frame.region = shard.of(whole)?;
         }
-        let (surfaces, stats) = (None, Stats::default());
-        Ok(Self { frame, whole, key: 0, depth, format, surfaces, bytes, stats, watch })
+        Ok(Self {
+            frame,
+            whole,
+            key: 0,
+            depth,
+            is_kept: false,
+            format,
+            surfaces: None,
+            stats: Stats::default(),
+            watch,
+        })
     }
 
     /// Fails if there is clearly too little memory.
@@ -186,16 +184,17 @@ impl<'a> Job<'a> {
         &mut self,
         arguments: &RenderArguments,
         output: &Output,
+        shared: &mut Shared,
         frame: Option<Frame>,
     ) -> Result<Result<Made, Exit>, Failure> {
+        let &mut Shared { scene: bytes, disk, files, ref mut messages } = shared;
         let place = self.checkpoint(arguments, output);
         let Self { stats, watch, .. } = self;
-        let dialect = arguments.scene.dialect(&arguments.file, self.bytes);
+        let dialect = arguments.scene.dialect(&arguments.file, bytes);
         let life = progress::life("reading the scene");
-        let files = files::of(&arguments.file, &arguments.scene);
-        let read = Recorded::new(&files);
+        let read = Recorded::new(files);
         let mut options = arguments.scene.options(dialect, Some(self.frame));
-        if let Some(Frame { animation, clock, .. }) = frame {
+        if let Some((animation, clock)) = frame {
             options.evaluate.animation = Some(animation);
             options.evaluate.clock = clock;
         }
@@ -205,7 +204,7 @@ impl<'a> Job<'a> {
         let decided = EvaluateOptions { now: 0.0, interrupt, ..options.evaluate.clone() };
         let mut road = Road::new(&read, options);
         watch.lap();
-        let file = road.read(&name_of(&arguments.file), self.bytes.to_vec());
+        let file = road.read(&name_of(&arguments.file), bytes.to_vec());
         let ast = road.parse(file);
         stats.parse_cpu_s = watch.lap();
         let scene = road.evaluate(ast);
@@ -213,20 +212,22 @@ impl<'a> Job<'a> {
         let (world, origins) = road.lower(scene);
         stats.lower_cpu_s = watch.lap();
 
-        let mut messages = arguments.scene.messages();
         messages.picture_on_stdout = *output == Output::Stdout;
-        let is_new = |one: &&Diagnostic| frame.is_none_or(|frame| frame.is_new(one));
-        let list = road.diagnostics.in_text_order().into_iter().filter(is_new);
-        messages.print(list, &road.sources)?;
+        messages.print(road.diagnostics.in_text_order().into_iter(), &road.sources)?;
         messages.summarize();
-        files::settle(&files, messages.exit() == Exit::Done)?;
+        files::settle(disk, messages.exit() == Exit::Done)?;
         if let Some(rule) = &arguments.deps {
             let names = [output.name(), name_of(&arguments.file).into_owned()];
             write_whole(rule, rule_for_make(&names, &read.names()).as_bytes())?;
         }
         match messages.exit() {
             Exit::Done => {}
-            other => return Ok(Err(other)),
+            other => {
+                if let Some(cause @ (Cause::Time(_) | Cause::Memory(_))) = stop::cause() {
+                    messages::eprint(&format!("error: {cause}: the scene was being read\n"));
+                }
+                return Ok(Err(other));
+            }
         }
         output.keeps(&road.sources, &read.names())?;
 
@@ -234,7 +235,7 @@ impl<'a> Job<'a> {
         let options = PlanOptions { alpha: arguments.alpha, ..options };
         let whole = plan::Frame { region: self.whole, ..self.frame };
         self.key = checkpoint::key(|digest| {
-            digest.add(self.bytes);
+            digest.add(bytes);
             read.add_to(digest);
             let asked = PlanOptions { frame: whole, ..options };
             digest.add(format!("{decided:?} {asked:?}").as_bytes());
@@ -259,15 +260,16 @@ impl<'a> Job<'a> {
             Some(path) => {
                 let begun = match arguments.work.resume {
                     true => checkpoint::resumed(path, self.key)?,
-                    false => Vec::new(),
+                    false => Begun::default(),
                 };
-                let every = arguments.work.checkpoint();
-                let of = (self.key, self.whole);
-                let saving = Checkpoint::new(&progress, path.clone(), of, every, begun.clone());
-                let made = promise::plainly(scene, &options, &threads, &saving, begun);
+                let (films, of) = (begun.films.clone(), (self.key, self.whole));
+                let when = (arguments.work.checkpoint(), arguments.work.is_limited());
+                let saving = Checkpoint::new(&progress, path.clone(), of, when, begun);
+                let made = promise::plainly(scene, &options, &threads, &saving, films);
                 if !made.traced.complete {
                     saving.save();
                 }
+                self.is_kept = saving.is_kept();
                 Ok(made)
             }
             None => promise::make(arguments, scene, &options, threads, written, (watch, &progress)),
@@ -294,11 +296,22 @@ impl<'a> Job<'a> {
         path.filter(|_| !is_promised && !is_frame).map(|path| checkpoint::beside(&path))
     }
 
+    /// Says why the trace stopped, and `what` it left; returns the exit code.
+    fn stopped(&self, what: &str) -> Exit {
+        let cause = stop::cause().unwrap_or(Cause::Interrupt);
+        let resume = if self.is_kept { "; `--resume` goes on from there" } else { "" };
+        messages::eprint(&format!("{cause}: {what}{resume}\n"));
+        match cause {
+            Cause::Time(_) if self.is_kept => Exit::Again,
+            Cause::Time(_) | Cause::Memory(_) => Exit::Limit,
+            Cause::Interrupt => Exit::Interrupted,
+        }
+    }
+
     fn write_part(&self, path: &Path, traced: Traced) -> Outcome {
         let name = path.display();
         if !traced.complete {
-            messages::eprint(&format!("interrupted: {name} is not written; `--resume` goes on\n"));
-            return Ok(Exit::Again);
+            return Ok(self.stopped(&format!("{name} is not written")));
         }
         let part = Saved {
             purpose: Purpose::Part,

@@ -11,7 +11,7 @@ use lucarne::scene::Dialect;
 
 use super::language::{self, Language};
 use super::messages::{self, Messages};
-use super::progress;
+use super::stop;
 use super::values::{Limit, Warnings, declare, limit, now, warning};
 
 /// Default limit on the number of pixels, raised or lowered by `--limit pixels=N`.
@@ -109,7 +109,7 @@ impl SceneArguments {
         }
         options.levels = self.levels(dialect);
         options.evaluate.now = now();
-        options.evaluate.interrupt = progress::interrupt();
+        options.evaluate.interrupt = stop::interrupt();
         for &(limit, n) in &self.limits {
             let small = u32::try_from(n).unwrap_or(u32::MAX);
             match limit {

@@ -193,6 +193,21 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     })
 }
 
+/// Parses a size of memory and returns it in bytes: `2G`, `1.5 GiB`, `500M` or `500MB`. Units are powers of 1024.
+pub fn bytes(text: &str) -> Result<u64, String> {
+    let lower = text.trim().to_ascii_lowercase();
+    let plain = lower.trim_end_matches('b').trim_end_matches('i');
+    let units = [("k", 10), ("m", 20), ("g", 30), ("t", 40)];
+    let size = units.iter().find_map(|(name, power)| {
+        let number: f64 = plain.strip_suffix(name)?.trim().parse().ok()?;
+        Some(number * f64::from(1 << (power / 2)) * f64::from(1 << (power / 2)))
+    });
+    let size = size.filter(|size| size.is_finite() && *size >= 1.0 && *size < 1e18);
+    let size =
+        size.ok_or_else(|| "expected a size with its unit, such as 500M or 2G".to_owned())?;
+    Ok(size as u64)
+}
+
 pub fn knob(text: &str) -> Result<&'static str, String> {
     // `adc_bailout`, as spelled in scenes, is `adc-bailout` here.
     let asked = text.trim().replace('_', "-");
@@ -339,6 +354,13 @@ mod tests {
         }
         for wrong in ["", "s", "-1s", "0", "inf", "nan", "1e99", "3d"] {
             assert!(seconds(wrong).is_err(), "{wrong}");
+        }
+        let sizes = [("2G", 2 << 30), ("1.5 GiB", 3 << 29), ("500mb", 500 << 20), ("4k", 4096)];
+        for (text, expected) in sizes {
+            assert_eq!(bytes(text), Ok(expected));
+        }
+        for wrong in ["", "2", "G", "-1G", "nanG", "1e30G", "0M", "2X", "infT"] {
+            assert!(bytes(wrong).is_err(), "{wrong}");
         }
         assert_eq!(error("0.01"), Ok(0.01));
         assert_eq!((error("1%"), error("1.5 %")), (Ok(0.01), Ok(0.015)));

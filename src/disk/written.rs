@@ -109,12 +109,14 @@ impl Written {
         }
     }
 
-    /// Returns the path, the name below the current folder and the contents of each file.
-    pub fn files(&self) -> Vec<(PathBuf, String, Vec<u8>)> {
-        let Ok(files) = self.files.lock() else { return Vec::new() };
+    /// Takes out the path, the name below the current folder and the contents of each file. From then on, they are read
+    /// from disk.
+    pub fn take(&self) -> Vec<(PathBuf, String, Vec<u8>)> {
+        let Ok(mut files) = self.files.lock() else { return Vec::new() };
+        let files = std::mem::take(&mut *files);
         let name =
             |path: &Path| path.strip_prefix(&self.root).unwrap_or(path).display().to_string();
-        files.iter().map(|(path, bytes)| (path.clone(), name(path), bytes.clone())).collect()
+        files.into_iter().map(|(path, bytes)| (path.clone(), name(&path), bytes)).collect()
     }
 }
 
@@ -173,7 +175,7 @@ mod tests {
         written.add(&new, b"new");
         assert_eq!(written.bytes(&old).as_deref(), Some(&b"old and new"[..]));
         assert_eq!((read("old.txt").as_deref(), read("sub/new.txt")), (Some("old"), None));
-        let files = written.files();
+        let files = written.take();
         let files: Vec<_> =
             files.iter().map(|(_, name, bytes)| (name.as_str(), &bytes[..])).collect();
         assert_eq!(files, [("old.txt", &b"old and new"[..]), ("sub/new.txt", b"new")]);

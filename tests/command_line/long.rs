@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::*;
 
 /// A scene that takes about a second in small, on one thread.
-const SLOW: &str = "\
+pub(super) const SLOW: &str = "\
 camera { location <0, 1, 6> look_at 0 }
 light_source { <4, 8, 6>, rgb 1 area_light 2*x, 2*z, 5, 5 jitter }
 #for (I, 0, 40)
@@ -82,6 +82,33 @@ fn a_checkpoint_of_another_scene_or_of_other_options_is_refused() {
     place.run(&resume).ends(3, &["it is incomplete or was changed"]);
     fs::write(place.path("a.png.checkpoint"), bytes).expect("written");
     place.run(&resume).ends(0, &["a.png: 160×120"]);
+}
+
+#[test]
+fn a_checkpoint_of_a_render_that_runs_is_left_to_it() {
+    let place = place();
+    let long = WORDS.replace("160x120", "800x600");
+    let mut first = place.command(&format!("{long} --checkpoint 10ms"));
+    let mut first = first.stderr(Stdio::null()).spawn().expect("runs");
+    while !place.path("a.png.checkpoint").exists() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let running = "another render of this picture is running";
+    let run = place.run(&format!("{long} --resume"));
+    run.ends(75, &["cannot go on from `a.png.checkpoint`: ", running]);
+    // Another picture of the same name is rendered, and saves and removes nothing else.
+    let other = place.run(&format!("{WORDS} --checkpoint 10ms"));
+    other.ends(0, &["note: no checkpoint: cannot write `a.png.checkpoint`: ", running, "160×120"]);
+    assert!(first.try_wait().expect("asked").is_none() && place.path("a.png.checkpoint").exists());
+    first.kill().expect("killed");
+    first.wait().expect("ended");
+    // The lock ended with its process.
+    place.run(&format!("{WORDS} --resume")).ends(3, &["of another scene, or of other options"]);
+    place
+        .run(&format!("{long} --resume --time 100ms"))
+        .ends(75, &["`--resume` goes on from there"]);
+    place.run("a.scene --size 8x6 -o a.png").ends(0, &["a.png: 8×6"]);
+    assert!(!place.path("a.png.checkpoint").exists());
 }
 
 #[test]

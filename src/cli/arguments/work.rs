@@ -6,7 +6,7 @@ use clap::Args;
 use lucarne::plan::Region;
 
 use crate::cli::exit::Failure;
-use crate::cli::values::seconds;
+use crate::cli::values::{bytes, seconds};
 
 /// How a render is saved, resumed and divided.
 #[derive(Debug, Args)]
@@ -22,9 +22,21 @@ pub struct WorkArguments {
     /// merge`; or of an animation every Nth frame, beginning with the Kth
     #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with_all = ["max_error", "time_budget"])]
     pub shard: Option<Shard>,
+    /// Stop after time T (500ms, 60s, 5m; a plain number is in seconds), reading included, as Ctrl-C does. The render
+    /// keeps a checkpoint from its start on; exits with 75 if `--resume` goes on from it, otherwise with 4
+    #[arg(long, value_name = "T", value_parser = seconds)]
+    pub time: Option<f64>,
+    /// Stop if the program takes more than this much memory (such as 500M or 2G), and exit with 4; a checkpoint is kept
+    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    pub memory: Option<u64>,
 }
 
 impl WorkArguments {
+    /// Whether a limit may stop the run.
+    pub fn is_limited(&self) -> bool {
+        self.time.is_some() || self.memory.is_some()
+    }
+
     pub fn checkpoint(&self) -> Duration {
         Duration::from_secs_f64(self.checkpoint)
     }

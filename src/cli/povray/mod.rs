@@ -21,22 +21,24 @@ use lucarne::disk::DiskFiles;
 use lucarne::evaluate::Animation;
 use lucarne::film::{Channels, Developer};
 use lucarne::picture;
-use lucarne::plan::{Frame, PlanOptions, Region, plan};
+use lucarne::plan::{Frame, PlanOptions, plan};
 use lucarne::road::{Options, Road};
 use lucarne::scene::{Dialect, Finish, Scene};
+use lucarne::source::Files;
 use lucarne::trace::{TraceOptions, trace};
 use lucarne::world::World;
 
 use self::rendered::Rendered;
-use self::settings::{Problem, Settings};
+use self::settings::Problem;
+pub use self::settings::Settings;
 use self::streams::Stream;
-use super::animation::Edge;
 use super::exit::Failure;
 use super::files::Recorded;
+use super::kept::Kept;
 use super::messages;
-use super::output::{Output, write_whole};
-use super::progress;
+use super::output::write_whole;
 use super::render::{fits, most_threads};
+use super::stop;
 use super::text::{name_of, read_main};
 use super::values::now;
 
@@ -104,7 +106,7 @@ pub fn run(words: &[OsString]) -> ExitCode {
         return problem("Failed to parse command-line option");
     }
     let Some(input) = settings.input.clone() else { return problem("No input file provided") };
-    progress::hear_interrupts("Render cancelled by user\n", 2);
+    stop::hear_interrupts("Render cancelled by user\n", 2);
     let run = Run { input: found(&input, &settings.folders), settings };
     if run.settings.streams.overwrite(&run.input) {
         return problem("A stream cannot be written to the scene");
@@ -170,14 +172,16 @@ impl Run {
             );
             self.failed(&failure)
         })?;
+        let disk = DiskFiles::new(&self.input, &self.settings.folders).writing();
         if self.settings.range.is_still() {
-            return self.frame(&bytes, None, self.settings.clock);
+            return self.frame(&bytes, (&disk, &disk), None, self.settings.clock);
         }
+        let kept = Kept::new(&disk);
         let frames = self.settings.range.frames();
         for (number, (animation, clock)) in frames.iter().enumerate() {
             let frame = format!("Rendering frame {} of {}\n", number + 1, frames.len());
             self.say(Stream::Render, &frame);
-            self.frame(&bytes, Some(*animation), *clock)?;
+            self.frame(&bytes, (&disk, &kept), Some(*animation), *clock)?;
         }
         Ok(())
     }
@@ -189,11 +193,18 @@ impl Run {
         Stop::Failed
     }
 
-    /// Renders one picture.
-    fn frame(&self, bytes: &[u8], animation: Option<Animation>, clock: f64) -> Result<(), Stop> {
+    /// Renders one picture. `files` reads from `disk`, possibly once for all frames.
+    fn frame(
+        &self,
+        bytes: &[u8],
+        (disk, files): (&DiskFiles, &dyn Files),
+        animation: Option<Animation>,
+        clock: f64,
+    ) -> Result<(), Stop> {
         let Settings { width, height, verbose, .. } = self.settings;
-        let frame = Frame { region: self.region(), ..Frame::whole(width, height) };
-        let output = self.output(animation.map(|animation| animation.frame_number));
+        let frame = Frame { region: self.settings.region(), ..Frame::whole(width, height) };
+        let output =
+            self.settings.output(&self.input, animation.map(|animation| animation.frame_number));
         self.say(
             Stream::Render,
             &format!(
@@ -214,8 +225,7 @@ impl Run {
         fits(Frame::whole(width, height).region, writing, false)
             .map_err(|failure| self.failed(&failure))?;
         self.say(Stream::Render, &header("Parsing"));
-        let files = DiskFiles::new(&self.input, &self.settings.folders).writing();
-        let read = Recorded::new(&files);
+        let read = Recorded::new(files);
         let (mut world, origins) = {
             let mut road = Road::new(&read, self.options(animation, clock));
             let file = road.read(&name_of(&self.input), bytes.to_vec());
@@ -231,7 +241,7 @@ impl Run {
             self.print(&Messages::new(list, road.sources))?;
             compiled
         };
-        for (path, _, bytes) in files.written().map(|written| written.files()).unwrap_or_default() {
+        for (path, _, bytes) in disk.written().map(|written| written.take()).unwrap_or_default() {
             write_whole(&path, &bytes).map_err(|failure| self.failed(&failure))?;
         }
         self.light_at_quality(&mut world);
@@ -245,7 +255,7 @@ impl Run {
         let threads = self.settings.threads.map(|wanted| wanted.min(most_threads()));
         let threads = TraceOptions { threads, ..TraceOptions::default() };
         let watch = Rendered::new(&self.settings, frame.region);
-        progress::begin_tracing();
+        stop::begin_tracing();
         let traced = trace(&world, &plan, &threads, &watch);
         if !traced.complete {
             return Err(Stop::Interrupted);
@@ -283,50 +293,11 @@ impl Run {
         let evaluate = &mut options.evaluate;
         (evaluate.clock, evaluate.animation) = (clock, animation);
         evaluate.now = now();
-        evaluate.interrupt = progress::interrupt();
+        evaluate.interrupt = stop::interrupt();
         options
     }
 
     /// Returns the part of the picture that is rendered.
-    fn region(&self) -> Region {
-        let Settings { width, height, columns, rows, .. } = self.settings;
-        let part = |(first, last): (Option<Edge>, Option<Edge>), all: u32| {
-            let first = first.map_or(0, |edge| edge.first(all)).min(all.saturating_sub(1));
-            (first, last.map_or(all, |edge| edge.end(all)).clamp(first + 1, all))
-        };
-        let ((left, right), (top, bottom)) = (part(columns, width), part(rows, height));
-        Region { x: left, y: top, width: right - left, height: bottom - top }
-    }
-
-    /// Returns where the picture goes: beside the scene, unless another place or name was asked for.
-    fn output(&self, frame_number: Option<u32>) -> Output {
-        let format = self.settings.format;
-        let asked = self.settings.output.as_deref();
-        if asked == Some("-") {
-            return Output::Stdout;
-        }
-        let extension = format.extensions()[0];
-        let stem = self.input.file_stem().unwrap_or_default();
-        let path = match asked {
-            None => self.input.with_file_name(stem),
-            Some(folder) if folder.ends_with(['/', '\\']) || Path::new(folder).is_dir() => {
-                Path::new(folder).join(stem)
-            }
-            Some(path) => {
-                let suffix = format!(".{extension}");
-                let is_there = path.to_lowercase().ends_with(&suffix);
-                let end = path.len() - if is_there { suffix.len() } else { 0 };
-                PathBuf::from(&path[..end])
-            }
-        };
-        let stem = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let name = match frame_number {
-            Some(number) => self.settings.range.name(&stem, number),
-            None => stem,
-        };
-        Output::File { path: path.with_file_name(format!("{name}.{extension}")), format }
-    }
-
     /// Leaves out what a quality leaves out: from 7 on, mirrors; from 4 on, areas of lights; from 3 on, shadows; and at
     /// last all light but the colours' own.
     ///
@@ -382,7 +353,7 @@ impl Run {
                 Severity::Error => {}
             }
         }
-        if progress::interrupt().is_set() {
+        if stop::is_set() {
             return Err(Stop::Interrupted);
         }
         let Some(first) = messages.iter().find(|one| one.is_error()) else { return Ok(()) };

@@ -7,7 +7,7 @@ use lucarne::trace::Watch;
 
 use super::settings::Settings;
 use super::streams::Stream;
-use crate::cli::progress;
+use crate::cli::stop;
 
 /// Watches one picture.
 pub struct Rendered<'a> {
@@ -40,6 +40,6 @@ impl Watch for Rendered<'_> {
     }
 
     fn should_stop(&self) -> bool {
-        progress::interrupt().is_set()
+        stop::is_set()
     }
 }

@@ -2,14 +2,16 @@
 //!
 //! **Source:** POV-Ray 3.7 manual, section 3.2 "Command-Line and INI-File Options", and the program, measured.
 
-use std::path::PathBuf;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 use lucarne::film::Depth;
 use lucarne::picture::Format;
-use lucarne::plan::Antialias;
+use lucarne::plan::{Antialias, Region};
 
 use super::streams::Streams;
 use crate::cli::animation::{Edge, FrameRange, LAST};
+use crate::cli::output::Output;
 
 /// An option that cannot be understood.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,6 +43,8 @@ pub struct Settings {
     pub quality: u32,
     pub verbose: bool,
     pub streams: Streams,
+    /// The names of all options that were set, in small letters.
+    pub names: BTreeSet<String>,
     /// Options without effect here; each gets a warning.
     pub ineffective: Vec<String>,
     /// How many INI files include the one that is read.
@@ -72,6 +76,7 @@ impl Default for Settings {
             quality: 9,
             verbose: true,
             streams: Streams::default(),
+            names: BTreeSet::new(),
             ineffective: Vec::new(),
             nesting: 0,
             antialias: false,
@@ -192,7 +197,13 @@ impl Settings {
             name if name.ends_with("_return") => {}
             _ => return Err(Problem),
         }
+        self.names.insert(name);
         Ok(())
+    }
+
+    /// Whether an option changes nothing in any program but POV-Ray.
+    pub fn is_without_effect(name: &str) -> bool {
+        WITHOUT_EFFECT.contains(&name) || name.ends_with("_return")
     }
 
     /// Returns the antialiasing that comes nearest: both look at neighbours first. POV-Ray's first method then takes n × n
@@ -204,6 +215,46 @@ impl Settings {
             _ => self.depth,
         };
         Antialias::Adaptive { threshold: self.threshold, grid }
+    }
+
+    /// Returns the part of the picture that is rendered.
+    pub fn region(&self) -> Region {
+        let part = |(first, last): (Option<Edge>, Option<Edge>), all: u32| {
+            let first = first.map_or(0, |edge| edge.first(all)).min(all.saturating_sub(1));
+            (first, last.map_or(all, |edge| edge.end(all)).clamp(first + 1, all))
+        };
+        let ((left, right), (top, bottom)) =
+            (part(self.columns, self.width), part(self.rows, self.height));
+        Region { x: left, y: top, width: right - left, height: bottom - top }
+    }
+
+    /// Returns where the picture of a scene goes: beside the scene, unless another place or name was asked for.
+    pub fn output(&self, scene: &Path, frame_number: Option<u32>) -> Output {
+        let asked = self.output.as_deref();
+        if asked == Some("-") {
+            return Output::Stdout;
+        }
+        let extension = self.format.extensions()[0];
+        let stem = scene.file_stem().unwrap_or_default();
+        let path = match asked {
+            None => scene.with_file_name(stem),
+            Some(folder) if folder.ends_with(['/', '\\']) || Path::new(folder).is_dir() => {
+                Path::new(folder).join(stem)
+            }
+            Some(path) => {
+                let suffix = format!(".{extension}");
+                let is_there = path.to_lowercase().ends_with(&suffix);
+                let end = path.len() - if is_there { suffix.len() } else { 0 };
+                PathBuf::from(&path[..end])
+            }
+        };
+        let stem = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = match frame_number {
+            Some(number) => self.range.name(&stem, number),
+            None => stem,
+        };
+        let path = path.with_file_name(format!("{name}.{extension}"));
+        Output::File { path, format: self.format }
     }
 
     /// Returns the numbers that a component of a pixel has in the file.

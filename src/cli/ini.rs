@@ -1,0 +1,203 @@
+//! An INI file of POV-Ray as the file of `render`: its options as words of the command line.
+//!
+//! **Invariant:** an option on the command line counts instead.
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::CommandFactory;
+use clap::parser::ValueSource;
+use lucarne::plan::Antialias;
+use lucarne::source::decode;
+
+use super::arguments::Arguments;
+use super::exit::Failure;
+use super::messages;
+use super::output::Output;
+use super::povray::Settings;
+
+/// An INI file, or a section of one.
+pub struct Ini {
+    /// The scene that it names.
+    pub scene: PathBuf,
+    file: String,
+    settings: Settings,
+}
+
+impl Ini {
+    /// Reads a file whose name ends in `.ini`, or in `.ini[section]`; `None` for others.
+    pub fn read(path: &Path) -> Result<Option<Self>, Failure> {
+        let file = path.to_string_lossy().into_owned();
+        let name = file.split('[').next().unwrap_or_default();
+        if !name.to_ascii_lowercase().ends_with(".ini") {
+            return Ok(None);
+        }
+        let read = |path: &Path| fs::read(path).ok().map(|bytes| decode(bytes).0);
+        let mut settings = Settings::default();
+        let Some(text) = read(Path::new(name)) else {
+            return Err(Failure::file(format!("cannot read `{name}`")));
+        };
+        if settings.take_file(&file, &read).is_err() {
+            return Err(Failure::usage(wrong_line(name, &text, &file[name.len()..], &read)));
+        }
+        let Some(input) = &settings.input else {
+            return Err(Failure::usage(format!("`{name}` names no scene"))
+                .help("add a line such as `Input_File_Name=scene.pov`"));
+        };
+        // Paths are relative to the current folder, as in POV-Ray; otherwise, to that of the file.
+        let beside = Path::new(name).with_file_name(input);
+        let is_beside = !Path::new(input).exists() && beside.exists();
+        let scene = if is_beside { beside } else { PathBuf::from(input) };
+        Ok(Some(Self { scene, file, settings }))
+    }
+
+    /// Returns its options, but for those that are among these words of a command line; prints a note about options that
+    /// `render` has not.
+    pub fn words(&self, of_line: &[OsString]) -> Vec<OsString> {
+        let matches = Arguments::command().try_get_matches_from(of_line).ok();
+        let render = matches.as_ref().and_then(|all| all.subcommand_matches("render"));
+        let given = |id: &str| {
+            render.is_some_and(|render| render.value_source(id) == Some(ValueSource::CommandLine))
+        };
+        let Settings { width, height, ref range, ref names, .. } = self.settings;
+        let has = |one: &str| names.contains(one);
+        let is_animation = !range.is_still();
+        let mut words: Vec<String> = Vec::new();
+        let mut add = |id: &str, name: &str, value: &str| {
+            if id.is_empty() || !given(id) {
+                words.push(format!("--{name}{}{value}", if value.is_empty() { "" } else { "=" }));
+            }
+        };
+        if has("width") || has("height") {
+            add("size", "size", &format!("{width}x{height}"));
+        }
+        if ["start_column", "end_column", "start_row", "end_row"].into_iter().any(has) {
+            let part = self.settings.region();
+            let part = format!("{},{},{},{}", part.x, part.y, part.width, part.height);
+            add("region", "region", &part);
+        }
+        if has("antialias") && !given("max_error") && !given("time_budget") {
+            add(
+                "antialias",
+                "antialias",
+                &match self.settings.antialias() {
+                    Antialias::Adaptive { threshold, grid } => {
+                        format!("adaptive:{threshold}:{grid}")
+                    }
+                    Antialias::Grid(grid) => grid.to_string(),
+                    Antialias::Off => "off".to_owned(),
+                },
+            );
+        }
+        if has("output_file_name") || has("output_file_type") {
+            match self.settings.output(&self.scene, None) {
+                Output::File { path, .. } => add("output", "output", &path.to_string_lossy()),
+                Output::Stdout => add("output", "output", "-"),
+            }
+        }
+        if self.settings.bits == 16 && self.settings.format.depth(Some(16)).is_some() {
+            add("bits", "bits", "16");
+        }
+        if self.settings.alpha {
+            add("alpha", "alpha", "");
+        }
+        if let Some(threads) = self.settings.threads {
+            add("threads", "threads", &threads.to_string());
+        }
+        if is_animation && !given("frames") {
+            let (first, last) = range.frames;
+            add("frames", "frames", &format!("{first}..{last}/{}", range.step));
+            add("clocks", "clocks", &format!("{}..{}", range.clocks.0, range.clocks.1));
+            if range.is_cyclic {
+                add("cyclic", "cyclic", "");
+            }
+            let rendered = range.frames();
+            if has("subset_start_frame") || has("subset_end_frame") {
+                let number = |frame: Option<&(lucarne::evaluate::Animation, f64)>| {
+                    frame.map_or(0, |(animation, _)| animation.frame_number)
+                };
+                let only = format!("{}..{}", number(rendered.first()), number(rendered.last()));
+                add("only", "only", &only);
+            }
+        }
+        // These may be given several times, and the last counts.
+        for folder in &self.settings.folders {
+            add("", "include", &folder.to_string_lossy());
+        }
+        for (name, value) in &self.settings.declares {
+            add("", "declare", &format!("{name}={value}"));
+        }
+        if has("clock") && !is_animation && !given("frames") {
+            add("", "declare", &format!("clock={}", self.settings.clock));
+        }
+        self.note_unused();
+        words.into_iter().map(OsString::from).collect()
+    }
+
+    fn note_unused(&self) {
+        let is_unused =
+            |name: &&String| !USED.contains(&name.as_str()) && !Settings::is_without_effect(name);
+        let names = self.settings.names.iter().filter(is_unused);
+        let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+        if !names.is_empty() {
+            messages::eprint(&format!(
+                "note: `{file}`: `render` leaves out {}; `lucarne povray {file}` reads all options\n",
+                names.join(", "),
+                file = self.file
+            ));
+        }
+    }
+}
+
+/// Options that [`Ini::words`] reads.
+const USED: &[&str] = &[
+    "antialias",
+    "antialias_depth",
+    "antialias_threshold",
+    "bits_per_color",
+    "clock",
+    "cyclic_animation",
+    "declare",
+    "end_column",
+    "end_row",
+    "final_clock",
+    "final_frame",
+    "frame_step",
+    "height",
+    "initial_clock",
+    "initial_frame",
+    "input_file_name",
+    "library_path",
+    "output_alpha",
+    "output_file_name",
+    "output_file_type",
+    "sampling_method",
+    "start_column",
+    "start_row",
+    "subset_end_frame",
+    "subset_start_frame",
+    "width",
+    "work_threads",
+];
+
+/// Says which line of an INI file cannot be understood: the first that makes those before it wrong.
+fn wrong_line(
+    name: &str,
+    text: &str,
+    section: &str,
+    read: &dyn Fn(&Path) -> Option<String>,
+) -> String {
+    let section = section.strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+    let lines: Vec<&str> = text.lines().collect();
+    let is_wrong = |&count: &usize| {
+        Settings::default().take_text(&lines[..count].join("\n"), section, read).is_err()
+    };
+    match (1..=lines.len()).find(is_wrong) {
+        Some(number) => {
+            let line = lines[number - 1].trim();
+            format!("line {number} of `{name}` cannot be understood: `{line}`")
+        }
+        None => format!("`{name}` cannot be understood"),
+    }
+}
