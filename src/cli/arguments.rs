@@ -57,30 +57,49 @@ Exit codes:
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Render a scene to a picture file
+    #[command(
+        after_help = "Examples:\n  lucarne scene.pov -o picture.png --size 1920x1080\n  lucarne scene.pov --frames 1..24 -o film.gif\n  lucarne film.ini"
+    )]
     Render(Box<RenderArguments>),
     /// Make one picture of the parts that `render --shard` wrote
+    #[command(
+        after_help = "Example:\n  lucarne merge picture.1-of-2.part picture.2-of-2.part -o picture.png"
+    )]
     Merge(MergeArguments),
     /// Print completions of the command line for a shell
+    #[command(
+        after_help = "Example:\n  lucarne completions bash > ~/.local/share/bash-completion/completions/lucarne"
+    )]
     Completions(CompletionsArguments),
     /// Print the manual page, for `man`
+    #[command(after_help = "Example:\n  lucarne man > ~/.local/share/man/man1/lucarne.1")]
     Man,
     /// Check scenes for errors and warnings without rendering
+    #[command(
+        after_help = "Examples:\n  lucarne check scene.pov --fix\n  lucarne check *.scene --deny no-light"
+    )]
     Check(CheckArguments),
     /// Format scenes: indentation, spacing and line breaks only
+    #[command(after_help = "Examples:\n  lucarne fmt scene.scene\n  lucarne fmt --check *.scene")]
     Fmt(FmtArguments),
     /// Print one intermediate representation of a scene
+    #[command(after_help = "Example:\n  lucarne show scene.scene --stage world")]
     Show(ShowArguments),
     /// Print the effects that will be simulated, what requires each of them, and what is left out
+    #[command(after_help = "Example:\n  lucarne plan scene.pov")]
     Plan(PlanArguments),
     /// Measure the cost and the accuracy of each render setting on this scene
+    #[command(after_help = "Example:\n  lucarne accuracy scene.pov --budget 5m --svg diagram.svg")]
     Accuracy(AccuracyArguments),
     /// Explain a diagnostic code, or list all codes
+    #[command(after_help = "Example:\n  lucarne explain unknown-word")]
     Explain(ExplainArguments),
 }
 
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// Scene to render: `.scene`, or `.pov` for POV-Ray; `-` reads standard input
+    /// Scene to render: `.scene`, or `.pov` for POV-Ray; `-` reads standard input. Or an `.ini` or `.ini[section]` of
+    /// POV-Ray, which names the scene, and whose options count where the command line has none
     pub file: PathBuf,
     /// Output file; the extension selects the format: png, jpg, ppm, qoi, tga, bmp, hdr or exr; `-` writes a PNG to
     /// standard output [default: the name of the scene with .png, in the current directory]
@@ -146,14 +165,12 @@ pub enum StatsFormat {
     Json,
 }
 
-/// For example `lucarne completions bash > ~/.local/share/bash-completion/completions/lucarne`.
 #[derive(Debug, Args)]
 pub struct CompletionsArguments {
     /// Shell
     pub shell: clap_complete::Shell,
 }
 
-/// For example `lucarne merge picture.*.part -o picture.png`.
 #[derive(Debug, Args)]
 pub struct MergeArguments {
     /// Parts of one picture, in any order
@@ -351,6 +368,25 @@ mod tests {
     fn the_description_of_the_arguments_is_consistent() {
         use clap::CommandFactory;
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn every_command_shows_an_example_that_it_takes() {
+        use clap::CommandFactory;
+        for command in Arguments::command().get_subcommands() {
+            let help = command.get_after_help().expect("an example").to_string();
+            let examples: Vec<&str> = help.lines().skip(1).map(str::trim).collect();
+            assert!(help.starts_with("Example") && !examples.is_empty(), "{help}");
+            for example in examples {
+                let words = example.split(" >").next().expect("words").split(' ');
+                let mut words: Vec<&str> = words.collect();
+                if words[1] != command.get_name() {
+                    words.insert(1, "render");
+                }
+                assert_eq!(words[1], command.get_name());
+                assert!(Arguments::try_parse_from(&words).is_ok(), "{example}");
+            }
+        }
     }
 
     #[test]
