@@ -11,7 +11,7 @@ pub mod saved;
 use crate::color::{Gamma, Rgb};
 use crate::plan::{Frame, Region};
 
-pub use develop::{Components, Depth, Developer, Image, develop};
+pub use develop::{Components, Depth, Developer, Encoding, Image, develop};
 pub use first_surface::{Channel, FirstSurface, Surfaces};
 
 /// The traced region, row by row from its top left.

@@ -19,6 +19,7 @@ use image::codecs::tga::TgaEncoder;
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use png::EncodingError;
 
+use crate::color::Gamma;
 use crate::film::{Channels, Components, Depth, Developer, Film, Surfaces};
 use crate::plan::Region;
 
@@ -130,12 +131,14 @@ impl Format {
         }
     }
 
-    /// Returns a lower bound on the size of the file. Exact for uncompressed formats.
+    /// Returns a lower bound on the size of the file in colour. Exact for uncompressed formats.
     pub fn least_bytes(self, depth: Depth, width: u32, height: u32) -> u64 {
         let pixels = u64::from(width) * u64::from(height);
         match (self, depth) {
-            (Self::Ppm, Depth::Eight) => ppm_header(width, height, 255).len() as u64 + 3 * pixels,
-            (Self::Ppm, _) => ppm_header(width, height, 65_535).len() as u64 + 6 * pixels,
+            (Self::Ppm, Depth::Eight) => {
+                ppm_header("P6", width, height, 255).len() as u64 + 3 * pixels
+            }
+            (Self::Ppm, _) => ppm_header("P6", width, height, 65_535).len() as u64 + 6 * pixels,
             // A header, and a bit for every hundred pixels or so.
             _ => 64 + pixels / 1000,
         }
@@ -143,7 +146,7 @@ impl Format {
 }
 
 /// Writes a film as a picture. Fails if it cannot be written, or if the format cannot hold it: it is too
-/// large, or of another depth.
+/// large, of another depth, or grey in other formats than PNG and PPM.
 pub fn write(
     film: &Film,
     developer: &Developer,
@@ -151,7 +154,11 @@ pub fn write(
     out: &mut dyn Write,
 ) -> Result<()> {
     let Region { width, height, .. } = film.frame.region;
+    let is_gray = developer.encoding().is_gray;
     let color = match (developer.depth(), film.channels) {
+        _ if is_gray && !matches!(format, Format::Png | Format::Ppm) => {
+            return Err(Error::other(format!("{format:?} is not written in grey")));
+        }
         _ if film.channels == Channels::Rgba && !format.holds_alpha() => {
             return Err(Error::other(format!("{format:?} cannot hold alpha")));
         }
@@ -228,9 +235,12 @@ fn bytes<T: Copy, const N: usize>(all: &[T], order: impl Fn(T) -> [u8; N]) -> Ve
 fn png(film: &Film, developer: &Developer, out: &mut dyn Write) -> Result<()> {
     let Region { width, height, .. } = film.frame.region;
     let mut encoder = png::Encoder::new(out, width, height);
-    encoder.set_color(match film.channels {
-        Channels::Rgb => png::ColorType::Rgb,
-        Channels::Rgba => png::ColorType::Rgba,
+    let encoding = developer.encoding();
+    encoder.set_color(match (film.channels, encoding.is_gray) {
+        (Channels::Rgb, false) => png::ColorType::Rgb,
+        (Channels::Rgba, false) => png::ColorType::Rgba,
+        (Channels::Rgb, true) => png::ColorType::Grayscale,
+        (Channels::Rgba, true) => png::ColorType::GrayscaleAlpha,
     });
     encoder.set_depth(match developer.depth() {
         Depth::Eight => png::BitDepth::Eight,
@@ -239,9 +249,16 @@ fn png(film: &Film, developer: &Developer, out: &mut dyn Write) -> Result<()> {
     });
     // A sixth to a third larger than by the usual compression, which takes as long as tracing a simple scene.
     encoder.set_compression(png::Compression::Fast);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    // The curve's nearest power, for readers that know no sRGB.
-    encoder.set_source_gamma(png::ScaledFloat::from_scaled(45_455));
+    let power = match encoding.display {
+        Gamma::Srgb => {
+            encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+            // The curve's nearest power, for readers that know no sRGB.
+            2.2
+        }
+        Gamma::Power(power) => power,
+    };
+    let scaled = (100_000.0 / power).round() as u32;
+    encoder.set_source_gamma(png::ScaledFloat::from_scaled(scaled.max(1)));
     let failed = |error| match error {
         EncodingError::IoError(error) => error,
         error => Error::other(error),
@@ -254,7 +271,7 @@ fn png(film: &Film, developer: &Developer, out: &mut dyn Write) -> Result<()> {
     stream.finish().and_then(|()| writer.finish()).map_err(failed)
 }
 
-/// Encodes a binary PPM. **Source:** the Netpbm manual, `ppm`.
+/// Encodes a binary PPM, or a PGM if it is grey. **Source:** the Netpbm manual, `ppm` and `pgm`.
 fn ppm(film: &Film, developer: &Developer, out: &mut dyn Write) -> Result<()> {
     let last = match developer.depth() {
         Depth::Eight => 255,
@@ -262,12 +279,13 @@ fn ppm(film: &Film, developer: &Developer, out: &mut dyn Write) -> Result<()> {
         Depth::Linear => return Err(Error::other("PPM cannot hold linear light")),
     };
     let Region { width, height, .. } = film.frame.region;
-    out.write_all(ppm_header(width, height, last).as_bytes())?;
+    let kind = if developer.encoding().is_gray { "P5" } else { "P6" };
+    out.write_all(ppm_header(kind, width, height, last).as_bytes())?;
     rows(film, developer, u16::to_be_bytes).try_for_each(|row| out.write_all(&row))
 }
 
-fn ppm_header(width: u32, height: u32, last: u32) -> String {
-    format!("P6\n{width} {height}\n{last}\n")
+fn ppm_header(kind: &str, width: u32, height: u32, last: u32) -> String {
+    format!("{kind}\n{width} {height}\n{last}\n")
 }
 
 /// Returns whether a file that starts with these bytes is a picture, in one of our formats or another.

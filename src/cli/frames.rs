@@ -119,7 +119,11 @@ fn raw(arguments: &RenderArguments, range: &FrameRange, shared: &mut Shared) -> 
     }
     each(arguments, range, shared, &Output::Stdout, &mut |film| {
         let bytes = encode(film, depth, Format::Ppm).map_err(Failure::file)?;
-        messages::print_with(&|out: &mut dyn Write| out.write_all(&bytes))
+        match messages::print_while_open(&|out: &mut dyn Write| out.write_all(&bytes))? {
+            true => Ok(()),
+            // More frames would be rendered for nothing.
+            false => Err(Failure::file("the program that reads the frames has ended")),
+        }
     })
 }
 

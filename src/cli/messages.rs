@@ -14,6 +14,7 @@ use lucarne::disk::reason;
 use lucarne::source::{Source, Sources, Span};
 
 use super::exit::{Exit, Failure};
+use super::output::Picture;
 use super::text::name_of;
 
 /// Maximum number of errors, and of warnings, printed in the human format; the rest are only counted.
@@ -269,13 +270,19 @@ pub fn print(text: &str) -> Result<(), Failure> {
 }
 
 /// Prints bytes to standard output, like [`print`].
-pub fn print_with(content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>) -> Result<(), Failure> {
+pub fn print_with(content: Picture) -> Result<(), Failure> {
+    print_while_open(content).map(drop)
+}
+
+/// Prints bytes to standard output; returns false if it is a closed pipe.
+pub fn print_while_open(content: Picture) -> Result<bool, Failure> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     match content(&mut out).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(false),
+        Err(error) => {
             Err(Failure::file(format!("cannot write to standard output: {}", reason(&error))))
         }
-        _ => Ok(()),
+        Ok(()) => Ok(true),
     }
 }
 

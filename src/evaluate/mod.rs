@@ -185,7 +185,7 @@ struct Evaluator<'a> {
     /// Strings are limited to ASCII: a `.pov` has not set `charset utf8` yet.
     is_ascii: bool,
     version: f64,
-    /// Whether any file has a `#version`; whether the scene does, and `assumed_gamma`.
+    /// Whether any file, or an option, has a version; whether the scene does.
     has_version: bool,
     says_version: bool,
     warned_of_version: bool,
@@ -335,9 +335,9 @@ impl<'a> Evaluator<'a> {
             including: Vec::new(),
             default_texture: TextureId(0),
             is_ascii: options.dialect == Dialect::Pov,
-            version: 3.7,
-            has_version: false,
-            says_version: false,
+            version: options.version.unwrap_or(3.7),
+            has_version: options.version.is_some(),
+            says_version: options.version.is_some(),
             warned_of_version: false,
             has_bare_textures: false,
             says_gamma: false,

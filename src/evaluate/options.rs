@@ -18,6 +18,8 @@ pub struct EvaluateOptions {
     pub declares: Vec<(String, f64)>,
     /// Value of `clock`.
     pub clock: f64,
+    /// Language version of a scene before its first `#version`; `None`: that of a scene without one.
+    pub version: Option<f64>,
     /// Days since the beginning of the year 2000, UTC: the value of `now`.
     pub now: f64,
     /// `None`: a still.
@@ -86,6 +88,7 @@ impl Default for EvaluateOptions {
             height: 480,
             declares: Vec::new(),
             clock: 0.0,
+            version: None,
             now: 0.0,
             animation: None,
             limits: Limits::default(),

@@ -3,12 +3,16 @@
 //! **In:** a component in a scene's working space. **Out:** its code. **Invariant:** a table gives the code that the
 //! definition gives.
 
-use crate::color::{Gamma, srgb_decode, srgb_encode};
-use crate::math::elementary::pow;
+use crate::color::{Gamma, srgb_encode};
 
 /// Returns the code of a component, 0 … `last`, by definition.
-fn code(component: f64, gamma: Gamma, last: u32) -> u32 {
-    (srgb_encode(gamma.linear(component)) * f64::from(last)).round() as u32
+fn code(component: f64, gamma: Gamma, display: Gamma, last: u32) -> u32 {
+    let light = gamma.linear(component);
+    let shown = match display {
+        Gamma::Srgb => srgb_encode(light),
+        Gamma::Power(_) => display.of_light(light.min(1.0)),
+    };
+    (shown * f64::from(last)).round() as u32
 }
 
 /// Computes [`code`] by table: `steps[k]` is the least component with a code above `k`.
@@ -17,7 +21,10 @@ fn code(component: f64, gamma: Gamma, last: u32) -> u32 {
 /// the steps are computed with the definition itself.
 pub(super) struct Curve {
     last: u32,
+    /// Transfer function from components to light.
     gamma: Gamma,
+    /// Transfer function from codes to light.
+    display: Gamma,
     /// Empty if there are so few pixels that computing the steps costs more than it saves.
     steps: Vec<f64>,
     /// For each of `starts.len()` equal parts of 0 … 1, the code of its lower end.
@@ -26,11 +33,11 @@ pub(super) struct Curve {
 
 impl Curve {
     /// `wanted` is the approximate number of components to convert.
-    pub fn new(last: u32, gamma: Gamma, wanted: usize) -> Self {
-        let mut curve = Self { last, gamma, steps: Vec::new(), starts: Vec::new() };
+    pub fn new(last: u32, gamma: Gamma, display: Gamma, wanted: usize) -> Self {
+        let mut curve = Self { last, gamma, display, steps: Vec::new(), starts: Vec::new() };
         // Each step costs about twenty evaluations.
         if wanted / 20 > last as usize {
-            curve.steps = (0..last).map(|k| step_above(k, gamma, last)).collect();
+            curve.steps = (0..last).map(|k| step_above(k, gamma, display, last)).collect();
             let parts = 16 * (last as usize + 1);
             let mut at = 0;
             curve.starts = (0..parts)
@@ -52,7 +59,7 @@ impl Curve {
     #[inline]
     pub fn code(&self, component: f64) -> u32 {
         if self.steps.is_empty() {
-            return code(component, self.gamma, self.last);
+            return code(component, self.gamma, self.display, self.last);
         }
         // Casting clamps below and makes NaN 0.
         let part = (component * self.starts.len() as f64) as usize;
@@ -67,13 +74,10 @@ impl Curve {
 
 /// Returns the least component with a code above `k`, by bisection over the bits of a float around the
 /// inverse formula.
-fn step_above(k: u32, gamma: Gamma, last: u32) -> f64 {
-    let above = |bits: u64| code(f64::from_bits(bits), gamma, last) > k;
+fn step_above(k: u32, gamma: Gamma, display: Gamma, last: u32) -> f64 {
+    let above = |bits: u64| code(f64::from_bits(bits), gamma, display, last) > k;
     let shown = (f64::from(k) + 0.5) / f64::from(last);
-    let guess = match gamma {
-        Gamma::Power(exponent) => pow(srgb_decode(shown), 1.0 / exponent),
-        Gamma::Srgb => shown,
-    };
+    let guess = if gamma == display { shown } else { gamma.of_light(display.linear(shown)) };
     let guess = guess.to_bits();
     let mut width = 16;
     let (mut low, mut high) = (guess, guess);
@@ -101,10 +105,13 @@ mod tests {
     fn the_table_agrees_with_the_definition_at_and_around_every_step() {
         let powers = [1.0, 2.2, 0.4].map(Gamma::Power);
         let curves = [255, 65_535].into_iter().flat_map(|last| {
-            powers.into_iter().chain([Gamma::Srgb]).map(move |gamma| (last, gamma))
+            powers.into_iter().chain([Gamma::Srgb]).map(move |gamma| (last, gamma, Gamma::Srgb))
         });
-        for (last, gamma) in curves {
-            let curve = Curve::new(last, gamma, usize::MAX);
+        let others = [(Gamma::LINEAR, 1.8), (Gamma::Srgb, 2.2), (Gamma::Power(2.2), 1.0)];
+        let others = others.map(|(gamma, display)| (255, gamma, Gamma::Power(display)));
+        for (last, gamma, display) in curves.chain(others) {
+            let code = |c: f64, gamma, last| code(c, gamma, display, last);
+            let curve = Curve::new(last, gamma, display, usize::MAX);
             assert_eq!(curve.steps.len(), last as usize);
             assert!(curve.steps.windows(2).all(|pair| pair[0] < pair[1]));
             for &step in &curve.steps {

@@ -77,9 +77,28 @@ pub fn develop(film: &Film, depth: Depth) -> Image {
     Image { width, height, channels, components: developer.develop(&film.pixels, channels) }
 }
 
+/// How display-referred components encode light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Encoding {
+    /// Transfer function from components to linear light.
+    pub display: Gamma,
+    /// Whether a pixel has one component, its brightness, in place of red, green and blue.
+    pub is_gray: bool,
+}
+
+/// Colours, with the sRGB transfer function.
+impl Default for Encoding {
+    fn default() -> Self {
+        Self { display: Gamma::Srgb, is_gray: false }
+    }
+}
+
 /// Converts pixels of films with the same `assumed_gamma` like [`develop`], building its lookup tables only
 /// once.
-pub struct Developer(Tones);
+pub struct Developer {
+    tones: Tones,
+    encoding: Encoding,
+}
 
 enum Tones {
     Eight(Curve),
@@ -90,17 +109,29 @@ enum Tones {
 impl Developer {
     /// `pixels` is the approximate number of pixels to convert.
     pub fn new(depth: Depth, gamma: Gamma, pixels: usize) -> Self {
-        let curve = |last| Curve::new(last, gamma, 3 * pixels);
-        Self(match depth {
+        Self::with_encoding(depth, gamma, Encoding::default(), pixels)
+    }
+
+    /// Converts like [`Developer::new`], but to display-referred components of this encoding. Linear components
+    /// are not changed by it.
+    pub fn with_encoding(depth: Depth, gamma: Gamma, encoding: Encoding, pixels: usize) -> Self {
+        let curve = |last| Curve::new(last, gamma, encoding.display, 3 * pixels);
+        let tones = match depth {
             Depth::Eight => Tones::Eight(curve(255)),
             Depth::Sixteen => Tones::Sixteen(curve(65_535)),
             Depth::Linear => Tones::Linear(gamma),
-        })
+        };
+        Self { tones, encoding }
+    }
+
+    /// Returns how display-referred components encode light.
+    pub fn encoding(&self) -> Encoding {
+        self.encoding
     }
 
     /// Returns the type of the components.
     pub fn depth(&self) -> Depth {
-        match self.0 {
+        match self.tones {
             Tones::Eight(_) => Depth::Eight,
             Tones::Sixteen(_) => Depth::Sixteen,
             Tones::Linear(_) => Depth::Linear,
@@ -110,7 +141,14 @@ impl Developer {
     /// Converts some pixels, such as a row.
     pub fn develop(&self, pixels: &[Pixel], channels: Channels) -> Components {
         let alpha = channels == Channels::Rgba;
-        match &self.0 {
+        let gray = self.encoding.is_gray;
+        match &self.tones {
+            Tones::Eight(curve) if gray => {
+                Components::Eight(grays(pixels, alpha, curve, |n| n as u8))
+            }
+            Tones::Sixteen(curve) if gray => {
+                Components::Sixteen(grays(pixels, alpha, curve, |n| n as u16))
+            }
             Tones::Eight(curve) => Components::Eight(codes(pixels, alpha, curve, |n| n as u8)),
             Tones::Sixteen(curve) => Components::Sixteen(codes(pixels, alpha, curve, |n| n as u16)),
             Tones::Linear(gamma) => Components::Linear(match alpha {
@@ -132,6 +170,24 @@ fn codes<T: Copy + Default>(
     match alpha {
         true => each_straight(pixels, code, |alpha| narrow(curve.of_alpha(alpha))),
         false => each(pixels, code),
+    }
+}
+
+/// Returns the codes of the brightness of pixels, which is that of the scene's components.
+///
+/// **Source:** `Grayscale_Output` of POV-Ray 3.7, measured to 1/65,535, also with `assumed_gamma 2.2` and light
+/// above 1.
+fn grays<T>(pixels: &[Pixel], alpha: bool, curve: &Curve, narrow: impl Fn(u32) -> T) -> Vec<T> {
+    let code = |color: Rgb| narrow(curve.code(color.brightness()));
+    match alpha {
+        true => pixels
+            .iter()
+            .flat_map(|pixel| {
+                let (color, alpha) = pixel.straight();
+                [code(color), narrow(curve.of_alpha(alpha))]
+            })
+            .collect(),
+        false => pixels.iter().map(|pixel| code(pixel.radiance())).collect(),
     }
 }
 

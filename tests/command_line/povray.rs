@@ -86,6 +86,104 @@ fn pictures_have_the_name_and_the_type_that_are_asked_for() {
 }
 
 #[test]
+fn a_file_has_the_gamma_and_the_gray_that_are_asked_for() {
+    let place = place();
+    // What POV-Ray writes of <0.1, 0.5, 0.05>, whose brightness is 0.3299.
+    let plane = "plane { z, 0 pigment { rgb <0.1, 0.5, 0.05> } finish { ambient 1 diffuse 0 } }";
+    let head = "#version 3.7; camera { orthographic location -z look_at 0 }";
+    let scene = |gamma| format!("{head} global_settings {{ assumed_gamma {gamma} }} {plane}");
+    place.write("linear.pov", &scene("1"));
+    place.write("curved.pov", &scene("2.2"));
+    for (words, expected) in [
+        ("linear.pov", [89, 188, 63]),
+        ("linear.pov File_Gamma=1", [26, 128, 13]),
+        ("linear.pov File_Gamma=2.2 +FB", [90, 186, 65]),
+        ("curved.pov file_gamma=sRGB", [19, 128, 5]),
+        ("curved.pov File_Gamma=1.8 +FT", [15, 109, 7]),
+    ] {
+        let kind = if words.contains("+F") { &words[words.len() - 1..] } else { "N" };
+        place.run(&format!("povray {words} +W4 +H3 +Oo")).ends(0, &[]);
+        let name = [("N", "o.png"), ("B", "o.bmp"), ("T", "o.tga")].into_iter();
+        let name = name.filter(|(one, _)| *one == kind).map(|(_, name)| name).next();
+        let read = image::open(place.path(name.expect("a type"))).expect("a picture").into_rgb8();
+        let off = read.get_pixel(1, 1).0.into_iter().zip(expected).map(|(a, b)| a.abs_diff(b));
+        assert!(off.max() <= Some(1), "{words} {:?}", read.get_pixel(1, 1));
+    }
+    for (words, gray) in
+        [("+FNg", 39_952), ("+FPg", 39_952), ("+FN Grayscale_Output=on File_Gamma=1", 21_620)]
+    {
+        let name = if words.contains("P") { "g.ppm" } else { "g.png" };
+        place.run(&format!("povray linear.pov +W4 +H3 +Og {words}")).ends(0, &[]);
+        let read = image::open(place.path(name)).expect("a picture");
+        let pixel = read.as_luma16().expect("16 bits of gray").get_pixel(1, 1).0[0];
+        assert!(pixel.abs_diff(gray) <= 1, "{words} {pixel}");
+    }
+    place.run("povray linear.pov +FTg").ends(1, &["Unsupported combination of options"]);
+}
+
+#[test]
+fn the_version_of_the_command_line_is_that_of_a_scene_that_names_none() {
+    let place = place();
+    place.write("none.pov", "camera { location -5*z look_at 0 } light_source { -9*z, rgb 0.5 } sphere { 0, 1 pigment { rgb 0.5 } }");
+    let rendered = |words: &str| {
+        place.run(&format!("povray none.pov +W4 +H3 +Oo {words}")).ends(0, &[]);
+        place.read("o.png")
+    };
+    let (none, old, new) = (rendered(""), rendered("+MV3.5"), rendered("Version=3.7"));
+    assert!(none == old && old != new);
+}
+
+/// Command lines as programs write them: those of ASE, vapory, fdray, PyMOL, of modellers, of scripts and of services.
+const WRITTEN: [&str; 20] = [
+    "povray ase.ini",
+    "povray +Ia.pov +H30 +W40 +Q9 +A0.01 +O- +FN",
+    "povray +Ia.pov +Oout.png -D +A +W40 +H30 +UA +FN",
+    "povray +Ia.pov +Oout.png +W40 +H30 +A -D -V",
+    "povray -W40 -H30 -Ia.pov -Oout.png -GA",
+    "povray +W40 +H30 +Ia.pov +Oout +FN8 -P +X +D0 +SP64 +EP8",
+    "povray a.pov Width=40 Height=30 Antialias=On Antialias_Threshold=0.3 Antialias_Depth=3",
+    "povray +FN +W40 +H30 +A0.3 +R3 +AM2 +Q9 +J0.5 -D +L. +Ia.pov",
+    "povray -D0 +WT2 +Ia.pov +W40 +H30 Display=Off Pause_When_Done=Off All_Console=Off",
+    "povray +Ia.pov +W40 +H30 +KFI1 +KFF3 +KC -D Output_File_Name=frame",
+    "povray film.ini[short] +Oclip",
+    "povray -Ia.pov +W40 +H30 +SR10 +ER20 +SC1 +EC40 -GD",
+    "povray +Ia.pov +W40 +H30 Declare=Angle=30 Declare=Zoom=1.5 +K0.25",
+    "povray -Ia.pov +W40 +H30 +FJ85 +Oout",
+    "povray +Ia.pov -F +W40 +H30 -D",
+    "povray +W40 +H30 +B100 +MB25 -UV -UL Bounding_Method=2 +RVP -C a.pov",
+    "povray +Ia.pov +W40 +H30 +Q11 +AG0.4 Work_Threads=2 Render_Block_Size=16 Create_Ini=off",
+    "povray Input_File_Name=a.pov Output_File_Type=T Output_File_Name=out Width=40 Height=30",
+    "povray +Ia.pov +W40 +H30 -GW +GSstat.txt +GFfatal.txt Verbose=false",
+    "povray +Ia.pov +W40 +H30 +FN16 +A0.001 +AM2 Test_Abort=Off Histogram_Type=None",
+];
+
+#[test]
+fn command_lines_that_programs_write_make_pictures() {
+    let place = place();
+    place.write(
+        "ase.ini",
+        "Input_File_Name=a.pov\nOutput_to_File=True\nOutput_File_Type=N\nOutput_Alpha=on\n\
+         ; if you adjust Height, and width, you must preserve the ratio\nWidth=40\nHeight=30\n\
+         Antialias=True\nAntialias_Threshold=0.1\nDisplay=False\nPause_When_Done=True\n\
+         Verbose=False\n",
+    );
+    place.write(
+        "film.ini",
+        "Input_File_Name=a.pov\nWidth=40\nHeight=30\nFinal_Frame=9\n[short]\nSubset_End_Frame=2\n",
+    );
+    for words in WRITTEN {
+        let before = place.names();
+        let run = place.run(words);
+        assert_eq!(run.code(), 0, "{words}: {}", run.stderr());
+        let is_there = place.names() != before || !run.0.stdout.is_empty();
+        assert!(is_there || words.contains(" -F "), "{words}");
+        for name in place.names().into_iter().filter(|name| !before.contains(name)) {
+            std::fs::remove_file(place.path(&name)).expect("there");
+        }
+    }
+}
+
+#[test]
 fn a_part_of_a_picture_stands_in_all_of_it() {
     let place = place();
     place.run("povray +Ia.pov +W20 +H10 +Owhole").ends(0, &[]);

@@ -105,6 +105,9 @@ pub fn run(words: &[OsString]) -> ExitCode {
     if let Err(Problem) = taken {
         return problem("Failed to parse command-line option");
     }
+    if settings.writes && !settings.is_supported() {
+        return problem("Unsupported combination of options");
+    }
     let Some(input) = settings.input.clone() else { return problem("No input file provided") };
     stop::hear_interrupts("Render cancelled by user\n", 2);
     let run = Run { input: found(&input, &settings.folders), settings };
@@ -278,8 +281,12 @@ impl Run {
             return Ok(());
         }
         let film = traced.film.framed();
-        let developer =
-            Developer::new(self.settings.depth(), film.assumed_gamma, film.pixels.len());
+        let developer = Developer::with_encoding(
+            self.settings.depth(),
+            film.assumed_gamma,
+            self.settings.encoding,
+            film.pixels.len(),
+        );
         let written = output.write(&|out: &mut dyn Write| {
             picture::write(&film, &developer, self.settings.format, out)
         });
@@ -292,12 +299,11 @@ impl Run {
         let mut options = options.declaring(declares.clone());
         let evaluate = &mut options.evaluate;
         (evaluate.clock, evaluate.animation) = (clock, animation);
-        evaluate.now = now();
+        (evaluate.now, evaluate.version) = (now(), self.settings.version);
         evaluate.interrupt = stop::interrupt();
         options
     }
 
-    /// Returns the part of the picture that is rendered.
     /// Leaves out what a quality leaves out: from 7 on, mirrors; from 4 on, areas of lights; from 3 on, shadows; and at
     /// last all light but the colours' own.
     ///
@@ -328,7 +334,7 @@ impl Run {
                     finish.reflection = None;
                 }
                 if self.settings.quality < 2 {
-                    finish.emission = Rgb::WHITE;
+                    (finish.ambient, finish.emission) = (Rgb::BLACK, Rgb::WHITE);
                 }
             }
         }

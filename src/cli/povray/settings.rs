@@ -5,7 +5,8 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use lucarne::film::Depth;
+use lucarne::color::Gamma;
+use lucarne::film::{Depth, Encoding};
 use lucarne::picture::Format;
 use lucarne::plan::{Antialias, Region};
 
@@ -33,6 +34,10 @@ pub struct Settings {
     /// Bits per component.
     pub bits: u8,
     pub alpha: bool,
+    /// The transfer function of the file, and whether it is grey. A grey picture has 16 bits.
+    pub encoding: Encoding,
+    /// The version of the language before the scene's `#version`.
+    pub version: Option<f64>,
     /// Includes other than the scene's own.
     pub folders: Vec<PathBuf>,
     pub declares: Vec<(String, f64)>,
@@ -68,6 +73,8 @@ impl Default for Settings {
             format: Format::Png,
             bits: 8,
             alpha: false,
+            encoding: Encoding::default(),
+            version: None,
             folders: Vec::new(),
             declares: Vec::new(),
             clock: 0.0,
@@ -140,15 +147,12 @@ const INEFFECTIVE: &[&str] = &[
     "antialias_gamma",
     "create_ini",
     "field_render",
-    "file_gamma",
-    "grayscale_output",
     "include_header",
     "odd_field",
     "radiosity_file_name",
     "radiosity_from_file",
     "radiosity_to_file",
     "radiosity_vain_pretrace",
-    "version",
 ];
 
 impl Settings {
@@ -163,12 +167,15 @@ impl Settings {
             "start_row" => self.rows.0 = Some(edge(value)?),
             "end_row" => self.rows.1 = Some(edge(value)?),
             "input_file_name" => self.input = Some(value.to_owned()),
-            "output_to_file" => self.writes = switch(value)?,
+            "output_to_file" => self.writes = switch(value),
             "output_file_name" => self.output = Some(value.to_owned()),
             "output_file_type" => self.format = format(value)?,
-            "output_alpha" => self.alpha = switch(value)?,
+            "output_alpha" => self.alpha = switch(value),
+            "file_gamma" => self.encoding.display = gamma(value)?,
+            "grayscale_output" => self.encoding.is_gray = switch(value),
+            "version" => self.version = Some(number(value)?),
             "bits_per_color" => self.bits = if number(value)? > 8.0 { 16 } else { 8 },
-            "antialias" => self.antialias = switch(value)?,
+            "antialias" => self.antialias = switch(value),
             "sampling_method" => self.method = whole(value)?,
             "antialias_threshold" => self.threshold = number(value)?.max(0.0),
             "antialias_depth" => self.depth = whole(value)?.clamp(1, 9),
@@ -182,14 +189,14 @@ impl Settings {
             "final_frame" => self.range.frames.1 = frame(value)?,
             "initial_clock" => self.range.clocks.0 = number(value)?,
             "final_clock" => self.range.clocks.1 = number(value)?,
-            "cyclic_animation" => self.range.is_cyclic = switch(value)?,
+            "cyclic_animation" => self.range.is_cyclic = switch(value),
             "frame_step" => self.range.step = whole(value)?.max(1),
             "subset_start_frame" => self.range.subset.0 = Some(edge(value)?),
             "subset_end_frame" => self.range.subset.1 = Some(edge(value)?),
             "work_threads" => self.threads = Some(whole(value)?.max(1) as usize),
             "quality" => self.quality = whole(value)?.min(11),
-            "verbose" => self.verbose = switch(value)?,
-            name if self.streams.set(name, value)? => {}
+            "verbose" => self.verbose = switch(value),
+            name if self.streams.set(name, value) => {}
             name if WITHOUT_EFFECT.contains(&name) => {}
             name if INEFFECTIVE.contains(&name) => self.ineffective.push(name.to_owned()),
             // Shell commands are never run.
@@ -257,9 +264,15 @@ impl Settings {
         Output::File { path, format: self.format }
     }
 
+    /// Whether a picture of this format can be as it is asked for.
+    pub fn is_supported(&self) -> bool {
+        !self.encoding.is_gray || matches!(self.format, Format::Png | Format::Ppm)
+    }
+
     /// Returns the numbers that a component of a pixel has in the file.
     pub fn depth(&self) -> Depth {
-        let asked = self.format.depth(Some(self.bits));
+        let bits = if self.encoding.is_gray { 16 } else { self.bits };
+        let asked = self.format.depth(Some(bits));
         asked.or(self.format.depth(None)).unwrap_or_default()
     }
 }
@@ -274,6 +287,14 @@ pub fn number(value: &str) -> Result<f64, Problem> {
         .find_map(|end| digits[..end].parse().ok())
         .filter(|value: &f64| value.is_finite())
         .ok_or(Problem)
+}
+
+/// Returns a transfer function: a power, or that of sRGB.
+fn gamma(value: &str) -> Result<Gamma, Problem> {
+    if value.trim().eq_ignore_ascii_case("srgb") {
+        return Ok(Gamma::Srgb);
+    }
+    number(value).and_then(|power| if power > 0.0 { Ok(Gamma::Power(power)) } else { Err(Problem) })
 }
 
 fn edge(value: &str) -> Result<Edge, Problem> {
@@ -300,12 +321,10 @@ fn pixels(value: &str) -> Result<u32, Problem> {
     }
 }
 
-pub fn switch(value: &str) -> Result<bool, Problem> {
-    match value.trim().to_ascii_lowercase().as_str() {
-        "on" | "yes" | "true" | "1" => Ok(true),
-        "off" | "no" | "false" | "0" => Ok(false),
-        _ => Err(Problem),
-    }
+/// Returns whether a switch is on: `on`, 1, and words that begin as `yes` and `true` do; all others are off.
+pub fn switch(value: &str) -> bool {
+    let value = value.trim().to_ascii_lowercase();
+    matches!(value.as_str(), "on" | "1") || value.starts_with(['y', 't'])
 }
 
 fn format(value: &str) -> Result<Format, Problem> {
@@ -333,12 +352,19 @@ mod tests {
             assert_eq!(settings.set(name, value), Ok(()), "{name}");
         }
         assert_eq!((settings.width, settings.height), (640, 480));
+        for (value, is_on) in
+            [("on", true), ("Yes", true), ("true", true), ("no", false), ("2", false)]
+        {
+            assert_eq!(settings.set("output_alpha", value), Ok(()));
+            assert_eq!(settings.alpha, is_on, "{value}");
+        }
         assert_eq!(settings.declares, [("A".to_owned(), 2.5)]);
         for (name, value) in [
             ("widht", "1"),
             ("width", ""),
             ("width", "0"),
-            ("antialias", "perhaps"),
+            ("file_gamma", "on"),
+            ("file_gamma", "0"),
             ("declare", "A"),
         ] {
             assert_eq!(settings.set(name, value), Err(Problem), "{name}={value}");
