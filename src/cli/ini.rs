@@ -15,7 +15,8 @@ use super::arguments::Arguments;
 use super::exit::Failure;
 use super::messages;
 use super::output::Output;
-use super::povray::Settings;
+use super::povray::{Settings, section_of};
+use super::text::read_main;
 
 /// An INI file, or a section of one.
 pub struct Ini {
@@ -35,9 +36,16 @@ impl Ini {
         }
         let read = |path: &Path| fs::read(path).ok().map(|bytes| decode(bytes).0);
         let mut settings = Settings::default();
-        let Some(text) = read(Path::new(name)) else {
-            return Err(Failure::file(format!("cannot read `{name}`")));
-        };
+        let text = decode(read_main(Path::new(name))?).0;
+        let section = file[name.len()..].trim_matches(['[', ']']).trim();
+        let sections: Vec<&str> = text.lines().filter_map(section_of).collect();
+        if !section.is_empty() && !sections.iter().any(|one| one.eq_ignore_ascii_case(section)) {
+            let failure = Failure::usage(format!("`{name}` has no section `{section}`"));
+            return Err(match sections.is_empty() {
+                true => failure,
+                false => failure.help(format!("it has {}", listed(&sections))),
+            });
+        }
         if settings.take_file(&file, &read).is_err() {
             return Err(Failure::usage(wrong_line(name, &text, &file[name.len()..], &read)));
         }
@@ -138,12 +146,11 @@ impl Ini {
     fn note_unused(&self) {
         let is_unused =
             |name: &&String| !USED.contains(&name.as_str()) && !Settings::is_without_effect(name);
-        let names = self.settings.names.iter().filter(is_unused);
-        let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+        let names: Vec<&String> = self.settings.names.iter().filter(is_unused).collect();
         if !names.is_empty() {
             messages::eprint(&format!(
                 "note: `{file}`: `render` leaves out {}; `lucarne povray {file}` reads all options\n",
-                names.join(", "),
+                listed(&names),
                 file = self.file
             ));
         }
@@ -180,6 +187,10 @@ const USED: &[&str] = &[
     "width",
     "work_threads",
 ];
+
+fn listed(names: &[impl std::fmt::Display]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
 
 /// Says which line of an INI file cannot be understood: the first that makes those before it wrong.
 fn wrong_line(

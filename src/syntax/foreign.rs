@@ -147,7 +147,12 @@ fn by_its_lines(text: &str) -> Option<Kind> {
         (is_c, 2, "a program in C, or for a graphics card", PROGRAM),
         (is_yaml, 4, "a YAML file", "a scene has words and braces: `sphere { 0, 1 }`"),
         (is_script, 2, "a program in JavaScript", PROGRAM),
-        (is_ini, 2, "a file of options (INI)", "size and the like are options of the command line"),
+        (
+            is_ini,
+            2,
+            "a file of options (INI)",
+            "`lucarne FILE.ini` renders the scene that it names",
+        ),
     ];
     let mut counts = [0; LANGUAGES.len()];
     for line in text.lines().map(str::trim_end).take(LINES) {

@@ -85,7 +85,9 @@ fn an_ini_file_is_rendered_as_its_options_say_and_the_command_line_counts_more()
     place
         .run("film/bad.ini[film]")
         .ends(2, &["line 6 of `film/bad.ini` cannot be understood: `Hight=3`"]);
-    place.run("film/none.ini").ends(3, &["cannot read `film/none.ini`"]);
+    let none = ["`film/bad.ini` has no section `none`", "it has `other`, `film`"];
+    place.run("film/bad.ini[none]").ends(2, &none);
+    place.run("film/none.ini").ends(3, &["cannot read `film/none.ini`: there is no such file"]);
     place.write("film/empty.ini", "Width=3\n");
     place.run("film/empty.ini").ends(2, &["names no scene", "Input_File_Name"]);
 }

@@ -32,6 +32,7 @@ use self::rendered::Rendered;
 use self::settings::Problem;
 pub use self::settings::Settings;
 use self::streams::Stream;
+pub use self::switches::section_of;
 use super::exit::Failure;
 use super::files::Recorded;
 use super::kept::Kept;

@@ -199,11 +199,11 @@ impl Settings {
     ) -> Result<(), Problem> {
         let mut is_meant = true;
         for line in text.lines() {
-            let line = uncommented(line).trim();
-            if let Some(name) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
-                is_meant = section.is_some_and(|meant| meant.eq_ignore_ascii_case(name.trim()));
+            if let Some(name) = section_of(line) {
+                is_meant = section.is_some_and(|meant| meant.eq_ignore_ascii_case(name));
                 continue;
             }
+            let line = uncommented(line).trim();
             if !is_meant || line.is_empty() {
                 continue;
             }
@@ -219,6 +219,12 @@ impl Settings {
         }
         Ok(())
     }
+}
+
+/// Returns the name of the section that a line of an INI file begins.
+pub fn section_of(line: &str) -> Option<&str> {
+    let line = uncommented(line).trim();
+    line.strip_prefix('[')?.strip_suffix(']').map(str::trim)
 }
 
 /// Returns the line without its comment: what follows a `;` or `#` outside of quotes.
