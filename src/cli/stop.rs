@@ -44,7 +44,11 @@ impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Interrupt => write!(f, "interrupted"),
-            Self::Time(seconds) => write!(f, "the limit of {seconds} s (`--time`) is over"),
+            Self::Time(seconds) => {
+                // 700 thousandths are a little more than 0.7.
+                let seconds = (seconds * 1e6).round() / 1e6;
+                write!(f, "the limit of {seconds} s (`--time`) is over")
+            }
             Self::Memory(bytes) => {
                 write!(f, "more memory is used than {} MiB (`--memory`)", bytes >> 20)
             }

@@ -252,3 +252,39 @@ fn streams_go_to_files_and_scenes_write_below_the_current_folder() {
     assert_eq!(place.read("fatal.log"), b"");
     assert_eq!(place.read("made.inc"), b"#declare A = 1;");
 }
+
+#[test]
+fn a_quality_leaves_out_what_the_manual_says() {
+    let place = place();
+    // A clear and a mirroring square beside each other, lit from the front, before a blue background.
+    place.write(
+        "q.pov",
+        "#version 3.7; global_settings { assumed_gamma 1 } background { rgb z }
+        camera { orthographic location -5*z right 4*x up y direction z }
+        light_source { -100*z, rgb 1 parallel point_at 0 }
+        #default { finish { ambient 0.1 diffuse 0.5 } }
+        box { <-2, -1, 0>, <0, 1, 1> pigment { rgbt <1, 0.5, 0.2, 0.5> } }
+        box { <0, -1, 0>, <2, 1, 1> pigment { rgb <1, 0.5, 0.2> } finish { reflection 0.5 } }",
+    );
+    // What POV-Ray shows, linear: ambient and diffuse light, the background through the left one, and in the right one.
+    let (clear, through) = ([0.3, 0.15, 0.06], [0.39, 0.19, 0.33]);
+    let (plain, mirrored) = ([0.6, 0.3, 0.12], [0.6, 0.3, 0.62]);
+    for (quality, left, right) in [
+        (9, through, mirrored),
+        (8, through, mirrored),
+        (7, through, plain),
+        (6, through, plain),
+        (5, clear, plain),
+        (3, clear, plain),
+        (1, [0.5, 0.25, 0.1], [1.0, 0.5, 0.2]),
+    ] {
+        place.run(&format!("povray q.pov +W4 +H1 +Oo File_Gamma=1 +Q{quality}")).ends(0, &[]);
+        let read = image::open(place.path("o.png")).expect("a picture").into_rgb8();
+        for (x, expected) in [(1, left), (2, right)] {
+            for (seen, expected) in read.get_pixel(x, 0).0.into_iter().zip(expected) {
+                let off = f64::from(seen) / 255.0 - expected;
+                assert!(off.abs() < 0.008, "quality {quality}: {:?}", read.get_pixel(x, 0));
+            }
+        }
+    }
+}

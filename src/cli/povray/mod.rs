@@ -21,7 +21,7 @@ use lucarne::disk::DiskFiles;
 use lucarne::evaluate::Animation;
 use lucarne::film::{Channels, Developer};
 use lucarne::picture;
-use lucarne::plan::{Frame, PlanOptions, plan};
+use lucarne::plan::{Effect, Frame, PlanOptions, plan};
 use lucarne::road::{Options, Road};
 use lucarne::scene::{Dialect, Finish, Scene};
 use lucarne::source::Files;
@@ -254,7 +254,11 @@ impl Run {
             alpha: self.settings.alpha,
             ..PlanOptions::new(frame)
         };
-        let plan = plan(&world, &origins, &options);
+        let mut plan = plan(&world, &origins, &options);
+        if self.settings.quality < 6 {
+            // What is behind clear surfaces is black (measured).
+            plan.effects.retain(|called| called.effect != Effect::Transparency);
+        }
         self.say(Stream::Render, &header("Rendering"));
         let threads = self.settings.threads.map(|wanted| wanted.min(most_threads()));
         let threads = TraceOptions { threads, ..TraceOptions::default() };
@@ -311,11 +315,11 @@ impl Run {
     /// **Source:** POV-Ray 3.7 manual, section 3.2.8.3 "Quality Settings", and the program, measured.
     fn light_at_quality(&self, world: &mut World) {
         let quality = self.settings.quality;
+        if quality < 2 {
+            self.say(Stream::Warning, "lucarne: clear surfaces are as dark as at quality 2\n");
+        }
         if quality < 6 {
-            self.say(
-                Stream::Warning,
-                "lucarne: patterns and clear surfaces are shown as at quality 6\n",
-            );
+            self.say(Stream::Warning, "lucarne: `quick_color` is not used\n");
         }
         if quality < 5 {
             world.lights.iter_mut().for_each(|light| light.area = None);
