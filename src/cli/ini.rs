@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 
 use clap::CommandFactory;
 use clap::parser::ValueSource;
-use lucarne::plan::Antialias;
+use lucarne::plan::{Antialias, Region};
 use lucarne::source::decode;
 
 use super::arguments::Arguments;
 use super::exit::Failure;
 use super::messages;
 use super::output::Output;
-use super::povray::{Settings, section_of};
+use super::povray::{Settings, is_without_effect, section_of};
 use super::text::read_main;
 
 /// An INI file, or a section of one.
@@ -53,6 +53,11 @@ impl Ini {
             return Err(Failure::usage(format!("`{name}` names no scene"))
                 .help("add a line such as `Input_File_Name=scene.pov`"));
         };
+        if let Err(edge) = settings.region() {
+            let sentence =
+                format!("`{name}`: the part to render has its {edge} outside of the picture");
+            return Err(Failure::usage(sentence));
+        }
         // Paths are relative to the current folder, as in POV-Ray; otherwise, to that of the file.
         let beside = Path::new(name).with_file_name(input);
         let is_beside = !Path::new(input).exists() && beside.exists();
@@ -68,9 +73,9 @@ impl Ini {
         let given = |id: &str| {
             render.is_some_and(|render| render.value_source(id) == Some(ValueSource::CommandLine))
         };
-        let Settings { width, height, ref range, ref names, .. } = self.settings;
+        let Settings { width, height, ref names, .. } = self.settings;
         let has = |one: &str| names.contains(one);
-        let is_animation = !range.is_still();
+        let range = self.settings.frames();
         let mut words: Vec<String> = Vec::new();
         let mut add = |id: &str, name: &str, value: &str| {
             if id.is_empty() || !given(id) {
@@ -80,10 +85,11 @@ impl Ini {
         if has("width") || has("height") {
             add("size", "size", &format!("{width}x{height}"));
         }
-        if ["start_column", "end_column", "start_row", "end_row"].into_iter().any(has) {
-            let part = self.settings.region();
-            let part = format!("{},{},{},{}", part.x, part.y, part.width, part.height);
-            add("region", "region", &part);
+        let has_part = ["start_column", "end_column", "start_row", "end_row"].into_iter().any(has);
+        if let Some(Region { x, y, width, height }) =
+            self.settings.region().ok().filter(|_| has_part)
+        {
+            add("region", "region", &format!("{x},{y},{width},{height}"));
         }
         if has("antialias") && !given("max_error") && !given("time_budget") {
             add(
@@ -113,7 +119,8 @@ impl Ini {
         if let Some(threads) = self.settings.threads {
             add("threads", "threads", &threads.to_string());
         }
-        if is_animation && !given("frames") {
+        let is_still = range.is_none();
+        if let Some(range) = range.filter(|_| !given("frames")) {
             let (first, last) = range.frames;
             add("frames", "frames", &format!("{first}..{last}/{}", range.step));
             add("clocks", "clocks", &format!("{}..{}", range.clocks.0, range.clocks.1));
@@ -136,7 +143,7 @@ impl Ini {
         for (name, value) in &self.settings.declares {
             add("", "declare", &format!("{name}={value}"));
         }
-        if has("clock") && !is_animation && !given("frames") {
+        if has("clock") && is_still && !given("frames") {
             add("", "declare", &format!("clock={}", self.settings.clock));
         }
         self.note_unused();
@@ -144,8 +151,7 @@ impl Ini {
     }
 
     fn note_unused(&self) {
-        let is_unused =
-            |name: &&String| !USED.contains(&name.as_str()) && !Settings::is_without_effect(name);
+        let is_unused = |name: &&String| !USED.contains(&name.as_str()) && !is_without_effect(name);
         let names: Vec<&String> = self.settings.names.iter().filter(is_unused).collect();
         if !names.is_empty() {
             messages::eprint(&format!(

@@ -382,6 +382,7 @@ impl<'a> Evaluator<'a> {
         let main_name = self.sources.get(file).name.clone();
         self.including.push(main_name);
         self.misread = self.diagnostics.has_errors();
+        self.default_noise();
         let root = unit.ast.root;
         let here = Here { unit, expansion: ExpansionId::MAIN };
         self.inside(&here, root, Self::scene_items);

@@ -110,7 +110,7 @@ fn a_file_has_the_gamma_and_the_gray_that_are_asked_for() {
         assert!(off.max() <= Some(1), "{words} {:?}", read.get_pixel(1, 1));
     }
     for (words, gray) in
-        [("+FNg", 39_952), ("+FPg", 39_952), ("+FN Grayscale_Output=on File_Gamma=1", 21_620)]
+        [("+FNg", 39_952), ("+FPg", 21_620), ("+FN Grayscale_Output=on File_Gamma=1", 21_620)]
     {
         let name = if words.contains("P") { "g.ppm" } else { "g.png" };
         place.run(&format!("povray linear.pov +W4 +H3 +Og {words}")).ends(0, &[]);
@@ -118,7 +118,25 @@ fn a_file_has_the_gamma_and_the_gray_that_are_asked_for() {
         let pixel = read.as_luma16().expect("16 bits of gray").get_pixel(1, 1).0[0];
         assert!(pixel.abs_diff(gray) <= 1, "{words} {pixel}");
     }
-    place.run("povray linear.pov +FTg").ends(1, &["Unsupported combination of options"]);
+    let run = place.run("povray linear.pov +FT Grayscale_Output=on");
+    run.ends(1, &["Unsupported combination of options"]);
+    place.run("povray linear.pov +FTg").ends(1, &["Failed to parse command-line option"]);
+}
+
+#[test]
+fn a_header_comes_first_and_a_single_frame_has_its_number() {
+    let place = place();
+    place.write("head.inc", "#declare Size = 0.5;\n");
+    place.write("h.pov", "#version 3.7; camera { location -5*z look_at 0 } sphere { 0, Size }");
+    place.run("povray h.pov +W8 +H6").ends(1, &["Parse Error: "]);
+    place.run("povray h.pov +W8 +H6 +HIhead.inc").ends(0, &[]);
+    place.run("povray a.pov +W8 +H6 +KFI3 +KFF3 +Oone").ends(0, &["Rendering frame 1 of 1\n"]);
+    place.run("povray a.pov +W8 +H6 +KFF9 +STP4 +Onine").ends(0, &["Rendering frame 3 of 3\n"]);
+    for name in ["h.png", "one3.png", "nine1.png", "nine5.png", "nine9.png"] {
+        assert_eq!(size(&place, name), (8, 6), "{name}");
+    }
+    let wrong = "Fatal error in renderer: Invalid end column or row\n";
+    place.run("povray a.pov +W8 +H6 +EC9").ends(1, &[wrong, "Render failed"]);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //! **Invariant:** all text is ASCII and on standard error; standard output has a picture that was asked for, or nothing.
 //! The exit code is 0, 1, or 2 if interrupted.
 
+mod inert;
 mod rendered;
 mod settings;
 mod streams;
@@ -28,6 +29,7 @@ use lucarne::source::Files;
 use lucarne::trace::{TraceOptions, trace};
 use lucarne::world::World;
 
+pub use self::inert::is_without_effect;
 use self::rendered::Rendered;
 use self::settings::Problem;
 pub use self::settings::Settings;
@@ -106,10 +108,10 @@ pub fn run(words: &[OsString]) -> ExitCode {
     if let Err(Problem) = taken {
         return problem("Failed to parse command-line option");
     }
-    if settings.writes && !settings.is_supported() {
+    let Some(input) = settings.input.clone() else { return problem("No input file provided") };
+    if !settings.is_supported() {
         return problem("Unsupported combination of options");
     }
-    let Some(input) = settings.input.clone() else { return problem("No input file provided") };
     stop::hear_interrupts("Render cancelled by user\n", 2);
     let run = Run { input: found(&input, &settings.folders), settings };
     if run.settings.streams.overwrite(&run.input) {
@@ -176,12 +178,16 @@ impl Run {
             );
             self.failed(&failure)
         })?;
+        let bytes = match &self.settings.header {
+            Some(file) => [format!("#include \"{file}\" ").as_bytes(), &bytes].concat(),
+            None => bytes,
+        };
         let disk = DiskFiles::new(&self.input, &self.settings.folders).writing();
-        if self.settings.range.is_still() {
+        let Some(range) = self.settings.frames() else {
             return self.frame(&bytes, (&disk, &disk), None, self.settings.clock);
-        }
+        };
         let kept = Kept::new(&disk);
-        let frames = self.settings.range.frames();
+        let frames = range.frames();
         for (number, (animation, clock)) in frames.iter().enumerate() {
             let frame = format!("Rendering frame {} of {}\n", number + 1, frames.len());
             self.say(Stream::Render, &frame);
@@ -206,7 +212,12 @@ impl Run {
         clock: f64,
     ) -> Result<(), Stop> {
         let Settings { width, height, verbose, .. } = self.settings;
-        let frame = Frame { region: self.settings.region(), ..Frame::whole(width, height) };
+        let region = self.settings.region().map_err(|edge| {
+            let text = format!("Fatal error in renderer: Invalid {edge} column or row\n");
+            self.say(Stream::Fatal, &text);
+            Stop::Failed
+        })?;
+        let frame = Frame { region, ..Frame::whole(width, height) };
         let output =
             self.settings.output(&self.input, animation.map(|animation| animation.frame_number));
         self.say(
@@ -230,20 +241,21 @@ impl Run {
             .map_err(|failure| self.failed(&failure))?;
         self.say(Stream::Render, &header("Parsing"));
         let read = Recorded::new(files);
-        let (mut world, origins) = {
+        let (mut world, origins, encoding) = {
             let mut road = Road::new(&read, self.options(animation, clock));
             let file = road.read(&name_of(&self.input), bytes.to_vec());
             let ast = road.parse(file);
             let mut scene = road.evaluate(ast);
             self.finish_at_quality(&mut scene);
-            let compiled = road.lower(scene);
+            let encoding = self.settings.encoding(&scene);
+            let (world, origins) = road.lower(scene);
             if self.settings.writes {
                 let kept = output.keeps(&road.sources, &read.names());
                 kept.map_err(|failure| self.failed(&failure))?;
             }
             let list = road.diagnostics.in_text_order().into_iter().cloned().collect();
             self.print(&Messages::new(list, road.sources))?;
-            compiled
+            (world, origins, encoding)
         };
         for (path, _, bytes) in disk.written().map(|written| written.take()).unwrap_or_default() {
             write_whole(&path, &bytes).map_err(|failure| self.failed(&failure))?;
@@ -289,7 +301,7 @@ impl Run {
         let developer = Developer::with_encoding(
             self.settings.depth(),
             film.assumed_gamma,
-            self.settings.encoding,
+            encoding,
             film.pixels.len(),
         );
         let written = output.write(&|out: &mut dyn Write| {

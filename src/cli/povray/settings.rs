@@ -5,11 +5,13 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use lucarne::color::Gamma;
+use lucarne::color::{Clearness, Gamma};
 use lucarne::film::{Depth, Encoding};
 use lucarne::picture::Format;
 use lucarne::plan::{Antialias, Region};
+use lucarne::scene::Scene;
 
+use super::inert;
 use super::streams::Streams;
 use crate::cli::animation::{Edge, FrameRange, LAST};
 use crate::cli::output::Output;
@@ -34,15 +36,17 @@ pub struct Settings {
     /// Bits per component.
     pub bits: u8,
     pub alpha: bool,
-    /// The transfer function of the file, and whether it is grey. A grey picture has 16 bits.
-    pub encoding: Encoding,
+    /// The transfer function of the file, and whether it is grey, as asked for. A grey picture has 16 bits.
+    encoding: Encoding,
     /// The version of the language before the scene's `#version`.
     pub version: Option<f64>,
     /// Includes other than the scene's own.
     pub folders: Vec<PathBuf>,
+    /// A file that the scene includes first.
+    pub header: Option<String>,
     pub declares: Vec<(String, f64)>,
     pub clock: f64,
-    pub range: FrameRange,
+    range: FrameRange,
     pub threads: Option<usize>,
     /// 0 to 11.
     pub quality: u32,
@@ -76,6 +80,7 @@ impl Default for Settings {
             encoding: Encoding::default(),
             version: None,
             folders: Vec::new(),
+            header: None,
             declares: Vec::new(),
             clock: 0.0,
             range: FrameRange::default(),
@@ -93,67 +98,6 @@ impl Default for Settings {
         }
     }
 }
-
-/// Options that change nothing here, because they are about windows, memory and the search for objects, or because a
-/// picture does not need them.
-const WITHOUT_EFFECT: &[&str] = &[
-    "bounding",
-    "bounding_method",
-    "bounding_threshold",
-    "bsp_basecost",
-    "bsp_childaccesscost",
-    "bsp_isectcost",
-    "bsp_maxdepth",
-    "bsp_misschance",
-    "buffer_output",
-    "buffer_size",
-    "continue_trace",
-    "create_continue_trace_log",
-    "create_histogram",
-    "display",
-    "display_gamma",
-    "dither",
-    "dither_method",
-    "draw_vistas",
-    "high_reproducibility",
-    "histogram_grid_size",
-    "histogram_name",
-    "histogram_type",
-    "jitter",
-    "jitter_amount",
-    "light_buffer",
-    "max_image_buffer_memory",
-    "palette",
-    "pause_when_done",
-    "preview_end_size",
-    "preview_start_size",
-    "real_time_raytracing",
-    "remove_bounds",
-    "render_block_size",
-    "render_block_step",
-    "render_pattern",
-    "split_unions",
-    "stochastic_seed",
-    "test_abort",
-    "test_abort_count",
-    "video_mode",
-    "vista_buffer",
-    "warning_level",
-];
-
-/// Options that this program has no equal of.
-const INEFFECTIVE: &[&str] = &[
-    "antialias_confidence",
-    "antialias_gamma",
-    "create_ini",
-    "field_render",
-    "include_header",
-    "odd_field",
-    "radiosity_file_name",
-    "radiosity_from_file",
-    "radiosity_to_file",
-    "radiosity_vain_pretrace",
-];
 
 impl Settings {
     /// Sets an option by the name that it has in INI files, in any case.
@@ -173,16 +117,19 @@ impl Settings {
             "output_alpha" => self.alpha = switch(value),
             "file_gamma" => self.encoding.display = gamma(value)?,
             "grayscale_output" => self.encoding.is_gray = switch(value),
-            "version" => self.version = Some(number(value)?),
+            "version" => self.version = Some(number(value)?.max(1.0)),
             "bits_per_color" => self.bits = if number(value)? > 8.0 { 16 } else { 8 },
             "antialias" => self.antialias = switch(value),
             "sampling_method" => self.method = whole(value)?,
             "antialias_threshold" => self.threshold = number(value)?.max(0.0),
             "antialias_depth" => self.depth = whole(value)?.clamp(1, 9),
+            "include_header" => self.header = Some(value.to_owned()),
             "library_path" => self.folders.push(PathBuf::from(value)),
             "declare" => {
-                let (name, value) = value.split_once('=').ok_or(Problem)?;
-                self.declares.push((name.trim().to_owned(), number(value)?));
+                // A name alone declares nothing.
+                if let Some((name, value)) = value.split_once('=') {
+                    self.declares.push((name.trim().to_owned(), number(value)?));
+                }
             }
             "clock" => self.clock = number(value)?,
             "initial_frame" => self.range.frames.0 = frame(value)?,
@@ -197,8 +144,8 @@ impl Settings {
             "quality" => self.quality = whole(value)?.min(11),
             "verbose" => self.verbose = switch(value),
             name if self.streams.set(name, value) => {}
-            name if WITHOUT_EFFECT.contains(&name) => {}
-            name if INEFFECTIVE.contains(&name) => self.ineffective.push(name.to_owned()),
+            name if inert::WITHOUT_EFFECT.contains(&name) => {}
+            name if inert::INEFFECTIVE.contains(&name) => self.ineffective.push(name.to_owned()),
             // Shell commands are never run.
             name if name.ends_with("_command") => self.ineffective.push(name.to_owned()),
             name if name.ends_with("_return") => {}
@@ -206,11 +153,6 @@ impl Settings {
         }
         self.names.insert(name);
         Ok(())
-    }
-
-    /// Whether an option changes nothing in any program but POV-Ray.
-    pub fn is_without_effect(name: &str) -> bool {
-        WITHOUT_EFFECT.contains(&name) || name.ends_with("_return")
     }
 
     /// Returns the antialiasing that comes nearest: both look at neighbours first. POV-Ray's first method then takes n × n
@@ -224,15 +166,40 @@ impl Settings {
         Antialias::Adaptive { threshold: self.threshold, grid }
     }
 
-    /// Returns the part of the picture that is rendered.
-    pub fn region(&self) -> Region {
+    /// Returns the frames of an animation; `None` for a still. Measured: a first frame behind the last one is the only one,
+    /// and one frame is an animation if its number is above 1.
+    pub fn frames(&self) -> Option<FrameRange> {
+        let (first, last) = self.range.frames;
+        let range = FrameRange { frames: (first, last.max(first)), ..self.range.clone() };
+        (range.frames.1 > 1 || !range.is_still()).then_some(range)
+    }
+
+    /// Returns how the picture of a scene encodes light. Measured: a scene for older versions without `assumed_gamma`
+    /// has its colours in the file as they are, and a PGM has linear light, whatever gamma was asked for.
+    pub fn encoding(&self, scene: &Scene) -> Encoding {
+        let is_old = scene.settings.clearness == Clearness::Old;
+        let display = match (is_old && scene.settings.assumed_gamma == Gamma::Srgb, self.format) {
+            (true, _) => Gamma::Srgb,
+            (false, Format::Ppm) if self.encoding.is_gray => Gamma::LINEAR,
+            _ => self.encoding.display,
+        };
+        Encoding { display, ..self.encoding }
+    }
+
+    /// Returns the part of the picture that is rendered; fails with `start` or `end` if that is outside of the picture.
+    pub fn region(&self) -> Result<Region, &'static str> {
         let part = |(first, last): (Option<Edge>, Option<Edge>), all: u32| {
-            let first = first.map_or(0, |edge| edge.first(all)).min(all.saturating_sub(1));
-            (first, last.map_or(all, |edge| edge.end(all)).clamp(first + 1, all))
+            let first = first.map_or(0, |edge| edge.first(all));
+            let last = last.map_or(all, |edge| edge.end(all));
+            match () {
+                () if first >= all => Err("start"),
+                () if last == 0 || last > all => Err("end"),
+                () => Ok((first, last.max(first + 1))),
+            }
         };
         let ((left, right), (top, bottom)) =
-            (part(self.columns, self.width), part(self.rows, self.height));
-        Region { x: left, y: top, width: right - left, height: bottom - top }
+            (part(self.columns, self.width)?, part(self.rows, self.height)?);
+        Ok(Region { x: left, y: top, width: right - left, height: bottom - top })
     }
 
     /// Returns where the picture of a scene goes: beside the scene, unless another place or name was asked for.
@@ -256,8 +223,8 @@ impl Settings {
             }
         };
         let stem = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let name = match frame_number {
-            Some(number) => self.range.name(&stem, number),
+        let name = match frame_number.zip(self.frames()) {
+            Some((number, range)) => range.name(&stem, number),
             None => stem,
         };
         let path = path.with_file_name(format!("{name}.{extension}"));
@@ -329,8 +296,7 @@ pub fn switch(value: &str) -> bool {
 
 fn format(value: &str) -> Result<Format, Problem> {
     match value.trim().to_ascii_uppercase().as_bytes().first() {
-        // The system's own format.
-        Some(b'N' | b'S') => Ok(Format::Png),
+        Some(b'N') => Ok(Format::Png),
         Some(b'P') => Ok(Format::Ppm),
         Some(b'T' | b'C') => Ok(Format::Tga),
         Some(b'J') => Ok(Format::Jpeg),
@@ -365,10 +331,22 @@ mod tests {
             ("width", "0"),
             ("file_gamma", "on"),
             ("file_gamma", "0"),
-            ("declare", "A"),
+            ("declare", "A=\"b\""),
+            ("output_file_type", "S"),
         ] {
             assert_eq!(settings.set(name, value), Err(Problem), "{name}={value}");
         }
+    }
+
+    #[test]
+    fn one_frame_is_an_animation_if_its_number_is_above_1() {
+        let frames = |first, last| {
+            let range = FrameRange { frames: (first, last), ..FrameRange::default() };
+            Settings { range, ..Settings::default() }.frames().map(|range| range.frames)
+        };
+        assert_eq!([frames(1, 1), frames(0, 0), frames(1, 0)], [None; 3]);
+        assert_eq!([frames(3, 3), frames(3, 1)], [Some((3, 3)); 2]);
+        assert_eq!(frames(0, 1), Some((0, 1)));
     }
 
     #[test]

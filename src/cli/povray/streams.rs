@@ -21,12 +21,13 @@ pub enum Stream {
     Warning,
 }
 
-const NAMES: [(&str, Stream); 5] = [
-    ("debug", Stream::Debug),
-    ("fatal", Stream::Fatal),
-    ("render", Stream::Render),
-    ("statistic", Stream::Statistic),
-    ("warning", Stream::Warning),
+/// The name of each stream in options, and of its file where none is named.
+const NAMES: [(&str, Stream, &str); 5] = [
+    ("debug", Stream::Debug, "debug.out"),
+    ("fatal", Stream::Fatal, "fatal.out"),
+    ("render", Stream::Render, "render.out"),
+    ("statistic", Stream::Statistic, "stats.out"),
+    ("warning", Stream::Warning, "warning.out"),
 ];
 
 /// Where each stream goes.
@@ -36,27 +37,36 @@ pub struct Streams {
     console: [bool; 5],
     /// The file that each goes to, too.
     files: [Option<String>; 5],
+    /// Whether files keep the text that they have.
+    append: bool,
 }
 
 impl Default for Streams {
     fn default() -> Self {
-        Self { console: [true; 5], files: Default::default() }
+        Self { console: [true; 5], files: Default::default(), append: false }
     }
 }
 
 impl Streams {
     /// Sets an option by its name; returns false if it is about something else.
     pub fn set(&mut self, name: &str, value: &str) -> bool {
+        if name == "append_file" {
+            self.append = switch(value);
+            return true;
+        }
         let Some((stream, kind)) = name.split_once('_') else { return false };
-        let which = |(name, _): &(&str, Stream)| stream == "all" || *name == stream;
-        let places: Vec<usize> =
-            NAMES.iter().enumerate().filter(|(_, name)| which(name)).map(|(at, _)| at).collect();
-        if places.is_empty() || !matches!(kind, "console" | "file") {
+        let places = NAMES.iter().enumerate().filter(|(_, one)| stream == "all" || one.0 == stream);
+        if !matches!(kind, "console" | "file") || places.clone().next().is_none() {
             return false;
         }
-        for at in places {
-            match kind {
-                "console" => self.console[at] = switch(value),
+        for (at, (_, _, file)) in places {
+            match (kind, value.to_ascii_lowercase().as_str()) {
+                ("console", _) => self.console[at] = switch(value),
+                (_, "on" | "yes" | "true" | "1") => {
+                    let file = if stream == "all" { "alltext.out" } else { file };
+                    self.files[at] = Some(file.to_owned());
+                }
+                (_, "off" | "no" | "false" | "0") => self.files[at] = None,
                 _ => self.files[at] = Some(value.to_owned()),
             }
         }
@@ -72,13 +82,13 @@ impl Streams {
 
     /// Empties the files, once the options are known.
     pub fn begin(&self) {
-        for file in self.files.iter().flatten() {
+        for file in self.files.iter().flatten().filter(|_| !self.append) {
             let _ = std::fs::File::create(file);
         }
     }
 
     pub fn say(&self, stream: Stream, text: &str) {
-        let at = NAMES.iter().position(|(_, one)| *one == stream).unwrap_or_default();
+        let at = NAMES.iter().position(|(_, one, _)| *one == stream).unwrap_or_default();
         let text = ascii(text);
         if self.console[at] {
             messages::eprint(&text);
@@ -114,12 +124,23 @@ mod tests {
     #[test]
     fn options_are_about_one_stream_or_all() {
         let mut streams = Streams::default();
-        assert!(streams.set("all_console", "off"));
-        assert!(streams.set("fatal_console", "on"));
-        assert!(streams.set("debug_file", "a.log"));
+        for (name, value) in [
+            ("all_console", "off"),
+            ("fatal_console", "on"),
+            ("all_file", "Off"),
+            ("debug_file", "a.log"),
+            ("statistic_file", "true"),
+            ("append_file", "true"),
+        ] {
+            assert!(streams.set(name, value), "{name}");
+        }
         assert_eq!(streams.console, [false, true, false, false, false]);
         assert_eq!(streams.files[0].as_deref(), Some("a.log"));
-        assert!(!streams.set("width", "3"));
+        assert_eq!(
+            (streams.files[1].as_deref(), streams.files[3].as_deref()),
+            (None, Some("stats.out"))
+        );
+        assert!(streams.append && !streams.set("width", "3"));
     }
 
     #[test]

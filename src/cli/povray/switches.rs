@@ -46,7 +46,7 @@ const SWITCHES: &[(&str, Kind)] = &[
     ("gd", Both("debug_console", "debug_file")),
     ("gf", Both("fatal_console", "fatal_file")),
     ("gi", Value("create_ini")),
-    ("gp", Ignored),
+    ("gp", Switch("append_file")),
     ("gr", Both("render_console", "render_file")),
     ("gs", Both("statistic_console", "statistic_file")),
     ("gw", Both("warning_console", "warning_file")),
@@ -63,7 +63,6 @@ const SWITCHES: &[(&str, Kind)] = &[
     ("kf", Value("final_clock")),
     ("kff", Value("final_frame")),
     ("kfi", Value("initial_frame")),
-    ("kfs", Value("frame_step")),
     ("ki", Value("initial_clock")),
     ("l", Value("library_path")),
     ("mb", Ignored),
@@ -86,6 +85,7 @@ const SWITCHES: &[(&str, Kind)] = &[
     ("sp", Ignored),
     ("sr", Value("start_row")),
     ("ss", Ignored),
+    ("stp", Value("frame_step")),
     ("su", Ignored),
     ("tho", Ignored),
     ("th", Ignored),
@@ -143,6 +143,7 @@ impl Settings {
         let rest = unquoted(&word[name.len()..]);
         let on = if is_on { "on" } else { "off" };
         match *kind {
+            Value(_) if rest.is_empty() => Err(Problem),
             Value(option) => self.set(option, &rest),
             Switch(option) => self.set(option, on),
             Both(option, value) => {
@@ -151,16 +152,15 @@ impl Settings {
             }
             Type => {
                 self.set("output_to_file", on)?;
-                let Some(letter) = rest.chars().next().filter(|_| is_on) else { return Ok(()) };
+                let Some(letter) = rest.chars().next() else { return Ok(()) };
                 self.set("output_file_type", &letter.to_string())?;
-                let bits = &rest[letter.len_utf8()..];
-                match bits.chars().next() {
-                    Some('g' | 'G') => self.set("grayscale_output", "on"),
-                    // The quality of a JPEG.
-                    Some(_) if !letter.eq_ignore_ascii_case(&'j') => {
+                match (letter.to_ascii_lowercase(), &rest[letter.len_utf8()..]) {
+                    (_, "") => Ok(()),
+                    ('n' | 'p', "g" | "G") => self.set("grayscale_output", "on"),
+                    (_, bits) if bits.chars().all(|c| c.is_ascii_digit()) => {
                         self.set("bits_per_color", bits)
                     }
-                    _ => Ok(()),
+                    _ => Err(Problem),
                 }
             }
             Ignored => Ok(()),
@@ -270,6 +270,7 @@ fn parts(word: &str) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use lucarne::film::Depth;
     use lucarne::picture::Format;
 
     use super::*;
@@ -298,10 +299,17 @@ mod tests {
         assert_eq!(settings.format, Format::Jpeg);
         let sizes = taken(&["a.pov", "Width=3", "+KFF12", "-D", "+Q11", "-P", "+Lsome/folder"]);
         let sizes = sizes.expect("known");
-        assert_eq!((sizes.width, sizes.range.frames, sizes.quality), (3, (1, 12), 11));
+        assert_eq!(sizes.frames().map(|range| range.frames), Some((1, 12)));
+        assert_eq!((sizes.width, sizes.quality), (3, 11));
         assert_eq!(sizes.folders, [PathBuf::from("some/folder")]);
         assert!(!taken(&["+F", "-F"]).expect("known").writes);
         assert_eq!(taken(&["+FN16"]).expect("known").bits, 16);
+        assert_eq!(taken(&["+FPg"]).expect("known").depth(), Depth::Sixteen);
+        assert!(!taken(&["+FN", "+FTg"]).is_ok_and(|settings| settings.is_supported()));
+        assert_eq!(
+            taken(&["+STP2", "+KFF5"]).expect("known").frames().map(|range| range.step),
+            Some(2)
+        );
     }
 
     #[test]
@@ -327,7 +335,9 @@ mod tests {
 
     #[test]
     fn what_is_unknown_is_a_problem() {
-        for word in ["+Zfoo", "none.ini", "endless.ini", "+W", "+?", "Widht=3", "+"] {
+        for word in
+            ["+Zfoo", "none.ini", "endless.ini", "+W", "+O", "+FNx", "+FS", "+?", "Widht=3", "+"]
+        {
             assert_eq!(taken(&[word]), Err(Problem), "{word}");
         }
     }

@@ -47,10 +47,11 @@ impl Evaluator<'_> {
         let own: Vec<&str> = own.map(|(_, source)| source.text.as_str()).collect();
         let says = |part: &str| own.iter().any(|text| text.contains(part));
         // `assumed_gama` is reported as such.
-        let says_version = own.iter().any(|text| {
-            let mut directives = text.split('#').skip(1);
-            directives.any(|directive| directive.trim_start().starts_with("version"))
-        });
+        let says_version = self.options.version.is_some()
+            || own.iter().any(|text| {
+                let mut directives = text.split('#').skip(1);
+                directives.any(|directive| directive.trim_start().starts_with("version"))
+            });
         Some((says_version, says("gamma") || says("assumed")))
     }
 
