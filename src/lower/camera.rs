@@ -123,7 +123,10 @@ impl Lowering<'_, '_> {
         // No lens is before faces.
         let (focus, normal) = match kind {
             world::CameraKind::Mesh => (None, None),
-            _ => self.lens(&words.lens, words.location)?,
+            _ => {
+                let direction = words.direction.vector.length().round();
+                self.lens(&words.lens, words.location, direction)?
+            }
         };
         let meshes = match camera.meshes.as_ref().filter(|_| kind == world::CameraKind::Mesh) {
             Some(meshes) => Some(Arc::new(self.mesh_camera(meshes, location, forward)?)),

@@ -6,7 +6,7 @@ use super::{Fault, Lowering};
 use crate::diagnostic::Code;
 use crate::math::double::DoubleVector;
 use crate::math::{Vector, double::Double};
-use crate::scene::{CameraItemKind, NormalId, PigmentId};
+use crate::scene::{CameraItemKind, Dialect, NormalId, PigmentId};
 use crate::source::Site;
 use crate::texture::Normal;
 use crate::texture::space::Start;
@@ -51,11 +51,13 @@ type Blurred = (Option<Focus>, Option<Arc<Normal>>);
 
 impl Lowering<'_, '_> {
     /// Returns the blur of a lens, if it has any, and its normal. The distance in focus is that from the camera's
-    /// written `location` to `focal_point`, and no transform changes it, nor the width of the lens (measured).
+    /// written `location` to `focal_point`, and no transform changes it, nor the width of the lens (measured). Without a
+    /// `focal_point`, it is the length of `direction` in POV-Ray 3.7 (measured, though its manual says <0, 0, 0>).
     pub(super) fn lens(
         &mut self,
         lens: &Lens,
         location: DoubleVector,
+        direction: f64,
     ) -> Result<Blurred, (Fault, Site)> {
         let normal = match lens.normal {
             Some((id, site)) => {
@@ -70,14 +72,21 @@ impl Lowering<'_, '_> {
         };
         let Some((least, most)) = lens.samples else {
             let message = "this `aperture` blurs nothing without `blur_samples`";
-            let fault =
-                Fault::new(Code::MissingPart, message).label("the camera has no number of rays");
+            // POV-Ray 3.7 renders it without blur.
+            let code = match self.scene.dialect {
+                Dialect::Pov => Code::DegenerateCamera,
+                Dialect::Scene => Code::MissingPart,
+            };
+            let fault = Fault::new(code, message).label("the camera has no number of rays");
             let fault = fault.help("write how many rays a pixel may have: `blur_samples 50`");
             self.reporter.fault(fault, site);
             return Ok((None, normal));
         };
         let (focal_point, focal_site) = lens.focal_point.unwrap_or((Vector::ZERO, site));
-        let distance = (super::transform::exact(focal_point) - location).length().round();
+        let distance = match (lens.focal_point, self.scene.dialect) {
+            (None, Dialect::Pov) => direction,
+            _ => (super::transform::exact(focal_point) - location).length().round(),
+        };
         let radius = (Double::from(RADIUS) * aperture.into()).round();
         if !distance.is_finite() || !radius.is_finite() {
             return Err((Fault::not_finite("this lens").refused(), site));

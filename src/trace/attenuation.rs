@@ -46,11 +46,13 @@ fn in_beam(beam: Beam, kind: &LightKind, point: Vector, aim: &Aim) -> f64 {
 
 /// `v^tightness · s(edge, core; v)`, v being 1 on the axis and less beside it; 0 where v ≤ 0.
 fn beam_at(v: f64, (edge, core): (f64, f64), tightness: f64) -> f64 {
-    if v <= 0.0 {
+    let smooth = smooth(edge, core, v);
+    if v <= 0.0 || smooth == 0.0 {
         return 0.0;
     }
-    let tight = if tightness > 0.0 { power(v, tightness) } else { 1.0 };
-    tight * smooth(edge, core, v)
+    // A negative one is brightest at the edge, without any bound.
+    let tight = if tightness == 0.0 { 1.0 } else { power(v, tightness).min(f64::MAX) };
+    tight * smooth
 }
 
 /// From 0 at `edge` to 1 at `core`, level at both ends; a step where they are the same.
@@ -133,6 +135,17 @@ mod tests {
         ] {
             assert!((ours - theirs).abs() < 2e-4, "{ours} is not {theirs}");
         }
+    }
+
+    /// As POV-Ray 3.7 shows them, to 1/255.
+    #[test]
+    fn a_negative_tightness_makes_beams_darkest_in_their_middle() {
+        let cosine = 1.0 / (1.0f64 + 0.4 * 0.4).sqrt();
+        let times = spot(5.0, 35.0, -10.0, 0.4) / spot(5.0, 35.0, 0.0, 0.4);
+        assert!((times * power(cosine, 10.0) - 1.0).abs() < 1e-12, "{times}");
+        let times = cylinder(1.0, -3.0, 0.5) / cylinder(1.0, 0.0, 0.5);
+        assert!((times - 8.0).abs() < 1e-12, "{times}");
+        assert!(spot(5.0, 89.9, -1e9, 3.0).is_finite() && cylinder(1.0, -3.0, 1.0) == 0.0);
     }
 
     #[test]

@@ -307,7 +307,7 @@ vocabulary! {
         Confidence "confidence" statement built "with which probability a blurred pixel has the `variance`: 0 or more, and less than 1; default 0.9";
         Direction "direction" statement built "camera: the axis and length of the lens; light: the direction to the light; rainbow: the direction of the sun's light";
         Fisheye "fisheye" statement built "a camera with a round picture, whose `angle` grows evenly from the middle";
-        FocalPoint "focal_point" statement built "a point whose distance from the camera is in focus under an `aperture`; default <0, 0, 0>";
+        FocalPoint "focal_point" statement built "a point whose distance from the camera is in focus under an `aperture`; default <0, 0, 0>, and in a `.pov` the length of `direction` away, as in POV-Ray";
         Location "location" statement built "the position of the camera; default <0, 0, 0>";
         LookAt "look_at" statement built "the point in the centre of the picture";
         MeshCamera "mesh_camera" statement built "`mesh_camera { rays distribution [max_distance] mesh { … } … [smooth] }`: a camera whose rays start on the faces of meshes, one face a pixel; distribution 0: a mesh for each ray of a pixel; 1: all meshes in turn; 2: meshes side by side; 3: by texture coordinates, with `smooth` along the normals of the corners. Its `location.z` is how far off the face they start";
