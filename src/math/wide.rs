@@ -4,7 +4,7 @@
 //! closure: only there are the instructions known.
 //!
 //! **Invariant:** each lane has the bits of the same operations on single numbers, whatever the instructions: nothing
-//! is fused, and nothing is approximated.
+//! is fused, and nothing is approximated but by [`elementary`].
 
 pub(crate) mod elementary;
 

@@ -58,7 +58,8 @@ pub(super) struct Around {
 impl Around {
     pub fn of(world: &World) -> Self {
         let camera = &world.camera;
-        let lens = camera.focus.as_ref().map_or(0.0, |focus| focus.radius.abs());
+        // The corner of a square lens is farther off than its radius.
+        let lens = camera.focus.as_ref().map_or(0.0, |focus| 2.0 * focus.radius.abs());
         let half = match camera.has_one_origin() {
             false if camera.meshes.is_some() => Vector::INFINITY,
             true => Vector::ZERO,

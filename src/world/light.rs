@@ -77,7 +77,7 @@ pub enum LightKind {
 /// (i/(m − 1) − ½, j/(n − 1) − ½), or 0 along a side of one node; `a·u + b·v` from the position, where a and b are the
 /// `sides`.
 ///
-/// The light that comes from all of them is the mean of the blocks of the grid; see `trace/area.rs`.
+/// The light that comes from all of them is the mean of the blocks of the grid; see `trace/area/grid.rs`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Area {
     pub sides: [Vector; 2],

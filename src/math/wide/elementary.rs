@@ -1,6 +1,6 @@
 //! Elementary functions of numbers side by side.
 //!
-//! **Error:** less than 1.5 units in the last place, for numbers of any size. They are not those of
+//! **Error:** at most 2 units in the last place, for numbers of any size. They are not those of
 //! [`math::elementary`](crate::math::elementary), whose steps depend on the number.
 
 use super::*;
@@ -28,7 +28,7 @@ const EXP: [f64; 12] = [
     0.5,
 ];
 
-/// Returns eˣ; 0 where that is below the least normal number.
+/// Returns eˣ; 0 below −708, where it is hardly a normal number.
 #[inline(always)]
 pub(crate) fn exp<S: Simd>(simd: S, x: Wide<S>) -> Wide<S> {
     let n = (x * all(simd, LOG2_E)).round_ties_even();

@@ -222,7 +222,9 @@ fn of_blocks(
         nodes.look(sight, walk, &positions, some.count);
     }
     let first = nodes.factors.first().copied().unwrap_or(Rgb::BLACK);
-    let is_plain = first == Rgb::WHITE || first == Rgb::BLACK;
+    // Not before there are as many as are looked at in any case: a wire may be between them.
+    let is_plain =
+        start.divisions >= area.least_divisions && (first == Rgb::WHITE || first == Rgb::BLACK);
     if is_plain && nodes.factors.iter().all(|factor| *factor == first) {
         walk.nodes = nodes;
         return first;

@@ -146,6 +146,9 @@ fn nodes_are_asked_for_once_and_only_where_shadows_are() {
     assert_eq!(rays(Area { nodes: [4, 6], ..EVERY_NODE }, false) * 48.0 / 24.0, places);
     let adaptive = rays(Area { least_divisions: 1, ..grid }, false) * 48.0 / places;
     assert!((9.0..60.0).contains(&adaptive), "{adaptive}");
+    // Where something is between, as many as are asked for in any case, also if the first of them agree.
+    let fine = Area { nodes: [65, 65], least_divisions: 5, ..grid };
+    assert!(rays(fine, false) * 48.0 >= 33.0 * 33.0 * places);
 }
 
 #[test]
