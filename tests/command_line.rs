@@ -6,6 +6,10 @@ mod limits;
 mod long;
 #[cfg(unix)]
 mod povray;
+#[cfg(unix)]
+mod povray_options;
+#[cfg(unix)]
+mod povray_programs;
 mod programs;
 mod reading;
 mod words;

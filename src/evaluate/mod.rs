@@ -271,6 +271,7 @@ impl<'a> Evaluator<'a> {
                 site: nowhere,
                 clear: None,
                 has_own_colors: false,
+                quick_color: None,
             }],
             finishes: vec![Finish::Classic(ClassicFinish::default())],
             textures: vec![Texture::plain(PigmentId(0), FinishId(0))],

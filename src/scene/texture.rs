@@ -204,6 +204,8 @@ pub struct Pigment {
     pub clear: Option<Site>,
     /// Its colours are those of its pattern, as none are written.
     pub has_own_colors: bool,
+    /// Replaces it where a quick picture is asked for.
+    pub quick_color: Option<Color>,
 }
 
 impl Pigment {

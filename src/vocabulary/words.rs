@@ -154,7 +154,7 @@ vocabulary! {
         NormalMap "normal_map" statement built "`normal_map { [value pattern amount …] … }`: normals for a pattern's values, 0 to 1";
         Pigment "pigment" statement built "`pigment { … }`: the colours of a surface";
         PigmentMap "pigment_map" statement built "`pigment_map { [value pigment] … }`: pigments for a pattern's values, 0 to 1";
-        QuickColor "quick_color" | "quick_colour" statement inert "the colour in a quick preview; lucarne always uses the full colours";
+        QuickColor "quick_color" | "quick_colour" statement inert "the colour in a quick preview: at quality 5 or less of `lucarne povray`";
         Texture "texture" statement built "`texture { pigment normal finish … }`: what a surface looks like; several in an object are layers, the last on top";
         TextureMap "texture_map" statement built "`texture_map { [value texture] … }`: textures for a pattern's values, 0 to 1";
         UvMapping "uv_mapping" statement built "`uv_mapping` in a texture, pigment or normal: patterns follow the surface's own coordinates u and v";

@@ -57,6 +57,7 @@ impl Sketch {
             site: SITE,
             clear: None,
             has_own_colors: false,
+            quick_color: None,
         });
         scene.finishes.push(finish);
         let pigment = PigmentId(scene.pigments.len() as u32 - 1);

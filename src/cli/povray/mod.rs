@@ -4,6 +4,7 @@
 //! The exit code is 0, 1, or 2 if interrupted.
 
 mod inert;
+mod quality;
 mod rendered;
 mod settings;
 mod streams;
@@ -16,18 +17,16 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use lucarne::color::Rgb;
 use lucarne::diagnostic::{Code, Diagnostic, Messages, Severity, render};
 use lucarne::disk::DiskFiles;
 use lucarne::evaluate::Animation;
 use lucarne::film::{Channels, Developer};
 use lucarne::picture;
-use lucarne::plan::{Effect, Frame, PlanOptions, plan};
+use lucarne::plan::{Frame, PlanOptions, plan};
 use lucarne::road::{Options, Road};
-use lucarne::scene::{Dialect, Finish, Scene};
+use lucarne::scene::Dialect;
 use lucarne::source::Files;
 use lucarne::trace::{TraceOptions, trace};
-use lucarne::world::World;
 
 pub use self::inert::is_without_effect;
 use self::rendered::Rendered;
@@ -53,13 +52,15 @@ const VERSION: &str = concat!(
 
 const HELP: &str = "Usage: povray [+/-]option ... [FILE.pov] [FILE.ini[section]] [NAME=VALUE]
 
-  +Iname +Oname +FN   input, output (- is standard output), type: N P T J B E H
+  +Iname +Oname +FN   input, output (- is standard output), type: N P T J B E H; +FNg grey
   +Wn +Hn             width and height in pixels
   +A0.3 +AM2 +R3      antialiasing: threshold, method, depth
   +UA                 transparent background
   +KFFn +KIn +KFn     last frame, first and last clock; +SFn +EFn a part; +KC cyclic
   +SRn +ERn +SCn +ECn rows and columns that are rendered
   +Lfolder +WTn +Qn   folder of includes, threads, quality
+  +MVn +HIfile        language version, first include
+  File_Gamma=n        gamma of the file: sRGB, or a number
   Declare=name=value  declares a number
 
 Example: povray +Iscene.pov +Oscene.png +W640 +H480 +A
@@ -246,7 +247,7 @@ impl Run {
             let file = road.read(&name_of(&self.input), bytes.to_vec());
             let ast = road.parse(file);
             let mut scene = road.evaluate(ast);
-            self.finish_at_quality(&mut scene);
+            quality::simplify(&mut scene, self.settings.quality);
             let encoding = self.settings.encoding(&scene);
             let (world, origins) = road.lower(scene);
             if self.settings.writes {
@@ -260,17 +261,14 @@ impl Run {
         for (path, _, bytes) in disk.written().map(|written| written.take()).unwrap_or_default() {
             write_whole(&path, &bytes).map_err(|failure| self.failed(&failure))?;
         }
-        self.light_at_quality(&mut world);
+        quality::dim(&mut world, self.settings.quality);
         let options = PlanOptions {
             antialias: self.settings.antialias(),
             alpha: self.settings.alpha,
+            depth: quality::depth(self.settings.quality),
             ..PlanOptions::new(frame)
         };
-        let mut plan = plan(&world, &origins, &options);
-        if self.settings.quality < 6 {
-            // What is behind clear surfaces is black (measured).
-            plan.effects.retain(|called| called.effect != Effect::Transparency);
-        }
+        let plan = plan(&world, &origins, &options);
         self.say(Stream::Render, &header("Rendering"));
         let threads = self.settings.threads.map(|wanted| wanted.min(most_threads()));
         let threads = TraceOptions { threads, ..TraceOptions::default() };
@@ -319,42 +317,6 @@ impl Run {
         (evaluate.now, evaluate.version) = (now(), self.settings.version);
         evaluate.interrupt = stop::interrupt();
         options
-    }
-
-    /// Leaves out what a quality leaves out: from 7 on, mirrors; from 4 on, areas of lights; from 3 on, shadows; and at
-    /// last all light but the colours' own.
-    ///
-    /// **Source:** POV-Ray 3.7 manual, section 3.2.8.3 "Quality Settings", and the program, measured.
-    fn light_at_quality(&self, world: &mut World) {
-        let quality = self.settings.quality;
-        if quality < 2 {
-            self.say(Stream::Warning, "lucarne: clear surfaces are as dark as at quality 2\n");
-        }
-        if quality < 6 {
-            self.say(Stream::Warning, "lucarne: `quick_color` is not used\n");
-        }
-        if quality < 5 {
-            world.lights.iter_mut().for_each(|light| light.area = None);
-        }
-        if quality < 4 {
-            world.lights.iter_mut().for_each(|light| light.casts_shadows = false);
-        }
-        if quality < 2 {
-            world.lights.clear();
-        }
-    }
-
-    fn finish_at_quality(&self, scene: &mut Scene) {
-        for finish in &mut scene.finishes {
-            if let Finish::Classic(finish) = finish {
-                if self.settings.quality < 8 {
-                    finish.reflection = None;
-                }
-                if self.settings.quality < 2 {
-                    (finish.ambient, finish.emission) = (Rgb::BLACK, Rgb::WHITE);
-                }
-            }
-        }
     }
 
     /// Prints the messages in POV-Ray's words. Fails if there is an error.

@@ -174,13 +174,13 @@ impl Settings {
         (range.frames.1 > 1 || !range.is_still()).then_some(range)
     }
 
-    /// Returns how the picture of a scene encodes light. Measured: a scene for older versions without `assumed_gamma`
-    /// has its colours in the file as they are, and a PGM has linear light, whatever gamma was asked for.
+    /// Returns how the picture of a scene encodes light. Measured: a scene for older versions without `assumed_gamma`,
+    /// and a PGM, have the scene's numbers in the file as they are, whatever gamma was asked for.
     pub fn encoding(&self, scene: &Scene) -> Encoding {
         let is_old = scene.settings.clearness == Clearness::Old;
         let display = match (is_old && scene.settings.assumed_gamma == Gamma::Srgb, self.format) {
             (true, _) => Gamma::Srgb,
-            (false, Format::Ppm) if self.encoding.is_gray => Gamma::LINEAR,
+            (false, Format::Ppm) if self.encoding.is_gray => scene.settings.assumed_gamma,
             _ => self.encoding.display,
         };
         Encoding { display, ..self.encoding }

@@ -290,6 +290,47 @@ mod tests {
         settings.take(&words, &read).map(|()| settings)
     }
 
+    /// The options of POV-Ray's manual, as the program takes them.
+    const MANUAL: &str = "\
+        Clock=3.45 +K3.45 -K3.45 Initial_Frame=1 Final_Frame=2 +KFI1 +KFF2 +KI0 +KF1 +SF2 +EF2 \
+        +SF0.5 +STP2 Frame_Step=2 -STP2 +KC -KC +UF -UF +UO Field_Render=on Odd_Field=on +MI100 \
+        Max_Image_Buffer_Memory=100 +X -X +X10 Test_Abort=on Test_Abort_Count=5 +C -C \
+        Continue_Trace=off +GIfoo.ini -GIfoo.ini Create_Ini=foo.ini +D +D0 -D0 +DGA +Dxy \
+        Video_Mode=0 Palette=3 Display=off Display_Gamma=2.2 Display_Gamma=sRGB Pause_When_Done=off \
+        +P -P Verbose=off +UD -UD Draw_Vistas=on +SP8 +EP4 Preview_Start_Size=8 +B -B +BS8 +BM1 +BM2 \
+        Bounding_Method=2 BSP_MaxDepth=20 BSP_ChildAccessCost=1.5 BSP_IsectCost=1.5 \
+        BSP_MissChance=0.2 Dither=on Dither_Method=FS +THfs -THfs +TH +THB2 Compression=80 +FJ80 +FJ \
+        File_Gamma=2.2 +FN8 Declare=RAD=0 Declare=RAD +HIx.inc Include_Header=x.inc +L. \
+        Library_Path=. +MV3.5 Version=3.6 Pre_Scene_Command=true Post_Frame_Command=true \
+        Pre_Scene_Return=S User_Abort_Return=-S Fatal_Error_Command=true Append_File=true +GP -GP \
+        +GDd.txt -GDd.txt +GA -GA -GAall.txt +GAall.txt Debug_File=true Debug_File=false \
+        All_File=x.txt +WL3 Warning_Level=5 +WT4 +WT0 Work_Threads=2 Render_Block_Size=16 +RP3 \
+        Render_Pattern=2 +RS2 Render_Block_Step=2 +Q12 +Q-1 Quality=20 +MB -MB +MB5 Light_Buffer=on \
+        +UL +UV -UV Vista_Buffer=off +UR -UR +SU -SU Split_Unions=on Remove_Bounds=off +A -A +A0.1 \
+        -A0.1 +AM1 +AM2 +AM3 +AM4 +AM0 Sampling_Method=3 +AG2.5 Antialias_Gamma=2.5 \
+        Antialias_Depth=3 +R4 +R0 +R12 +J +J0.5 -J -J0.5 Jitter_Amount=0.2 +HR -HR \
+        High_Reproducibility=on +RFI +RFO +RVP -RVP Radiosity_Vain_Pretrace=off \
+        Radiosity_From_File=off Radiosity_To_File=on +RTR Real_Time_Raytracing=off \
+        Real_Time_Raytracing=on +UA +V -V +SC0 +SC6 +EC3 Start_Row=0.5 +SR0.5 +ER0.25 +F -F -FN \
+        Output_to_File=off Output_Alpha=on Output_Alpha=2 +Ia.pov Verbose=perhaps \
+        Debug_Console=perhaps Output_File_Type=N16 Output_File_Type=Ng Output_File_Type=PNG \
+        All_File=true Fatal_File=true Render_File=true Statistic_File=true Warning_File=true \
+        All_File=false Debug_File=off -GD +GD +ER6 +SR6 +GS +GSs.txt Buffer_Output=on Buffer_Size=10 \
+        BSP_BaseCost=1 Output_File_Name=a +Oa End_Row=0.9 End_Column=9 Start_Column=1 \
+        Subset_Start_Frame=1 Subset_End_Frame=0.9 Initial_Clock=0 Final_Clock=1 Cyclic_Animation=on \
+        Preview_End_Size=8 Radiosity_File_Name=r.rca Bounding=on Bounding_Threshold=3 Antialias=on \
+        Antialias_Threshold=0.1 Jitter=on Height=9 Bits_Per_Color=16 Grayscale_Output=on \
+        Pre_Frame_Command=a Post_Scene_Command=a User_Abort_Command=a Pre_Frame_Return=I \
+        Post_Scene_Return=Q Post_Frame_Return=U Fatal_Error_Return=F Debug_Console=on \
+        Fatal_Console=on Render_Console=on Statistic_Console=on Warning_Console=on All_Console=on";
+
+    #[test]
+    fn every_option_of_the_manual_is_known() {
+        for word in MANUAL.split_whitespace() {
+            assert!(taken(&[word]).is_ok(), "{word}");
+        }
+    }
+
     #[test]
     fn switches_are_read_in_any_case_and_signs_matter_for_switches_alone() {
         let settings = taken(&["+Ia.pov", "-w640", "+H480", "+a0.1", "+R2", "-AM2", "+FJ", "+wt3"]);

@@ -311,6 +311,7 @@ impl Evaluator<'_> {
             site,
             clear: None,
             has_own_colors: false,
+            quick_color: None,
         }))
     }
 }

@@ -172,6 +172,9 @@ impl Evaluator<'_> {
                 open.written.colors = Some((Colors::Pigments(given), token.clone()));
                 open.written.is_map = true;
             }
+            TokenKind::Word(Word::QuickColor) => {
+                open.pigment.quick_color = Some(self.color_after(token, "a colour")?.value);
+            }
             TokenKind::Word(word) if word.family() == Family::Color => {
                 let color = self.color_from(token)?;
                 self.alone_in_pigment(token, None, &mut open.written)?;

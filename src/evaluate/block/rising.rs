@@ -58,6 +58,7 @@ impl Evaluator<'_> {
                     site,
                     clear: None,
                     has_own_colors: false,
+                    quick_color: None,
                 }))
             }
             (Entry::Normal(first), Entry::Normal(second)) => {

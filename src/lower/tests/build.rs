@@ -57,6 +57,7 @@ impl Build {
             site: site(900),
             clear: None,
             has_own_colors: false,
+            quick_color: None,
         });
         PigmentId(self.0.pigments.len() as u32 - 1)
     }

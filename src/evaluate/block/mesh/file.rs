@@ -146,6 +146,7 @@ impl Evaluator<'_> {
             site,
             clear,
             has_own_colors: false,
+            quick_color: None,
         })
     }
 

@@ -138,6 +138,7 @@ impl Evaluator<'_> {
             site,
             clear: None,
             has_own_colors: false,
+            quick_color: None,
         })
     }
 }
