@@ -120,9 +120,11 @@ impl Lowering<'_, '_> {
             return Err((Fault::not_finite("this camera").refused(), camera.site));
         }
         let [location, forward, right, up] = [location, forward, right, up].map(|v| v.round());
-        // No lens is before faces.
         let (focus, normal) = match kind {
-            world::CameraKind::Mesh => (None, None),
+            world::CameraKind::Mesh => {
+                self.no_lens(&words.lens);
+                (None, None)
+            }
             _ => {
                 let direction = words.direction.vector.length().round();
                 self.lens(&words.lens, words.location, direction)?

@@ -50,6 +50,18 @@ impl Lens {
 type Blurred = (Option<Focus>, Option<Arc<Normal>>);
 
 impl Lowering<'_, '_> {
+    /// Reports that the rays of a `mesh_camera` go through no lens.
+    pub(super) fn no_lens(&mut self, lens: &Lens) {
+        let aperture = lens.aperture.filter(|(width, _)| *width != 0.0).map(|(_, site)| site);
+        let normal = lens.normal.map(|(_, site)| site);
+        for (word, site) in [("aperture", aperture), ("normal", normal)] {
+            let Some(site) = site else { continue };
+            let message = format!("`{word}` is not simulated in a `mesh_camera` yet");
+            let fault = Fault::new(Code::NotSupportedYet, message);
+            self.reporter.fault(fault.label("the rays are as without it"), site);
+        }
+    }
+
     /// Returns the blur of a lens, if it has any, and its normal. The distance in focus is that from the camera's
     /// written `location` to `focal_point`, and no transform changes it, nor the width of the lens (measured). Without a
     /// `focal_point`, it is the length of `direction` in POV-Ray 3.7 (measured, though its manual says <0, 0, 0>).

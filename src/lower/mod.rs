@@ -332,15 +332,16 @@ impl Fault {
 
     /// Returns whether POV-Ray 3.7 renders the scene without this part.
     fn is_rendered(&self) -> bool {
-        let of_numbers = matches!(
+        let is_left_out = matches!(
             self.code,
-            Code::NotANumber
+            Code::NotSupportedYet
+                | Code::NotANumber
                 | Code::OutOfRange
                 | Code::ZeroSize
                 | Code::ZeroVector
                 | Code::DegenerateCamera
         );
-        of_numbers && !self.is_refused
+        is_left_out && !self.is_refused
     }
 
     /// Returns the fault of a vector `what` that became zero, and so has no direction.

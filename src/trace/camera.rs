@@ -185,10 +185,7 @@ impl Lens {
     /// Returns the rays through points of the screen; for a point of several, they are neighbours.
     pub fn rays(&self, points: &[Point]) -> Vec<Option<Ray>> {
         match &self.kind {
-            Kind::Flat(kind) => match &self.focus {
-                Some(focus) if self.normal.is_none() => kind.blurred(focus, points),
-                _ => self.each(kind, points),
-            },
+            Kind::Flat(kind) => self.each(kind, points),
             Kind::Fisheye(kind) => self.each(kind, points),
             Kind::UltraWideAngle(kind) => self.each(kind, points),
             Kind::Omnimax(kind) => self.each(kind, points),

@@ -7,7 +7,6 @@
 //! rays of all slopes. Its ground fog is 1/(1 + u²) thick, and not 1/(1 + u)² as the manual says.
 
 use crate::color::Rgb;
-use crate::math::Vector;
 use crate::math::wide::elementary::{atan, exp, finite, within};
 use crate::math::wide::*;
 use crate::shape::Ray;
@@ -49,19 +48,25 @@ impl Veil {
     }
 }
 
-/// Returns the veil of several fogs on a ray. `direction` has length 1.
-pub(super) fn veil(fogs: &[Fog], origin: Vector, direction: Vector, length: f64) -> Veil {
-    let rays = Rays::new([Ray { origin, direction }].iter());
+/// Returns the veil of several fogs on a ray of this length.
+pub(super) fn veil(fogs: &[Fog], instructions: Instructions, ray: &Ray, length: f64) -> Veil {
+    let rays = Rays::new([ray].into_iter());
     let mut veil = [Veil::NONE];
-    add(fogs, &rays, rays.mask, &[length; ROW], &mut veil);
+    add(fogs, instructions, (&rays, rays.mask), &[length; ROW], &mut veil);
     let [veil] = veil;
     veil
 }
 
 /// Adds to veils those of several fogs on rays, if the mask has bits for these: the product of what each lets through,
 /// and the sum of what each adds, however they are ordered.
-pub(super) fn add(fogs: &[Fog], rays: &Rays, mask: u32, lengths: &Row, veils: &mut [Veil]) {
-    let level = Instructions::best().level();
+pub(super) fn add(
+    fogs: &[Fog],
+    instructions: Instructions,
+    (rays, mask): (&Rays, u32),
+    lengths: &Row,
+    veils: &mut [Veil],
+) {
+    let level = instructions.level();
     let mut left = [0.0; ROW];
     for fog in fogs {
         // All before any is used, as each takes its time.

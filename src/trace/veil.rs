@@ -39,7 +39,7 @@ impl Tracer<'_> {
         let first = all.len();
         all.resize(first + rays.mask.count_ones() as usize, Veil::NONE);
         let veils = &mut all[first..];
-        fog::add(fogs, rays, mask, &lengths, veils);
+        fog::add(fogs, self.geometry.instructions(), (rays, mask), &lengths, veils);
         if !rainbows.is_empty() {
             for number in numbers(mask) {
                 let Ray { origin, direction } = rays.at(number);
@@ -68,8 +68,8 @@ impl Tracer<'_> {
         let ray = Ray { origin, direction: aim.to_light };
         let length = aim.reach.abs().min(fog::SKY);
         let left = |from: f64, to: f64| {
-            let start = ray.origin + ray.direction * from;
-            fog::veil(fogs, start, ray.direction, to - from).through
+            let ray = Ray { origin: ray.at(from), ..ray };
+            fog::veil(fogs, self.geometry.instructions(), &ray, to - from).through
         };
         if !self.follows_media {
             return left(0.0, length);

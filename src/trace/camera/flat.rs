@@ -1,6 +1,6 @@
 //! The perspective and the orthographic camera: the screen is a plane.
 
-use super::{Focus, Point, Projection, unit};
+use super::{Focus, Projection, unit};
 use crate::math::Vector;
 use crate::math::wide::*;
 use crate::shape::Ray;
@@ -72,21 +72,6 @@ impl Flat {
             let ray = focus.bent(self.line(u, v), [x, y]);
             rays.set(number, &Ray { direction: unit(ray.direction), ..ray });
         }
-    }
-
-    /// Returns the rays of a lens through points of the screen.
-    pub(super) fn blurred(&self, focus: &Focus, points: &[Point]) -> Vec<Option<Ray>> {
-        let mut all = Vec::with_capacity(points.len());
-        for points in points.chunks(ROW) {
-            let (mut places, mut rays) = ([[0.0; ROW]; 4], Rays::NONE);
-            for (number, &Point { u, v, lens: [x, y] }) in points.iter().enumerate() {
-                places.iter_mut().zip([u, v, x, y]).for_each(|(row, place)| row[number] = place);
-            }
-            rays.mask = (1 << points.len()) - 1;
-            self.find_blurred(Instructions::best(), focus, &places, &mut rays);
-            all.extend((0..points.len()).map(|number| Some(rays.at(number))));
-        }
-        all
     }
 
     /// Finds the rays of a lens, as [`Focus::bent`] does; returns a bit for each whose direction has too long or too

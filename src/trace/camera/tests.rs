@@ -1,6 +1,7 @@
 //! Rays of each kind of camera, with POV-Ray 3.7's.
 
 use super::*;
+use crate::math::wide::{Instructions, ROW, Rays};
 use crate::road::{Options, Road};
 use crate::scene::Dialect;
 use crate::source::NoFiles;
@@ -143,6 +144,29 @@ fn any_lens_gives_directions_of_length_one() {
             for ray in lens.rays(&points).into_iter().flatten() {
                 let long = ray.direction.length();
                 assert!((long - 1.0).abs() < 1e-15, "{distance} {radius}: {ray:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rays_of_a_lens_side_by_side_are_those_of_each_alone() {
+    for distance in [0.0, 1e-300, 1.0, 7.3, 1e300] {
+        for radius in [1e-300, 0.3, 1e300] {
+            let lens = blurred(CameraKind::Perspective, distance, radius);
+            let (flat, focus) = lens.flat().expect("a flat camera");
+            let (focus, shift) = (focus.expect("blurs"), Shift::of((2, 1)));
+            let points: [Point; ROW] =
+                std::array::from_fn(|k| lens.blurred(focus, (2, 1), &shift, k as u32));
+            let of = |place: fn(&Point) -> f64| points.each_ref().map(place);
+            let places = [of(|p| p.u), of(|p| p.v), of(|p| p.lens[0]), of(|p| p.lens[1])];
+            let alone = lens.rays(&points);
+            for instructions in Instructions::all() {
+                let mut rays = Rays { mask: 0x7fff, ..Rays::NONE };
+                flat.find_blurred(instructions, focus, &places, &mut rays);
+                for (number, ray) in alone.iter().enumerate().take(15) {
+                    assert_eq!(Some(rays.at(number)), *ray, "{distance} {radius}");
+                }
             }
         }
     }

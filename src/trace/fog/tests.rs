@@ -1,8 +1,8 @@
 //! Fog against POV-Ray 3.7's numbers, and its laws.
 
 use super::*;
-use crate::math::UnitVector;
 use crate::math::random::{Random, tries};
+use crate::math::{UnitVector, Vector};
 use crate::noise::{NoiseGenerator, Turbulence};
 
 /// What POV-Ray 3.7 shows of rgb <0.9, 0.5, 0.2> behind random fogs. Each line: a ray's start, direction and
@@ -18,6 +18,14 @@ fn uniform(distance: f64) -> Fog {
 
 fn ground(offset: f64, alt: f64) -> Ground {
     Ground { up: UnitVector::Y, offset, alt }
+}
+
+/// Returns the veil of fogs on a ray, which all instructions find alike.
+fn alone(fogs: &[Fog], origin: Vector, direction: Vector, length: f64) -> Veil {
+    let ray = Ray { origin, direction };
+    let [first, second] = Instructions::all().map(|with| veil(fogs, with, &ray, length));
+    assert_eq!(first, second);
+    first
 }
 
 /// Returns the mean density over a ray.
@@ -65,7 +73,7 @@ fn fog_is_as_dense_as_pov_ray_shows_it() {
             ground,
             churn: (numbers[19] == 1.0).then_some(churn),
         };
-        let Veil { through, added } = veil(&[fog], vector(0), vector(3), numbers[6]);
+        let Veil { through, added } = alone(&[fog], vector(0), vector(3), numbers[6]);
         let seen = (behind * through + added).components();
         for (place, seen) in seen.into_iter().enumerate() {
             let theirs = numbers[28 + place];
@@ -82,7 +90,7 @@ fn several_fogs_let_through_the_product_and_add_the_sum() {
     let first = with(3.0, Rgb::new(0.5, 1.0, 0.2), Rgb::new(0.7, 1.0, 0.52), 0.6);
     let second = with(5.0, Rgb::new(0.0, 0.3, 1.0), Rgb::new(0.7, 0.79, 1.0), 0.9);
     for fogs in [[first, second], [second, first]] {
-        let Veil { through, added } = veil(&fogs, Vector::ZERO, Vector::Z, 2.0);
+        let Veil { through, added } = alone(&fogs, Vector::ZERO, Vector::Z, 2.0);
         let seen = (Rgb::new(1.0, 0.3, 0.5) * through + added).components();
         let theirs = [0.464_607, 0.557_977, 0.320_394];
         assert!(seen.iter().zip(theirs).all(|(a, b)| (a - b).abs() < 2e-5), "{seen:?}");
@@ -155,16 +163,16 @@ fn fog_without_an_alt_ends_at_its_offset() {
 
 #[test]
 fn the_sky_is_veiled_whole_by_any_fog_of_a_scene() {
-    let Veil { through, added } = veil(&[uniform(1e8)], Vector::ZERO, Vector::Z, SKY);
+    let Veil { through, added } = alone(&[uniform(1e8)], Vector::ZERO, Vector::Z, SKY);
     assert!(through.largest() < 1e-80 && added == uniform(1.0).color);
     let clear = Fog { least: 0.25, ..uniform(1.0) };
-    assert_eq!(veil(&[clear], Vector::ZERO, Vector::Z, SKY).through, Rgb::gray(0.25));
+    assert_eq!(alone(&[clear], Vector::ZERO, Vector::Z, SKY).through, Rgb::gray(0.25));
 }
 
 #[test]
 fn fog_of_a_negative_distance_brightens_as_in_pov_ray() {
     let fog = Fog { color: Rgb::BLACK, ..uniform(-3.0) };
-    let seen = |fog: Fog, length| veil(&[fog], Vector::ZERO, Vector::Z, length).through.red * 0.1;
+    let seen = |fog: Fog, length| alone(&[fog], Vector::ZERO, Vector::Z, length).through.red * 0.1;
     assert!((seen(fog, 2.0) - 0.194_77).abs() < 1e-5);
     let stirred = |omega| {
         let turbulence = Turbulence::new(2.0, omega, 6.0);
@@ -205,7 +213,7 @@ fn no_numbers_break_it() {
             ..uniform(1.0)
         };
         let length = size().abs();
-        let Veil { through, added } = veil(&[fog, fog], start, unit(aim).get(), length);
+        let Veil { through, added } = alone(&[fog, fog], start, unit(aim).get(), length);
         assert!(through.is_finite() && added.is_finite(), "{fog:?} {start} {length}");
     }
 }
@@ -234,14 +242,14 @@ fn rays_side_by_side_have_the_veils_of_each_alone() {
         let lengths = std::array::from_fn(|_| random.size(-3.0, 6.0));
         let mask = random.bits() as u32 & 0xffff;
         let mut veils = [Veil::NONE; ROW];
-        add(&fogs, &Rays::new(list.iter()), mask, &lengths, &mut veils);
+        add(&fogs, Instructions::best(), (&Rays::new(list.iter()), mask), &lengths, &mut veils);
         for number in 0..ROW {
             let Ray { origin, direction } = list[number];
-            let alone = match mask >> number & 1 {
-                1 => veil(&fogs, origin, direction, lengths[number]),
+            let expected = match mask >> number & 1 {
+                1 => alone(&fogs, origin, direction, lengths[number]),
                 _ => Veil::NONE,
             };
-            assert_eq!(veils[number], alone);
+            assert_eq!(veils[number], expected);
         }
     }
 }
