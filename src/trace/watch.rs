@@ -81,7 +81,7 @@ pub struct Limited<'a> {
 }
 
 impl<'a> Limited<'a> {
-    /// A step is a sample of a pixel, or a surface that rays go on from.
+    /// A step is a sample of a pixel, a surface that rays go on from, or a ray toward an area light.
     pub fn to_steps(steps: u64, watch: &'a dyn Watch) -> Self {
         Self { left: AtomicU64::new(steps / u64::from(Patience::STEPS)), watch }
     }
@@ -115,7 +115,7 @@ pub(super) struct Patience {
 }
 
 impl Patience {
-    /// A step is a sample of a pixel, or a surface that rays go on from.
+    /// A step is a sample of a pixel, a surface that rays go on from, or a ray toward an area light.
     pub const STEPS: u32 = 64;
 
     /// Whether to give up, after some more steps.
