@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use clap::CommandFactory;
 use clap::parser::ValueSource;
+use lucarne::evaluate::Animation;
 use lucarne::plan::{Antialias, Region};
 use lucarne::source::decode;
 
@@ -110,7 +111,9 @@ impl Ini {
                 Output::Stdout => add("output", "output", "-"),
             }
         }
-        if self.settings.bits == 16 && self.settings.format.depth(Some(16)).is_some() {
+        // Another output may be of a type that has no 16 bits.
+        let has_16 = self.settings.bits == 16 && self.settings.format.depth(Some(16)).is_some();
+        if has_16 && !given("output") {
             add("bits", "bits", "16");
         }
         if self.settings.alpha {
@@ -127,13 +130,12 @@ impl Ini {
             if range.is_cyclic {
                 add("cyclic", "cyclic", "");
             }
-            let rendered = range.frames();
-            if has("subset_start_frame") || has("subset_end_frame") {
-                let number = |frame: Option<&(lucarne::evaluate::Animation, f64)>| {
-                    frame.map_or(0, |(animation, _)| animation.frame_number)
-                };
-                let only = format!("{}..{}", number(rendered.first()), number(rendered.last()));
-                add("only", "only", &only);
+            if range.subset != (None, None) {
+                let rendered = range.frames();
+                let number = |at: Option<&(Animation, f64)>| at.map_or(0, |at| at.0.frame_number);
+                let (first, last) = (number(rendered.first()), number(rendered.last()));
+                // Without any, `render` says that none are left.
+                add("only", "only", &format!("{first}..{last}"));
             }
         }
         // These may be given several times, and the last counts.

@@ -79,6 +79,8 @@ fn an_ini_file_is_rendered_as_its_options_say_and_the_command_line_counts_more()
     assert!(place.read("a.png") == place.read("b.png"));
     place.run("film/a.ini[Film] -o f.png --size 8x6").ends(0, &["f1.png: 8×6", "f2.png: 8×6"]);
     assert!(!place.path("f3.png").exists());
+    place.write("film/deep.ini", "Input_File_Name=a.pov\nWidth=16\nHeight=12\nBits_Per_Color=16\n");
+    place.run("film/deep.ini -o deep.jpg").ends(0, &["deep.jpg: 16×12"]);
     place.run("film/a.ini[film] --frames 5..5/1 -o g.png").ends(0, &["g5.png: 16×12"]);
     place.write("film/bad.ini", "Input_File_Name=a.pov\n[other]\nWidht=3\n[film]\n\nHight=3\n");
     place.run("film/bad.ini").ends(0, &["a.png: 640×480"]);
